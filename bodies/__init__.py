@@ -1,0 +1,13 @@
+"""Built-in bodies, shapes, motions and contact pairs."""
+
+from bodies.ball import Ball
+from bodies.contacts.plane_sphere import PlaneSphere
+from bodies.dumbbell import Dumbbell
+from bodies.free import FreeBody
+from bodies.motions.harmonic import Harmonic
+from bodies.motions.rest import Rest
+from bodies.plate import Plate
+from bodies.shapes.plane import Plane
+from bodies.shapes.sphere import Sphere
+
+__all__ = ["Ball", "Dumbbell", "FreeBody", "Harmonic", "Plane", "PlaneSphere", "Plate", "Rest", "Sphere"]

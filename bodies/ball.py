@@ -1,0 +1,37 @@
+"""Ball: a solid sphere."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+from bodies.free import FreeBody
+from bodies.shapes.sphere import Sphere
+from nonsmooth.interfaces import Shape
+from nonsmooth.parameters import parameter
+
+
+@final
+@dataclass(frozen=True)
+class Ball(FreeBody):
+    """A free solid sphere."""
+
+    radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-4, 1.0))
+    density: float = parameter(7800.0, doc="density", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
+
+    @property
+    def total_mass(self) -> float:
+        """4/3 pi r^3 times density [kg]."""
+        return self.density * 4.0 / 3.0 * math.pi * self.radius**3
+
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """2/5 m r^2 about every axis [kg m^2]."""
+        moment = 0.4 * self.total_mass * self.radius**2
+        return moment, moment, moment
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """The sphere about the mass centre."""
+        return (Sphere(self.radius),)

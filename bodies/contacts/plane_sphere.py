@@ -1,0 +1,60 @@
+"""A sphere over a plane, in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.shapes.plane import Plane
+from bodies.shapes.sphere import Sphere
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import parameter
+
+
+def _evaluate(a, b, out, radius, x, y, z, height):  # type: ignore[no-untyped-def]
+    # normal and first tangent are the third and first axis of the plane's frame
+    gap = -height - radius
+    for i in range(3):
+        normal = a[3 + 3 * i + 2]
+        center = b[i] + b[3 + 3 * i] * x + b[3 + 3 * i + 1] * y + b[3 + 3 * i + 2] * z
+        out[1 + i] = normal
+        out[4 + i] = a[3 + 3 * i]
+        out[10 + i] = center - radius * normal
+        gap += normal * (center - a[i])
+    out[0] = gap
+    for i in range(3):
+        out[7 + i] = out[10 + i] - gap * out[1 + i]
+    # plane: slide 0, turn 1; sphere: slide 1, turn its radius
+    out[17] = out[20] = 1.0
+    out[21] = out[24] = 1.0
+    out[25] = out[28] = radius
+
+
+@final
+@dataclass(frozen=True)
+class PlaneSphere(ContactKinematics):
+    """One contact, Eqs. (8)-(13): the first body carries the plane, the second the sphere."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Sphere)
+
+    radius: float = parameter(doc="radius of the sphere", unit="m", above=0.0)
+    x: float = parameter(doc="centre in its body frame, first coordinate", unit="m")
+    y: float = parameter(doc="centre in its body frame, second coordinate", unit="m")
+    z: float = parameter(doc="centre in its body frame, third coordinate", unit="m")
+    height: float = parameter(doc="height of the plane in its body frame", unit="m")
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[PlaneSphere, ...]:
+        """Return the single contact of a plane and a sphere."""
+        return (cls(**second.parameters(), **first.parameters()),)
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def feature(self) -> str:
+        """Always the same."""
+        return "plane-sphere"

@@ -1,0 +1,52 @@
+"""Harmonic vibration along an axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Motion
+from nonsmooth.parameters import parameter
+
+
+def _evaluate(t, q, u, out, amplitude, frequency, phase, axis_x, axis_y, axis_z):  # type: ignore[no-untyped-def]
+    omega = 2.0 * math.pi * frequency
+    angle = omega * t + phase
+    displacement = amplitude * math.sin(angle)
+    velocity = amplitude * omega * math.cos(angle)
+    acceleration = -omega * omega * displacement
+    out[0], out[1], out[2] = displacement * axis_x, displacement * axis_y, displacement * axis_z
+    out[3] = out[7] = out[11] = 1.0
+    out[12], out[13], out[14] = velocity * axis_x, velocity * axis_y, velocity * axis_z
+    out[18], out[19], out[20] = acceleration * axis_x, acceleration * axis_y, acceleration * axis_z
+
+
+@final
+@dataclass(frozen=True)
+class Harmonic(Motion):
+    """z_p = A_z sin(2 pi f t + phi_0) along a fixed unit axis, Eq. (1)."""
+
+    amplitude: float = parameter(doc="amplitude A_z", unit="m", minimum=0.0, usual=(1e-7, 1.0))
+    frequency: float = parameter(doc="frequency f", unit="Hz", above=0.0, usual=(1e-2, 1e4))
+    phase: float = parameter(0.0, doc="initial phase phi_0", unit="rad", usual=(0.0, 2.0 * math.pi))
+    axis_x: float = parameter(0.0, doc="axis of the vibration, first component")
+    axis_y: float = parameter(0.0, doc="axis of the vibration, second component")
+    axis_z: float = parameter(1.0, doc="axis of the vibration, third component")
+
+    def _check(self) -> None:
+        norm = math.hypot(self.axis_x, self.axis_y, self.axis_z)
+        if abs(norm - 1.0) > 1e-12:
+            raise InvalidInput("Harmonic axis", "must have unit length", norm, "Divide it by its length.")
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Position, velocity and acceleration of the frame."""
+        return _evaluate
+
+    @property
+    def time_scale(self) -> float:
+        """The period [s]."""
+        return 1.0 / self.frequency

@@ -1,0 +1,25 @@
+"""Sphere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+from nonsmooth.interfaces import Shape
+from nonsmooth.parameters import parameter
+
+
+@final
+@dataclass(frozen=True)
+class Sphere(Shape):
+    """A sphere with its centre at (x, y, z) in the body frame."""
+
+    radius: float = parameter(doc="radius", unit="m", above=0.0)
+    x: float = parameter(0.0, doc="centre, first coordinate", unit="m")
+    y: float = parameter(0.0, doc="centre, second coordinate", unit="m")
+    z: float = parameter(0.0, doc="centre, third coordinate", unit="m")
+
+    @property
+    def length(self) -> float:
+        """The radius [m]."""
+        return self.radius

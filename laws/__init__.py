@@ -1,0 +1,9 @@
+"""Built-in contact laws: one law, one file."""
+
+from laws.friction.coulomb import Coulomb
+from laws.friction.frictionless import Frictionless
+from laws.impact.energetic import EnergeticImpact
+from laws.impact.newton import NewtonImpact
+from laws.normal.unilateral import Unilateral
+
+__all__ = ["Coulomb", "EnergeticImpact", "Frictionless", "NewtonImpact", "Unilateral"]

@@ -1,0 +1,19 @@
+"""nonsmooth: event-driven multibody dynamics with friction and energetic multiple impacts."""
+
+from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFailed, UnknownName
+from nonsmooth.model.options import Options
+from nonsmooth.simulate import simulate
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+
+__all__ = [
+    "InvalidInput",
+    "NonsmoothError",
+    "Options",
+    "PluginError",
+    "RunFailed",
+    "Solution",
+    "System",
+    "UnknownName",
+    "simulate",
+]

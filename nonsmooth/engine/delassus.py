@@ -1,0 +1,73 @@
+"""The Delassus matrix of the active contacts and what their forces do to the velocities."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.kernel import kernel
+
+
+@kernel("void(F, i8, i8, i8, i8, i8)")
+def _add_block(w, jacobian, response, n_u, out, width):
+    for r in range(3):
+        for s in range(3):
+            total = 0.0
+            for i in range(n_u):
+                total += w[jacobian + r * n_u + i] * w[response + s * n_u + i]
+            w[out + r * width + s] += total
+
+
+@kernel()
+def assemble_delassus(S, w, k):
+    """Write G = [W N]^T M^-1 [W N] of the active contacts, rows (n, t1, t2) of each in turn."""
+    m = S.n_active
+    width = 3 * m
+    for i in range(width * width):
+        w[S.delassus + i] = 0.0
+    for i in range(m):
+        c = k[S.active + i]
+        for j in range(m):
+            d = k[S.active + j]
+            block = S.delassus + 3 * i * width + 3 * j
+            for side in range(2):
+                body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+                jacobian = k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]
+                if k[S.body_nu + body] == 0:
+                    continue
+                if k[S.body_a + d] == body:
+                    _add_block(w, jacobian, k[S.response_a + d], k[S.body_nu + body], block, width)
+                if k[S.body_b + d] == body:
+                    _add_block(w, jacobian, k[S.response_b + d], k[S.body_nu + body], block, width)
+
+
+@kernel("void(S, F, I, i8, i8)")
+def add_response(S, w, k, f, du):
+    """Add M^-1 (W f_N + N f_T) of the active contacts' forces or impulses at ``f`` to ``du``."""
+    for i in range(S.n_active):
+        c = k[S.active + i]
+        for side in range(2):
+            body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+            response = k[S.response_a + c] if side == 0 else k[S.response_b + c]
+            n_u = k[S.body_nu + body]
+            start = du + k[S.body_u + body]
+            for r in range(3):
+                force = w[f + 3 * i + r]
+                for j in range(n_u):
+                    w[start + j] += w[response + r * n_u + j] * force
+
+
+@kernel("f8(S, F, I, i8, i8)")
+def along(S, w, k, c, du):
+    """Return W^T du of contact ``c``: the normal acceleration or rate that ``du`` alone gives."""
+    return row(S, w, k, c, 0, du)
+
+
+@kernel("f8(S, F, I, i8, i8, i8)")
+def row(S, w, k, c, r, du):
+    """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
+    total = 0.0
+    a, b = k[S.body_a + c], k[S.body_b + c]
+    n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
+    for i in range(n_a):
+        total += w[k[S.jacobian_a + c] + r * n_a + i] * w[du + k[S.body_u + a] + i]
+    for i in range(n_b):
+        total += w[k[S.jacobian_b + c] + r * n_b + i] * w[du + k[S.body_u + b] + i]
+    return total

@@ -1,0 +1,106 @@
+"""Smooth motion between events: the right-hand side in the present modes, and one step of it."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
+from nonsmooth.engine.delassus import add_response, assemble_delassus, row
+from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact
+from nonsmooth.engine.modes import OPEN, STICK
+from nonsmooth.engine.runge_kutta import component_error, stage_state
+from nonsmooth.model.layout import FRAME
+
+_CROSSING = 1e-12
+"""Below this slip speed [m/s] the direction at the start of the step holds."""
+
+
+@kernel("void(S, F, I, f8, i8)")
+def right_hand_side(S, w, k, t, y):
+    """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``."""
+    evaluate_bodies(S, w, k, t, y)
+    free_acceleration(S, w, k)
+    m = 0
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            k[S.active + m] = c
+            m += 1
+    S.n_active = m
+    if m == 0:
+        return
+    for a in range(m):
+        c = k[S.active + a]
+        evaluate_contact(S, w, k, c, y)
+        for r in range(3):
+            w[S.b + 3 * a + r] = w[S.bias + 3 * c + r] + row(S, w, k, c, r, S.du)
+        _set_friction(S, w, k, a)
+    assemble_delassus(S, w, k)
+    resolve(S, w, k)
+    add_response(S, w, k, S.f, S.du)
+
+
+@kernel("void(S, F, I, i8)")
+def _set_friction(S, w, k, a):
+    """Set what is held and the slip direction, continued smoothly through a reversal within the step."""
+    c = k[S.active + a]
+    k[S.normal_held + a] = 1
+    w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
+    if k[S.mode + c] == STICK:
+        k[S.tangent_held + a] = 1
+        return
+    k[S.tangent_held + a] = 0
+    d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
+    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    speed = math.sqrt(v1 * v1 + v2 * v2)
+    if speed > _CROSSING:
+        sign = 1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0
+        d1, d2 = sign * v1 / speed, sign * v2 / speed
+    w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
+    w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+
+
+@room("void(S, F, I, f8, i8, i8)")
+def slope(S, w, k, t, y, out):
+    """Write dy/dt: coordinate rates, accelerations, power of the driven bodies, power lost to friction."""
+    right_hand_side(S, w, k, t, y)
+    for body in range(S.n_bodies):
+        rates = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body]
+        for i in range(k[S.body_nq + body]):
+            w[out + k[S.body_q + body] + i] = w[rates + i]
+    for i in range(S.n_u):
+        w[out + S.n_q + i] = w[S.du + i]
+    driven = lost = 0.0
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        for r in range(3):
+            force = w[S.f + 3 * a + r]
+            driven -= force * w[S.prescribed_rate + 3 * c + r]
+            if r > 0 and k[S.tangent_held + a] == 0:
+                lost -= force * w[S.rate + 3 * c + r]
+    w[out + S.n_q + S.n_u] = driven
+    w[out + S.n_q + S.n_u + 1] = lost
+
+
+@kernel("f8(S, F, I, f8)")
+def try_step(S, w, k, h):
+    """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
+
+    ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.
+    """
+    n = S.n_y
+    for stage in range(1, 7):
+        out = S.y_new if stage == 6 else S.y_stage
+        stage_state(S, w, S.y, S.slopes, n, stage, h, out)
+        node = 0.0
+        for j in range(stage):
+            node += w[S.stages + 6 * stage + j]
+        slope(S, w, k, S.t + node * h, out, S.slopes + stage * n)
+    worst = 0.0
+    for i in range(S.n_q + S.n_u):
+        scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
+        error = component_error(S, w, S.slopes, n, h, i) / (S.rtol * scale)
+        if not error <= worst:
+            worst = error
+    return worst

@@ -1,0 +1,158 @@
+"""The mode automaton, the only place that knows the order: flow, guard, jump, new mode."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.flow import slope, try_step
+from nonsmooth.engine.guards import arm_guards, first_crossing, locate
+from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kinematics import evaluate_bodies
+from nonsmooth.engine.modes import (
+    DONE,
+    EVENTS_ENDLESS,
+    IMPACT,
+    LIFT_OFF,
+    NOT_FINITE,
+    OPEN,
+    PAUSED,
+    RUNNING,
+    SLIDE,
+    SLIP_TO_STICK,
+    START,
+    STEP_TOO_SMALL,
+    STICK,
+    STICK_TO_SLIP,
+)
+from nonsmooth.engine.projection import activate_closed, normalise_quaternions, project_gaps, project_rates
+from nonsmooth.engine.record import record_samples
+from nonsmooth.engine.runge_kutta import step_factor
+from nonsmooth.engine.settle import settle
+
+_EVENTS_AT_ONCE = 1000
+_ROOM = 64
+"""Free rows that an instant may need in the event buffer."""
+
+
+@kernel("void(S, F, I)")
+def _orient_slips(S, w, k):
+    """Take the present slip directions as those of the step that begins."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] == SLIDE:
+            v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+            speed = math.sqrt(v1 * v1 + v2 * v2)
+            if speed > S.velocity_tolerance:
+                w[S.direction + 2 * c] = v1 / speed
+                w[S.direction + 2 * c + 1] = v2 / speed
+
+
+@kernel("i8(S, F, I)")
+def _accepted_step(S, w, k):
+    """Find a step that meets the tolerance, in ``h``; return the status."""
+    h = min(S.h, S.h_max, S.t_end - S.t)
+    if S.sample_interval > 0.0:
+        h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
+    for _attempt in range(200):
+        error = try_step(S, w, k, h)
+        if error <= 1.0:
+            S.h = h
+            S.h_try = h * step_factor(error)
+            return RUNNING
+        S.rejected += 1
+        if not error < 1e300:
+            if h < S.time_tolerance:
+                return NOT_FINITE
+            h *= 0.1
+        else:
+            h *= step_factor(error)
+        if h < S.time_tolerance:
+            return STEP_TOO_SMALL
+    return STEP_TOO_SMALL
+
+
+@kernel("void(S, F, I, f8)")
+def _commit(S, w, k, h):
+    """Take over the step of ``h``: samples, state, time, constraints."""
+    record_samples(S, w, k, h)
+    for i in range(S.n_y):
+        w[S.y + i] = w[S.y_new + i]
+    S.t += h
+    normalise_quaternions(S, w, k)
+    if activate_closed(S, w, k) > 0:
+        project_gaps(S, w, k)
+        activate_closed(S, w, k)
+        S.closing_loss += project_rates(S, w, k)
+
+
+@kernel("i8(S, F, I)")
+def _cause(S, w, k):
+    """Return what the guard that fired means."""
+    c = S.trigger // 2
+    if S.trigger % 2 == 0:
+        return IMPACT if k[S.mode + c] == OPEN else LIFT_OFF
+    return STICK_TO_SLIP if k[S.mode + c] == STICK else SLIP_TO_STICK
+
+
+@kernel("i8(S, F, I)")
+def _step(S, w, k):
+    """Advance by one step or to the next event, whichever is earlier; return the status."""
+    slope(S, w, k, S.t, S.y, S.slopes)
+    _orient_slips(S, w, k)
+    arm_guards(S, w, k)
+    status = _accepted_step(S, w, k)
+    if status != RUNNING:
+        return status
+    S.steps += 1
+    h = S.h
+    high = first_crossing(S, w, k, h)
+    if high == 0.0:
+        _commit(S, w, k, h)
+        S.h = S.h_try
+        return RUNNING
+    h = locate(S, w, k, h, high)
+    cause = _cause(S, w, k)
+    contact = S.trigger // 2
+    if cause == STICK_TO_SLIP:
+        _break_direction(S, w, k, contact)
+    _commit(S, w, k, h)
+    if S.t - S.last_event_t > S.time_tolerance:
+        S.repeated = 0
+    S.repeated += 1
+    S.last_event_t = S.t
+    if S.repeated > _EVENTS_AT_ONCE:
+        return EVENTS_ENDLESS
+    status = settle(S, w, k, cause, contact)
+    S.h = S.h_try
+    return status
+
+
+@kernel("void(S, F, I, i8)")
+def _break_direction(S, w, k, contact):
+    """Let a contact that breaks away slip against the friction that held it."""
+    for a in range(S.n_active):
+        if k[S.active + a] == contact:
+            t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+            norm = math.sqrt(t1 * t1 + t2 * t2)
+            if norm > 0.0:
+                w[S.direction + 2 * contact] = -t1 / norm
+                w[S.direction + 2 * contact + 1] = -t2 / norm
+
+
+@room("i8(S, F, I, i8)")
+def advance(S, w, k, most_steps):
+    """Run until the end time, a failure, full buffers or ``most_steps``; return the status."""
+    if S.started == 0:
+        S.started = 1
+        evaluate_bodies(S, w, k, S.t, S.y)
+        status = settle(S, w, k, START, -1)
+        if status != RUNNING:
+            return status
+    for _index in range(most_steps):
+        if S.t_end - S.t <= S.time_tolerance:
+            return DONE
+        if S.event_capacity - S.n_events < _ROOM or 2 * S.n_samples > S.sample_capacity:
+            return PAUSED
+        status = _step(S, w, k)
+        if status != RUNNING:
+            return status
+    return PAUSED

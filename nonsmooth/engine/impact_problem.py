@@ -1,0 +1,393 @@
+"""The energetic multiple impact, Eqs. (19)-(28), integrated in pseudo-time with all of its events located.
+
+Every phase has guards that are positive while it is valid; the first to become negative ends it:
+compression (the gap rate turns positive), expansion (it turns negative again, or the stored energy is
+spent), rest (the contact is pushed in), hold (its force would pull), slip (it comes to rest), stick
+(the static bound).  The impact ends when every contact is idle or held.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.cone import gauss_seidel
+from nonsmooth.engine.contact_problem import friction_coefficient
+from nonsmooth.engine.forces import evaluate_margins
+from nonsmooth.engine.impact_rates import (
+    COMPRESSION,
+    EXPANSION,
+    HELD,
+    IDLE,
+    NOISE,
+    efficiency,
+    evaluate_impact_forces,
+    evaluate_impact_rates,
+    impact_slope,
+    normal_force,
+    try_impact_step,
+)
+from nonsmooth.engine.kernel import at, call_scalar, kernel, room
+from nonsmooth.engine.runge_kutta import dense_state, step_factor
+
+FINISHED, ENDLESS, INVALID = 1, 2, 3
+_MOST_STEPS = 100000
+_UNUSED = 1e300
+_TOGETHER = 1e-13
+_WRONG = -1e-7
+_REST = 1e-9
+
+
+@kernel("f8(S, F, I)")
+def _scale(S, w, k):
+    """Set the scales of speed, deformation and force; return the shortest time of a compression."""
+    m = S.n_active
+    width = 3 * m
+    S.speed_scale = S.impact_seed
+    for a in range(m):
+        S.speed_scale = max(S.speed_scale, -w[S.impact_z0 + 3 * a])
+    shortest = _UNUSED
+    for a in range(m):
+        energy = S.speed_scale * S.speed_scale / w[S.delassus + 3 * a * width + 3 * a]
+        x = 1.0
+        if m == 1:
+            x = energy
+        else:
+            c = k[S.active + a]
+            for _iteration in range(4):
+                force = call_scalar(k[S.force_function + c], x, at(w, k[S.force_parameters + c]))
+                double = call_scalar(k[S.force_function + c], 2.0 * x, at(w, k[S.force_parameters + c]))
+                if not (force > 0.0 and double > 0.0):
+                    S.culprit = c
+                    return -1.0
+                x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
+        w[S.impact_x_scale + a] = x
+        w[S.impact_f_scale + a] = energy / x
+        shortest = min(shortest, x / S.speed_scale)
+    return shortest
+
+
+@kernel("void(S, F, I, f8)")
+def _choose_friction(S, w, k, probe):
+    """Decide which contacts at rest stick and which way the others start to slide.
+
+    ``probe`` is the pseudo-time after which forces are compared where none has built up yet.
+    """
+    evaluate_impact_rates(S, w, k, S.impact_y)
+    open_question = 0
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+        speed = math.sqrt(v1 * v1 + v2 * v2)
+        k[S.at_rest + a] = 1 if speed <= _REST * S.speed_scale or k[S.tangent_held + a] == 1 else 0
+        k[S.normal_held + a] = 1 if k[S.phase + a] == HELD else 0
+        k[S.tangent_held + a] = 0
+        w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
+        x = w[S.impact_y + 6 * a + 3]
+        w[S.f + 3 * a] = 0.0
+        if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
+            x = max(x, -probe * w[S.impact_z + 3 * a])
+            w[S.f + 3 * a] = normal_force(S, w, k, a, x) if S.n_active > 1 else 1.0
+        if k[S.at_rest + a] == 0:
+            w[S.d + 2 * a], w[S.d + 2 * a + 1] = v1 / speed, v2 / speed
+        else:
+            open_question = 1
+            w[S.d + 2 * a], w[S.d + 2 * a + 1] = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
+        w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+        for r in range(1, 3):
+            w[S.f + 3 * a + r] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + r - 1]
+    if open_question == 1:
+        for i in range(3 * S.n_active):
+            w[S.b + i] = 0.0
+        gauss_seidel(S, w, k)
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        if w[S.f + 3 * a] <= 0.0:
+            k[S.tangent_held + a] = 0
+        for i in range(2):
+            w[S.direction + 2 * c + i] = w[S.d + 2 * a + i]
+
+
+@kernel("void(S, F, I, i8)")
+def _break_away(S, w, k, a):
+    """Let the active contact ``a`` slip against the friction that held it."""
+    c = k[S.active + a]
+    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    norm = math.sqrt(t1 * t1 + t2 * t2)
+    k[S.tangent_held + a] = 0
+    if norm > 0.0:
+        w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = -t1 / norm, -t2 / norm
+
+
+@kernel("void(S, F, I, i8)")
+def _evaluate_guards(S, w, k, y):
+    """Write the three guards of every active contact: rate, energy, friction; all of order 1."""
+    evaluate_impact_forces(S, w, k, y)
+    evaluate_margins(S, w, k)
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        guard = S.impact_guard + 3 * a
+        rate = w[S.impact_z + 3 * a] / S.speed_scale
+        phase = k[S.phase + a]
+        w[guard + 1] = 1.0
+        if phase == COMPRESSION:
+            w[guard] = NOISE - rate
+        elif phase == HELD:
+            w[guard] = NOISE + w[S.f + 3 * a] / w[S.impact_f_scale + a]
+        else:
+            w[guard] = NOISE + rate
+        if phase == EXPANSION:
+            w[guard + 1] = w[y + 6 * a + 3] / w[S.impact_x_scale + a]
+        if phase == IDLE:
+            w[guard + 2] = 1.0
+        elif k[S.tangent_held + a] == 1:
+            w[guard + 2] = NOISE + w[S.margin + a] / w[S.impact_f_scale + a]
+        else:
+            slip = (
+                w[S.impact_z + 3 * a + 1] * w[S.direction + 2 * c]
+                + w[S.impact_z + 3 * a + 2] * w[S.direction + 2 * c + 1]
+            )
+            w[guard + 2] = NOISE + slip / S.speed_scale
+
+
+@kernel("i8(S, F, I, i8)")
+def _fired(S, w, k, but):
+    """Return the first guard that ends its phase, other than ``but``, or -1.
+
+    A guard left slightly negative by a switch is not armed until it has been positive.
+    """
+    for i in range(3 * S.n_active):
+        value = w[S.impact_guard + i]
+        if i != but and ((value < 0.0 and k[S.armed + i] == 1) or value < _WRONG):
+            return i
+    return -1
+
+
+@kernel()
+def _arm(S, w, k):
+    """Arm the guards that are positive now."""
+    for i in range(3 * S.n_active):
+        if w[S.impact_guard + i] > 0.0:
+            k[S.armed + i] = 1
+
+
+@kernel("f8(S, F, I, f8, f8, i8)")
+def _guard_at(S, w, k, h, theta, i):
+    dense_state(S, w, S.impact_y, S.impact_slopes, 6 * S.n_active, h, theta, S.impact_stage)
+    _evaluate_guards(S, w, k, S.impact_stage)
+    return w[S.impact_guard + i]
+
+
+@kernel("f8(S, F, I, f8, f8, i8)")
+def _root(S, w, k, h, high, i):
+    """Return the fraction of the step at which guard ``i`` vanishes, by Illinois on the interpolant."""
+    low = 0.0
+    g_low, g_high = _guard_at(S, w, k, h, 0.0, i), _guard_at(S, w, k, h, high, i)
+    if g_low <= 0.0:
+        return 1e-3 * high
+    for _iteration in range(60):
+        theta = high - g_high * (high - low) / (g_high - g_low)
+        g = _guard_at(S, w, k, h, theta, i)
+        if abs(g) <= 1e-13 or high - low <= 1e-14:
+            return theta
+        if g < 0.0:
+            high, g_high = theta, g
+            g_low *= 0.5
+        else:
+            low, g_low = theta, g
+            g_high *= 0.5
+    return high
+
+
+@kernel("f8(S, F, I, f8, f8)")
+def _locate(S, w, k, h, high):
+    """Return the step that ends at the first guard to fire before the fraction ``high``; keep it in ``trigger``."""
+    _guard_at(S, w, k, h, high, 0)
+    first = _fired(S, w, k, -1)
+    theta = high
+    while first >= 0:
+        S.trigger = first
+        theta = _root(S, w, k, h, theta, first)
+        _guard_at(S, w, k, h, theta, 0)
+        first = _fired(S, w, k, first)
+    i = S.trigger
+    g = _guard_at(S, w, k, h, theta, i)
+    slope = (g - _guard_at(S, w, k, h, 0.99 * theta, i)) / (0.01 * theta * h)
+    step = theta * h
+    for _iteration in range(3):
+        # the interpolant is of lower order than the step: correct on the step itself
+        try_impact_step(S, w, k, step)
+        S.impact_steps += 1
+        _evaluate_guards(S, w, k, S.impact_new)
+        g = w[S.impact_guard + i]
+        if abs(g) <= 1e-13 or not slope < 0.0:
+            break
+        step = min(1.2 * theta * h, max(0.8 * theta * h, step - g / slope))
+    return step
+
+
+@kernel("void(S, F, I, i8)")
+def _account(S, w, k, a):
+    """Book the work of the phase that ends at the active contact ``a``."""
+    work = w[S.impact_y + 6 * a + 4]
+    done = work - w[S.impact_mark + a]
+    if k[S.phase + a] == COMPRESSION:
+        w[S.stored + a] -= done
+    else:
+        w[S.returned + a] += done
+    w[S.impact_mark + a] = work
+
+
+@kernel("void(S, F, I, f8)")
+def _switch(S, w, k, probe):
+    """Change the phases whose guards have come to zero."""
+    _evaluate_guards(S, w, k, S.impact_y)
+    friction = 0
+    for a in range(S.n_active):
+        guard = S.impact_guard + 3 * a
+        phase = k[S.phase + a]
+        if phase == EXPANSION and (S.trigger == 3 * a + 1 or w[guard + 1] < _TOGETHER):
+            _account(S, w, k, a)
+            k[S.phase + a] = IDLE
+            w[S.impact_y + 6 * a + 3] = 0.0
+            k[S.tangent_held + a] = 0
+            S.phases += 1
+        elif S.trigger == 3 * a or w[guard] < _TOGETHER:
+            friction += _turn(S, w, k, a)
+            S.phases += 1
+        elif S.trigger == 3 * a + 2 or w[guard + 2] < _TOGETHER:
+            S.phases += 1
+            if k[S.tangent_held + a] == 1:
+                _break_away(S, w, k, a)
+            else:
+                # a slip that only turned far from its first direction goes on
+                v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+                speed = math.sqrt(v1 * v1 + v2 * v2)
+                c = k[S.active + a]
+                if speed > _REST * S.speed_scale:
+                    w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
+                else:
+                    friction = 1
+    if friction > 0:
+        _choose_friction(S, w, k, probe)
+    for i in range(3 * S.n_active):
+        k[S.armed + i] = 0
+    _evaluate_guards(S, w, k, S.impact_y)
+    _arm(S, w, k)
+
+
+@kernel("i8(S, F, I, i8)")
+def _turn(S, w, k, a):
+    """Change the normal phase of the active contact ``a``; return 1 if friction must be chosen anew."""
+    phase = k[S.phase + a]
+    if phase == COMPRESSION:
+        _account(S, w, k, a)
+        if efficiency(S, w, k, a, 1e-300) > 0.0:
+            k[S.phase + a] = EXPANSION
+            return 0
+        # without restitution the stored energy is lost at once and the contact stays closed
+        w[S.impact_y + 6 * a + 3] = 0.0
+        k[S.phase + a] = HELD
+        evaluate_impact_forces(S, w, k, S.impact_y)
+        if w[S.f + 3 * a] < 0.0:
+            k[S.phase + a] = IDLE
+        return 1
+    if phase == HELD:
+        k[S.phase + a] = IDLE
+        k[S.tangent_held + a] = 0
+        return 0
+    if phase == EXPANSION:
+        _account(S, w, k, a)
+    k[S.phase + a] = COMPRESSION
+    return 1 if phase == IDLE else 0
+
+
+@kernel("i8(S, F, I)")
+def _finished(S, w, k):
+    for a in range(S.n_active):
+        if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
+            return 0
+    return 1
+
+
+@kernel("void(S, F, I, f8)")
+def _start(S, w, k, probe):
+    for i in range(6 * S.n_active):
+        w[S.impact_y + i] = 0.0
+    S.phases = 0
+    for a in range(S.n_active):
+        w[S.stored + a] = w[S.returned + a] = w[S.impact_mark + a] = 0.0
+        k[S.tangent_held + a] = 0
+        pushed = w[S.impact_z0 + 3 * a] < -NOISE * S.speed_scale
+        if S.painleve == 1 and k[S.impacting + k[S.active + a]] == 1:
+            # an impact without collision starts from a seed of deformation instead of a speed
+            pushed = True
+            w[S.impact_y + 6 * a + 3] = 1e-3 * w[S.impact_x_scale + a] if S.n_active > 1 else 0.0
+        k[S.phase + a] = COMPRESSION if pushed else IDLE
+        S.phases += 1 if pushed else 0
+    _choose_friction(S, w, k, probe)
+
+
+@room("i8(S, F, I)")
+def energetic_impact(S, w, k):
+    """Carry the active contacts from the rates ``impact_z0`` through the impact; return how it ended.
+
+    Leaves the impulses in ``impulse`` and, per active contact, the energies ``stored`` in compression,
+    ``returned`` in expansion and ``rubbed`` away by friction.
+    """
+    m = S.n_active
+    n = 6 * m
+    S.speed_scale = 0.0
+    shortest = _scale(S, w, k)
+    if not shortest > 0.0:
+        return INVALID
+    _start(S, w, k, 1e-2 * shortest)
+    for i in range(3 * m):
+        k[S.armed + i] = 0
+    _evaluate_guards(S, w, k, S.impact_y)
+    _arm(S, w, k)
+    h = shortest * (0.25 if m == 1 else S.impact_rtol**0.4)
+    for _step in range(_MOST_STEPS):
+        if _finished(S, w, k) == 1:
+            _finish(S, w, k)
+            return FINISHED
+        impact_slope(S, w, k, S.impact_y, S.impact_slopes)
+        error = try_impact_step(S, w, k, h)
+        S.impact_steps += 1
+        if not error <= 1.0:
+            if not error < _UNUSED and h < 1e-12 * shortest:
+                return INVALID
+            h *= step_factor(error) if error < _UNUSED else 0.1
+            continue
+        grown = h * step_factor(error)
+        high = 0.0
+        _guard_at(S, w, k, h, 0.5, 0)
+        if _fired(S, w, k, -1) >= 0:
+            high = 0.5
+        else:
+            _evaluate_guards(S, w, k, S.impact_new)
+            if _fired(S, w, k, -1) >= 0:
+                high = 1.0
+        if high > 0.0:
+            _locate(S, w, k, h, high)
+            grown = max(h, shortest * S.impact_rtol**0.4)
+        for i in range(n):
+            w[S.impact_y + i] = w[S.impact_new + i]
+        if high > 0.0:
+            _switch(S, w, k, 1e-2 * shortest)
+        else:
+            _arm(S, w, k)
+        h = grown
+    return ENDLESS
+
+
+@kernel("void(S, F, I)")
+def _finish(S, w, k):
+    for a in range(S.n_active):
+        for r in range(3):
+            w[S.impulse + 3 * a + r] = w[S.impact_y + 6 * a + r]
+        done = w[S.impact_y + 6 * a + 4] - w[S.impact_mark + a]
+        w[S.returned + a] += done
+        w[S.rubbed + a] = w[S.impact_y + 6 * a + 5]
+    evaluate_impact_rates(S, w, k, S.impact_y)
+
+

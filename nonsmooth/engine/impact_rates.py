@@ -1,0 +1,139 @@
+"""Rates of the multiple impact in pseudo-time: forces, impulses, deformation, energies.
+
+For every active contact the state holds (P_N, P_1, P_2, x, W, D): impulses, deformation, work of the
+normal force, work lost to friction.  With F_i = f_i(x_i), Eqs. (23)-(28) divided by a common clock s
+read  dP_i/ds = (F_i, T_i),  dx_i/ds = -g'_i / efficiency(g'_i),  z = z_0 + G P.
+A lone contact needs no deformation, only its energy: with F = 1 the clock is its impulse, x its stored
+energy, and every phase is a polynomial that the integrator follows exactly.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact_problem import friction_coefficient
+from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.kernel import at, call_scalar, kernel, room
+from nonsmooth.engine.runge_kutta import component_error, stage_state
+
+IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
+"""Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
+
+NOISE = 1e-12
+"""Rates below this, relative to the impact speed, do not switch a phase."""
+
+
+@kernel("f8(S, F, I, i8, f8)")
+def normal_force(S, w, k, a, x):
+    """Return the force of the active contact ``a`` at the deformation ``x``, Eq. (20)."""
+    if x <= 0.0:
+        return 0.0
+    if S.n_active == 1:
+        return 1.0
+    c = k[S.active + a]
+    return call_scalar(k[S.force_function + c], x, at(w, k[S.force_parameters + c]))
+
+
+@kernel("f8(S, F, I, i8, f8)")
+def efficiency(S, w, k, a, rate):
+    """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
+    c = k[S.active + a]
+    return call_scalar(k[S.efficiency_function + c], rate, at(w, k[S.efficiency_parameters + c]))
+
+
+@kernel("void(S, F, I, i8)")
+def evaluate_impact_rates(S, w, k, y):
+    """Write z = z_0 + G P: gap rates and slip velocities at the impact state ``y``."""
+    width = 3 * S.n_active
+    for i in range(width):
+        w[S.impact_z + i] = w[S.impact_z0 + i]
+    for a in range(S.n_active):
+        for r in range(3):
+            p = w[y + 6 * a + r]
+            if p != 0.0:
+                for i in range(width):
+                    w[S.impact_z + i] += w[S.delassus + i * width + 3 * a + r] * p
+
+
+@room("void(S, F, I, i8)")
+def evaluate_impact_forces(S, w, k, y):
+    """Write the forces ``f`` of the active contacts at the impact state ``y`` in the present phases."""
+    evaluate_impact_rates(S, w, k, y)
+    held = 0
+    for a in range(S.n_active):
+        phase = k[S.phase + a]
+        if phase == COMPRESSION or phase == EXPANSION:
+            # a lone contact starts and ends at x = 0, where its clock runs all the same
+            x = w[y + 6 * a + 3] if S.n_active > 1 else 1.0
+            w[S.f + 3 * a] = normal_force(S, w, k, a, x)
+        else:
+            w[S.f + 3 * a] = 0.0
+        k[S.normal_held + a] = 1 if phase == HELD else 0
+        held += k[S.normal_held + a] + k[S.tangent_held + a]
+        if k[S.tangent_held + a] == 0:
+            _slide(S, w, k, a)
+    if held > 0:
+        for i in range(3 * S.n_active):
+            w[S.b + i] = 0.0
+        resolve(S, w, k)
+
+
+@kernel("void(S, F, I, i8)")
+def _slide(S, w, k, a):
+    """Write the friction of a sliding contact, its direction continued smoothly through a reversal."""
+    c = k[S.active + a]
+    d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
+    v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+    speed = math.sqrt(v1 * v1 + v2 * v2)
+    if speed > NOISE * S.speed_scale:
+        sign = 1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0
+        d1, d2 = sign * v1 / speed, sign * v2 / speed
+    mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+    w[S.mu + a] = mu
+    w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
+    w[S.f + 3 * a + 1] = -mu * w[S.f + 3 * a] * d1
+    w[S.f + 3 * a + 2] = -mu * w[S.f + 3 * a] * d2
+
+
+@kernel("void(S, F, I, i8, i8)")
+def impact_slope(S, w, k, y, out):
+    """Write d(P, x, W, D)/ds of all active contacts."""
+    evaluate_impact_forces(S, w, k, y)
+    for a in range(S.n_active):
+        f, z, o = S.f + 3 * a, S.impact_z + 3 * a, out + 6 * a
+        rate = w[z]
+        for r in range(3):
+            w[o + r] = w[f + r]
+        phase = k[S.phase + a]
+        if phase == COMPRESSION:
+            w[o + 3] = -rate / efficiency(S, w, k, a, min(rate, 0.0))
+        elif phase == EXPANSION:
+            w[o + 3] = -rate / efficiency(S, w, k, a, max(rate, 1e-300))
+        else:
+            w[o + 3] = 0.0
+        w[o + 4] = w[f] * rate
+        w[o + 5] = -(w[f + 1] * w[z + 1] + w[f + 2] * w[z + 2])
+
+
+@kernel("f8(S, F, I, f8)")
+def try_impact_step(S, w, k, h):
+    """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance."""
+    n = 6 * S.n_active
+    for stage in range(1, 7):
+        out = S.impact_new if stage == 6 else S.impact_stage
+        stage_state(S, w, S.impact_y, S.impact_slopes, n, stage, h, out)
+        impact_slope(S, w, k, out, S.impact_slopes + stage * n)
+    worst = 0.0
+    for a in range(S.n_active):
+        impulse_scale = S.speed_scale / w[S.delassus + 3 * a * 3 * S.n_active + 3 * a]
+        for r in range(6):
+            error = component_error(S, w, S.impact_slopes, n, h, 6 * a + r)
+            if r == 3:
+                error /= w[S.impact_x_scale + a]
+            elif r > 3:
+                error /= impulse_scale * S.speed_scale
+            else:
+                error /= impulse_scale
+            if not error <= worst:
+                worst = error
+    return worst / S.impact_rtol

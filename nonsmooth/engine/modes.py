@@ -1,0 +1,44 @@
+"""Modes of a contact, causes of events, reasons to stop: the engine's codes and their words."""
+
+from __future__ import annotations
+
+OPEN, STICK, SLIDE = 0, 1, 2
+"""Mode of a contact between events."""
+
+START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END = range(8)
+"""Cause of an event."""
+
+CAUSES = (
+    "start",
+    "impact",
+    "lift-off",
+    "slip to stick",
+    "stick to slip",
+    "closing of an accumulation",
+    "impact without collision",
+    "end",
+)
+
+RUNNING, DONE, PAUSED = 0, 1, 2
+STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
+"""Status of the engine."""
+
+REASONS = {
+    DONE: "the end time was reached",
+    PAUSED: "the run was interrupted",
+    STEP_TOO_SMALL: "the step size fell below the time tolerance",
+    NOT_FINITE: "a law or a body returned a number that is not finite",
+    IMPACT_ENDLESS: "an impact did not end within its steps",
+    NO_CONTACT_SOLUTION: "the contact forces have no solution and the impact without collision did not help",
+    SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
+    EVENTS_ENDLESS: "events repeat without end within the time tolerance",
+}
+
+
+def word(a: list[int], b: list[int], c: list[int]) -> str:
+    """Write a mode word from the bits of Eq. (29), contact 1 rightmost in every group.
+
+    >>> word([1, 0], [0, 0], [1, 0])
+    '{01,00,01}'
+    """
+    return "{" + ",".join("".join(str(bit) for bit in reversed(bits)) for bits in (a, b, c)) + "}"

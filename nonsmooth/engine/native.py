@@ -1,0 +1,244 @@
+"""The compiled half of :mod:`nonsmooth.engine.kernel`: numba types, calls by address, the stamped cache."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import functools
+import hashlib
+import importlib
+import inspect
+import os
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core.caching import CacheImpl, _CacheLocator
+from numba.extending import intrinsic
+
+from nonsmooth.model.layout import ROOMS, SCALARS, Memory
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+_OPTIONS: dict[str, Any] = {"nopython": True, "nogil": True, "error_model": "numpy"}
+
+_SCALARS = numba.from_dtype(SCALARS)
+_FLOATS = types.CPointer(types.float64)
+_INTEGERS = types.CPointer(types.int64)
+_TYPES = {
+    "S": _SCALARS,
+    "F": _FLOATS,
+    "I": _INTEGERS,
+    "f8": types.float64,
+    "i8": types.int64,
+    "void": types.void,
+}
+_C_TYPES = {"f8": ctypes.c_double, "i8": ctypes.c_int64, "void": None}
+_pending: list[tuple[Any, Any]] = []
+_alive: list[Any] = []
+_rooms: dict[str, tuple[Callable[..., Any], str]] = {}
+_STUB = "def stub({names}): return call(k[S.rooms + {index}], {names})"
+
+
+def cache_folder() -> Path:
+    """Return the folder of the compiled engine, named after a hash over all of its sources.
+
+    An edit of any source file, another numba or another Python gives another folder: a stale
+    cache cannot be met.  Falls back to a temporary folder where the user's cache is not writable.
+    """
+    return _cache_folder()
+
+
+@functools.cache
+def _cache_folder() -> Path:
+    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}".encode())
+    for folder in ("engine", "model"):
+        for source in sorted((_PACKAGE / folder).glob("*.py")):
+            digest.update(source.name.encode() + source.read_bytes())
+    name = f"engine-{digest.hexdigest()[:16]}"
+    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    for root in (home / "nonsmooth", Path(tempfile.gettempdir()) / f"nonsmooth-{os.getuid()}"):
+        try:
+            (root / name).mkdir(parents=True, exist_ok=True)
+        except OSError:
+            continue
+        if os.access(root / name, os.W_OK):
+            return root / name
+    return Path(tempfile.mkdtemp(prefix="nonsmooth-"))
+
+
+class _StampedLocator(_CacheLocator):  # type: ignore[misc]
+    """Keeps the engine's compiled code in :func:`cache_folder`; leaves other functions alone."""
+
+    def __init__(self, source: str) -> None:
+        self._source = source
+
+    def get_cache_path(self) -> str:
+        return str(cache_folder())
+
+    def get_source_stamp(self) -> str:
+        return cache_folder().name
+
+    def get_disambiguator(self) -> str:
+        return Path(self._source).stem
+
+    @classmethod
+    def from_function(cls, function: Any, source: str) -> _StampedLocator | None:
+        inside = Path(source).resolve().parent == _PACKAGE / "engine"
+        return cls(source) if inside else None
+
+
+CacheImpl._locator_classes.insert(0, _StampedLocator)
+
+
+def _signature(text: str) -> Any:
+    result, _, arguments = text.partition("(")
+    names = [a.strip() for a in arguments.rstrip(")").split(",") if a.strip()]
+    return _TYPES[result.strip()](*[_TYPES[a] for a in names])
+
+
+def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+    """Compile an engine function with an explicit signature, when an entry point first needs it."""
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        dispatcher = numba.jit(**_OPTIONS)(function)
+        _pending.append((dispatcher, _signature(signature)))
+        return dispatcher
+
+    return decorate
+
+
+def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+    """Compile an engine function apart from its callers, which reach it by its address in ``k``.
+
+    A caller does not compile it again as it would a kernel's, and Python can call it: see
+    :func:`room_addresses` and :func:`call_room`.  Its machine code is cached on disk.
+    """
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        _rooms[function.__name__] = (function, signature)
+        names = ", ".join(inspect.signature(function).parameters)
+        scope: dict[str, Any] = {"call": _room_caller(_signature(signature))}
+        exec(_STUB.format(names=names, index=ROOMS.index(function.__name__)), scope)
+        return numba.jit(**_OPTIONS)(scope["stub"])
+
+    return decorate
+
+
+def _room_caller(signature: Any) -> Any:
+    result, arguments = signature.return_type, signature.args
+
+    def call(typingctx: Any, address: Any, *values: Any) -> Any:
+        return _caller(result, arguments)
+
+    scope: dict[str, Any] = {"call": call}
+    names = ", ".join(f"v{i}" for i in range(len(arguments)))
+    exec(f"def typed(typingctx, address, {names}): return call(typingctx, address, {names})", scope)
+    return intrinsic(scope["typed"])
+
+
+@functools.cache
+def room_addresses() -> tuple[int, ...]:
+    """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
+    importlib.import_module("nonsmooth.engine.hybrid")
+    marker = cache_folder() / "complete"
+    if not marker.exists():
+        print("compiling the engine once for this machine (about 20 s) ...", file=sys.stderr, flush=True)
+        for inner, typed in _pending:
+            inner.compile(typed)
+    addresses = []
+    for name in ROOMS:
+        function, signature = _rooms[name]
+        compiled = numba.cfunc(_signature(signature), cache=True, nopython=True, error_model="numpy")(function)
+        _alive.append(compiled)
+        addresses.append(int(compiled.address))
+    with contextlib.suppress(OSError):
+        marker.touch()
+    return tuple(addresses)
+
+
+def call_room(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call a room from Python on the memory of one trajectory; the interpreter's lock is released."""
+    _, signature = _rooms[name]
+    result, _, names = signature.partition("(")
+    extra = [_C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[3:]]
+    prototype = ctypes.CFUNCTYPE(_C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
+    function = prototype(room_addresses()[ROOMS.index(name)])
+    heaps = (memory.scalars, memory.floats, memory.integers)
+    return function(*[heap.ctypes.data for heap in heaps], *arguments)
+
+
+@intrinsic  # type: ignore[misc]
+def at(typingctx: Any, heap: Any, offset: Any) -> Any:
+    """Return a pointer moved by ``offset`` elements."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.gep(args[0], [args[1]])
+
+    return heap(heap, types.int64), codegen
+
+
+def _caller(result: Any, arguments: tuple[Any, ...]) -> Any:
+    """Make an intrinsic that calls the C function at an address."""
+
+    def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        native = ir.FunctionType(
+            context.get_value_type(result), [context.get_value_type(a) for a in arguments]
+        )
+        function = builder.inttoptr(args[0], ir.PointerType(native))
+        value = builder.call(function, args[1:])
+        return context.get_dummy_value() if result is types.void else value
+
+    return result(types.int64, *arguments), lower
+
+
+@intrinsic  # type: ignore[misc]
+def call_scalar(typingctx: Any, address: Any, x: Any, p: Any) -> Any:
+    """Call ``float law(float, parameters)`` at an address."""
+    return _caller(types.float64, (types.float64, _FLOATS))
+
+
+@intrinsic  # type: ignore[misc]
+def call_body(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any, out: Any) -> Any:
+    """Call ``void body(t, q, u, parameters, out)`` at an address."""
+    return _caller(types.void, (types.float64, _FLOATS, _FLOATS, _FLOATS, _FLOATS))
+
+
+@intrinsic  # type: ignore[misc]
+def call_pair(typingctx: Any, address: Any, a: Any, b: Any, p: Any, out: Any) -> Any:
+    """Call ``void geometry(frame_a, frame_b, parameters, out)`` at an address."""
+    return _caller(types.void, (_FLOATS, _FLOATS, _FLOATS, _FLOATS))
+
+
+@intrinsic  # type: ignore[misc]
+def call_map(typingctx: Any, address: Any, n: Any, g: Any, z: Any, p: Any, out: Any) -> Any:
+    """Call ``void impact(n, delassus, rates, parameters, impulses)`` at an address."""
+    return _caller(types.void, (types.int64, _FLOATS, _FLOATS, _FLOATS, _FLOATS))
+
+
+_C_SIGNATURES = {
+    "scalar": types.float64(types.float64, _FLOATS),
+    "body": types.void(types.float64, _FLOATS, _FLOATS, _FLOATS, _FLOATS),
+    "pair": types.void(_FLOATS, _FLOATS, _FLOATS, _FLOATS),
+    "map": types.void(types.int64, _FLOATS, _FLOATS, _FLOATS, _FLOATS),
+}
+
+
+def jit(function: Callable[..., Any]) -> Any:
+    """Compile a plug-in's function on demand; never cached on disk."""
+    return numba.jit(**_OPTIONS)(function)
+
+
+def address_of(shim: Callable[..., Any], form: str) -> int:
+    """Compile ``shim`` to a C function of the given form and return its address."""
+    compiled = numba.cfunc(_C_SIGNATURES[form], nopython=True, error_model="numpy")(shim)
+    _alive.append(compiled)
+    return int(compiled.address)
+
+
+COMPILATION_ERRORS: tuple[type[Exception], ...] = (numba.core.errors.NumbaError,)

@@ -1,0 +1,84 @@
+"""The plain half of :mod:`nonsmooth.engine.kernel`: the same names, as ordinary Python."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+from nonsmooth.model.layout import ROOMS, SCALARS, Memory
+
+_functions: list[Callable[..., Any]] = []
+_rooms: dict[str, Callable[..., Any]] = {}
+
+
+def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+    """Leave the function as it is."""
+    return lambda function: function
+
+
+def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+    """Leave the function as it is, and let :func:`call_room` find it."""
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        _rooms[function.__name__] = function
+        return function
+
+    return decorate
+
+
+def room_addresses() -> tuple[int, ...]:
+    """Return as many numbers as there are rooms; nothing reads them."""
+    importlib.import_module("nonsmooth.engine.hybrid")
+    return (0,) * len(ROOMS)
+
+
+def call_room(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call a room on the memory of one trajectory."""
+    record = memory.scalars[0]
+    scalars = SimpleNamespace(**{field: record[field].item() for field in SCALARS.names or ()})
+    try:
+        return _rooms[name](scalars, memoryview(memory.floats), memoryview(memory.integers), *arguments)
+    finally:
+        for field, value in vars(scalars).items():
+            memory.scalars[field] = value
+
+
+def at(heap: memoryview, offset: int) -> memoryview:
+    """Return the view from ``offset`` on."""
+    return heap[offset:]
+
+
+def call_scalar(address: int, x: float, p: Any) -> Any:
+    """Call ``float law(float, parameters)``."""
+    return _functions[address - 1](x, p)
+
+
+def call_body(address: int, t: float, q: Any, u: Any, p: Any, out: Any) -> None:
+    """Call ``void body(t, q, u, parameters, out)``."""
+    _functions[address - 1](t, q, u, p, out)
+
+
+def call_pair(address: int, a: Any, b: Any, p: Any, out: Any) -> None:
+    """Call ``void geometry(frame_a, frame_b, parameters, out)``."""
+    _functions[address - 1](a, b, p, out)
+
+
+def call_map(address: int, n: int, g: Any, z: Any, p: Any, out: Any) -> None:
+    """Call ``void impact(n, delassus, rates, parameters, impulses)``."""
+    _functions[address - 1](n, g, z, p, out)
+
+
+def jit(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Leave the function as it is."""
+    return function
+
+
+def address_of(shim: Callable[..., Any], form: str) -> int:
+    """Register ``shim`` and return the number it answers to."""
+    _functions.append(shim)
+    return len(_functions)
+
+
+COMPILATION_ERRORS: tuple[type[Exception], ...] = ()

@@ -1,0 +1,100 @@
+"""Keep g = 0, g' = 0 and v = 0 of the closed contacts by momentum-consistent corrections."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.delassus import add_response, assemble_delassus
+from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact
+from nonsmooth.engine.modes import OPEN, STICK
+from nonsmooth.model.layout import FRAME, GEOMETRY
+
+
+@kernel("i8(S, F, I)")
+def activate_closed(S, w, k):
+    """Make the closed contacts the active ones, kinematics evaluated; return how many they are."""
+    m = 0
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            k[S.active + m] = c
+            m += 1
+    S.n_active = m
+    if m > 0:
+        evaluate_bodies(S, w, k, S.t, S.y)
+        for a in range(m):
+            evaluate_contact(S, w, k, k[S.active + a], S.y)
+    return m
+
+
+@kernel("f8(S, F, I)")
+def project_rates(S, w, k):
+    """Bring gap rates of the active contacts, and slip velocities of the sticking ones, to zero.
+
+    The correction is the impulse of least kinetic energy, without friction on sliding contacts.
+    Returns the kinetic energy it removes [J]; the work of the driven bodies is booked.
+    """
+    m = S.n_active
+    if m == 0:
+        return 0.0
+    assemble_delassus(S, w, k)
+    for a in range(m):
+        c = k[S.active + a]
+        k[S.normal_held + a] = 1
+        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK else 0
+        w[S.mu + a] = 0.0
+        for r in range(3):
+            w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
+    resolve(S, w, k)
+    add_response(S, w, k, S.f, S.y + S.n_q)
+    loss = 0.0
+    for a in range(m):
+        c = k[S.active + a]
+        for r in range(3):
+            impulse = w[S.f + 3 * a + r]
+            loss -= 0.5 * impulse * w[S.rate + 3 * c + r]
+            S.driven_work -= impulse * w[S.prescribed_rate + 3 * c + r]
+    return loss
+
+
+@kernel()
+def project_gaps(S, w, k):
+    """Bring the gaps of the active contacts to zero by one Newton step along M^-1 W."""
+    m = S.n_active
+    worst = 0.0
+    for a in range(m):
+        worst = max(worst, abs(w[S.geometry + GEOMETRY * k[S.active + a]]))
+    if worst <= 1e-16:
+        return
+    assemble_delassus(S, w, k)
+    for a in range(m):
+        c = k[S.active + a]
+        k[S.normal_held + a] = 1
+        k[S.tangent_held + a] = 0
+        w[S.mu + a] = 0.0
+        w[S.b + 3 * a] = w[S.geometry + GEOMETRY * c]
+    resolve(S, w, k)
+    # dq = B du: let the bodies turn the displacement into coordinate rates
+    for i in range(S.n_y):
+        w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
+    add_response(S, w, k, S.f, S.y_stage + S.n_q)
+    evaluate_bodies(S, w, k, S.t, S.y_stage)
+    for body in range(S.n_bodies):
+        rates = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body]
+        for i in range(k[S.body_nq + body]):
+            w[S.y + k[S.body_q + body] + i] += w[rates + i]
+
+
+@kernel()
+def normalise_quaternions(S, w, k):
+    """Bring every body's unit quaternion back to unit length."""
+    for body in range(S.n_bodies):
+        offset = k[S.body_quaternion + body]
+        if offset < 0:
+            continue
+        q = S.y + k[S.body_q + body] + offset
+        square = 0.0
+        for i in range(4):
+            square += w[q + i] * w[q + i]
+        factor = square**-0.5
+        for i in range(4):
+            w[q + i] *= factor

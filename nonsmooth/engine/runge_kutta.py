@@ -1,0 +1,49 @@
+"""One adaptive Runge-Kutta pair on the float heap, for the flow and for the impact alike."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.kernel import kernel
+
+SAFETY, SHRINK, GROW = 0.9, 0.2, 8.0
+_EXPONENT = -0.2
+
+
+@kernel("void(S, F, i8, i8, i8, i8, f8, i8)")
+def stage_state(S, w, start, slopes, n, stage, h, out):
+    """Write the state at which the slope of ``stage`` is evaluated."""
+    weights = S.stages + 6 * stage
+    for i in range(n):
+        total = 0.0
+        for j in range(stage):
+            total += w[weights + j] * w[slopes + j * n + i]
+        w[out + i] = w[start + i] + h * total
+
+
+@kernel("void(S, F, i8, i8, i8, f8, f8, i8)")
+def dense_state(S, w, start, slopes, n, h, theta, out):
+    """Write the interpolated state at the fraction ``theta`` of the step."""
+    for i in range(n):
+        w[out + i] = w[start + i]
+    for j in range(7):
+        d = S.dense + 4 * j
+        weight = h * theta * (w[d] + theta * (w[d + 1] + theta * (w[d + 2] + theta * w[d + 3])))
+        if weight != 0.0:
+            for i in range(n):
+                w[out + i] += weight * w[slopes + j * n + i]
+
+
+@kernel("f8(S, F, i8, i8, f8, i8)")
+def component_error(S, w, slopes, n, h, i):
+    """Return the estimated error of component ``i`` of the step."""
+    total = 0.0
+    for j in range(7):
+        total += w[S.error_weights + j] * w[slopes + j * n + i]
+    return abs(h * total)
+
+
+@kernel("f8(f8)")
+def step_factor(error):
+    """Return by how much the next step may differ, the error being relative to its tolerance."""
+    if error <= 0.0:
+        return GROW
+    return min(GROW, max(SHRINK, SAFETY * error**_EXPONENT))

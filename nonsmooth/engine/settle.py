@@ -1,0 +1,291 @@
+"""What happens at an instant: impacts until nothing approaches, then closings, then the new modes."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact_problem import accelerate, friction_coefficient, set_up, solve_contact
+from nonsmooth.engine.delassus import add_response, assemble_delassus, row
+from nonsmooth.engine.impact_problem import FINISHED, energetic_impact
+from nonsmooth.engine.kernel import at, call_map, kernel, room
+from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_geometry, evaluate_rates
+from nonsmooth.engine.modes import (
+    CLOSING,
+    IMPACT,
+    IMPACT_ENDLESS,
+    LIFT_OFF,
+    NO_CONTACT_SOLUTION,
+    NOT_FINITE,
+    OPEN,
+    PAINLEVE,
+    RUNNING,
+    SETTLE_ENDLESS,
+    SLIDE,
+    SLIP_TO_STICK,
+    STICK,
+    STICK_TO_SLIP,
+)
+from nonsmooth.engine.projection import activate_closed, project_gaps, project_rates
+from nonsmooth.engine.record import amend_last, code, impact_code, record_event, remember
+from nonsmooth.model.layout import GEOMETRY
+
+_ATTEMPTS = 200
+_PAINLEVE_ATTEMPTS = 5
+
+
+@kernel("i8(S, F, I)")
+def _touch(S, w, k):
+    """Find and evaluate the touching contacts; return 1 if one of them approaches."""
+    evaluate_bodies(S, w, k, S.t, S.y)
+    approaching = 0
+    for c in range(S.n_contacts):
+        k[S.touching + c] = 1
+        evaluate_geometry(S, w, k, c)
+        evaluate_rates(S, w, k, c)
+        rate = w[S.rate + 3 * c]
+        near = max(S.gap_tolerance, S.time_tolerance * abs(rate))
+        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c] > near:
+            k[S.touching + c] = 0
+            continue
+        evaluate_contact(S, w, k, c, S.y)
+        if rate < -S.velocity_tolerance:
+            approaching = 1
+    return approaching
+
+
+@kernel("f8(S, F, I, i8)")
+def _speed(S, w, k, c):
+    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    return math.sqrt(v1 * v1 + v2 * v2)
+
+
+@kernel("void(S, F, I)")
+def _activate_touching(S, w, k):
+    m = 0
+    for c in range(S.n_contacts):
+        if k[S.touching + c] == 1:
+            k[S.active + m] = c
+            m += 1
+    S.n_active = m
+
+
+@kernel("void(S, F, I)")
+def _map_impact(S, w, k):
+    """Let a law that maps velocities to impulses treat the colliding set; split its loss by mean rates."""
+    m = S.n_active
+    width = 3 * m
+    for a in range(m):
+        c = k[S.active + a]
+        speed = _speed(S, w, k, c)
+        w[S.map_block + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+        for i in range(1, S.map_width):
+            w[S.map_block + i * m + a] = w[k[S.map_parameters + c] + i - 1]
+    call_map(S.impact_map, m, at(w, S.delassus), at(w, S.impact_z0), at(w, S.map_block), at(w, S.impulse))
+    for a in range(m):
+        normal = tangential = 0.0
+        for r in range(3):
+            line = 3 * a + r
+            mean = w[S.impact_z0 + line]
+            for j in range(width):
+                mean += 0.5 * w[S.delassus + line * width + j] * w[S.impulse + j]
+            if r == 0:
+                normal -= w[S.impulse + line] * mean
+            else:
+                tangential -= w[S.impulse + line] * mean
+        w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = normal, 0.0, tangential
+
+
+@kernel("i8(S, F, I, i8)")
+def _impact(S, w, k, cause):
+    """Run the impact law on the touching contacts, book its energies, record it; return the status."""
+    remember(S, w, k)
+    _activate_touching(S, w, k)
+    assemble_delassus(S, w, k)
+    m = S.n_active
+    contact = -1
+    worst = 1e300
+    for a in range(m):
+        c = k[S.active + a]
+        k[S.code_during + c] = impact_code(S, w, k, c)
+        if w[S.rate + 3 * c] < worst:
+            worst = w[S.rate + 3 * c]
+            contact = c
+        for r in range(3):
+            w[S.impact_z0 + 3 * a + r] = w[S.rate + 3 * c + r]
+    S.phases = 1
+    if S.impact_map != 0:
+        _map_impact(S, w, k)
+    else:
+        outcome = energetic_impact(S, w, k)
+        if outcome != FINISHED:
+            return IMPACT_ENDLESS if outcome == 2 else NOT_FINITE
+    S.impacts += 1
+    add_response(S, w, k, S.impulse, S.y + S.n_q)
+    driven = restitution = friction = 0.0
+    for a in range(m):
+        c = k[S.active + a]
+        restitution += w[S.stored + a] - w[S.returned + a]
+        friction += w[S.rubbed + a]
+        for r in range(3):
+            impulse = w[S.impulse + 3 * a + r]
+            w[S.event_impulse + 3 * c + r] = impulse
+            driven -= impulse * w[S.prescribed_rate + 3 * c + r]
+            if not abs(impulse) < 1e300:
+                return NOT_FINITE
+    w[S.event_head + 1], w[S.event_head + 2], w[S.event_head + 3] = driven, restitution, friction
+    S.driven_work += driven
+    S.restitution_loss += restitution
+    S.friction_loss += friction
+    # until the instant is settled: apart is open, the rest goes by its slip
+    _touch(S, w, k)
+    for c in range(S.n_contacts):
+        _provisional_mode(S, w, k, c)
+    record_event(S, w, k, cause, contact, S.phases)
+    return RUNNING
+
+
+@kernel("void(S, F, I, i8)")
+def _provisional_mode(S, w, k, c):
+    if k[S.touching + c] == 0 or w[S.rate + 3 * c] > S.velocity_tolerance:
+        k[S.mode + c] = OPEN
+        return
+    speed = _speed(S, w, k, c)
+    k[S.mode + c] = SLIDE if speed > S.velocity_tolerance else STICK
+    if speed > S.velocity_tolerance:
+        for i in range(2):
+            w[S.direction + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
+
+
+@kernel("void(S, F, I, i8, i8)")
+def _expect(S, w, k, cause, contact):
+    """Activate the contacts at rest in the normal direction and guess their modes: the past ones, and the event's."""
+    m = 0
+    for c in range(S.n_contacts):
+        if k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
+            k[S.active + m] = c
+            mode = k[S.mode + c]
+            if _speed(S, w, k, c) > S.velocity_tolerance:
+                mode = SLIDE
+            elif mode == OPEN or (c == contact and cause == SLIP_TO_STICK):
+                mode = STICK
+            if c == contact and cause == LIFT_OFF:
+                mode = OPEN
+            if c == contact and cause == STICK_TO_SLIP:
+                mode = SLIDE
+            k[S.mode_tried + m] = mode
+            m += 1
+    S.n_active = m
+
+
+@kernel("i8(S, F, I)")
+def _impact_without_collision(S, w, k):
+    """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
+    width = 3 * S.n_active
+    for c in range(S.n_contacts):
+        k[S.impacting + c] = 0
+    for a in range(S.n_active):
+        line = S.delassus + 3 * a * width + 3 * a
+        reduced = w[line] - w[S.mu + a] * (w[S.d + 2 * a] * w[line + 1] + w[S.d + 2 * a + 1] * w[line + 2])
+        if k[S.at_rest + a] == 0 and reduced <= 0.0:
+            k[S.impacting + k[S.active + a]] = 1
+            S.impact_seed = max(S.impact_seed, _speed(S, w, k, k[S.active + a]))
+    S.painleve = 1
+    status = _impact(S, w, k, PAINLEVE)
+    S.painleve = 0
+    S.impact_seed = 0.0
+    return status
+
+
+@kernel("i8(S, F, I)")
+def _close(S, w, k):
+    """Close the contacts whose bounces have become shorter than their contact time, Eq. (33); return how many."""
+    closing = 0
+    contact = -1
+    for c in range(S.n_contacts):
+        rate = w[S.rate + 3 * c]
+        if k[S.touching + c] == 0 or rate <= S.velocity_tolerance:
+            continue
+        approach = -(w[S.bias + 3 * c] + row(S, w, k, c, 0, S.du))
+        if approach > 0.0 and rate <= approach * w[S.contact_time + c]:
+            if closing == 0:
+                remember(S, w, k)
+            closing += 1
+            contact = c
+            k[S.mode + c] = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
+    if closing == 0:
+        return 0
+    # contacts that close here and those that rest take the step together, the others are left alone
+    m = 0
+    for c in range(S.n_contacts):
+        if k[S.touching + c] == 1 and k[S.mode + c] != OPEN:
+            k[S.active + m] = c
+            m += 1
+    S.n_active = m
+    before = S.driven_work
+    w[S.event_head + 4] = project_rates(S, w, k)
+    w[S.event_head + 1] = S.driven_work - before
+    S.closing_loss += w[S.event_head + 4]
+    record_event(S, w, k, CLOSING, contact, 0)
+    return closing
+
+
+@room("i8(S, F, I, i8, i8)")
+def settle(S, w, k, cause, contact):
+    """Carry the system through the present instant, ``cause`` and ``contact`` saying why it is one; return the status."""
+    S.recorded = 0
+    resting = 0
+    for _attempt in range(_ATTEMPTS):
+        if _touch(S, w, k) == 1:
+            status = _impact(S, w, k, IMPACT)
+            if status != RUNNING:
+                return status
+            continue
+        if S.recorded == 0:
+            remember(S, w, k)
+        _expect(S, w, k, cause, contact)
+        set_up(S, w, k)
+        if S.n_active > 0:
+            if solve_contact(S, w, k) == 0:
+                resting += 1
+                if resting > _PAINLEVE_ATTEMPTS:
+                    return NO_CONTACT_SOLUTION
+                status = _impact_without_collision(S, w, k)
+                if status != RUNNING:
+                    return status
+                continue
+            accelerate(S, w, k)
+        _adopt(S, w, k)
+        if _close(S, w, k) == 0:
+            _finish(S, w, k, cause, contact)
+            return RUNNING
+    return SETTLE_ENDLESS
+
+
+@kernel("void(S, F, I)")
+def _adopt(S, w, k):
+    """Take over the modes and slip directions that the contact problem found."""
+    for c in range(S.n_contacts):
+        k[S.mode + c] = OPEN
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        k[S.mode + c] = k[S.mode_tried + a]
+        if k[S.mode + c] == SLIDE:
+            for i in range(2):
+                w[S.direction + 2 * c + i] = w[S.d + 2 * a + i]
+
+
+@kernel("void(S, F, I, i8, i8)")
+def _finish(S, w, k, cause, contact):
+    """Put the closed contacts exactly on their constraints and write the event."""
+    if activate_closed(S, w, k) > 0:
+        S.closing_loss += project_rates(S, w, k)
+        project_gaps(S, w, k)
+    if S.recorded > 0:
+        amend_last(S, w, k)
+        return
+    changed = 0
+    for c in range(S.n_contacts):
+        if code(S, w, k, c) != k[S.code_before + c]:
+            changed = 1
+    if changed == 1 or cause == 0:
+        record_event(S, w, k, cause, contact, 0)

@@ -1,0 +1,63 @@
+"""The errors a user meets: each names the thing, the rule, the value and the remedy."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class NonsmoothError(Exception):
+    """Base of every error raised by this package."""
+
+
+class InvalidInput(NonsmoothError, ValueError):
+    """An input that breaks a rule, found before anything runs.
+
+    Parameters
+    ----------
+    thing : str
+        What is wrong, as the user wrote it ("Dumbbell.radius").
+    rule : str
+        The rule it must obey ("must be positive").
+    value : object
+        The value found.
+    remedy : str
+        What to do about it.
+    """
+
+    def __init__(self, thing: str, rule: str, value: object, remedy: str) -> None:
+        self.thing, self.rule, self.value, self.remedy = thing, rule, value, remedy
+        super().__init__(f"{thing} {rule}, but it is {value!r}. {remedy}")
+
+
+class UnknownName(InvalidInput):
+    """A name that nothing answers to, with the nearest known ones.
+
+    Parameters
+    ----------
+    kind : str
+        What was looked for ("scenario", "parameter of dumbbell").
+    name : str
+        The name asked for.
+    known : iterable of str
+        The names that exist.
+    """
+
+    def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
+        known = sorted(known)
+        near = difflib.get_close_matches(name, known, n=2, cutoff=0.5)
+        hint = f"Did you mean {' or '.join(repr(n) for n in near)}? " if near else ""
+        listing = ", ".join(known) if known else "none"
+        super().__init__(f"{kind} name", "must be a known one", name, f"{hint}Known: {listing}.")
+
+
+class PluginError(NonsmoothError):
+    """A law, body or scenario from a plug-in that cannot be loaded or compiled."""
+
+
+class RunFailed(NonsmoothError, RuntimeError):
+    """A run that could not go on.  What was computed until then is in ``solution``."""
+
+    def __init__(self, message: str, solution: object = None) -> None:
+        super().__init__(message)
+        self.solution = solution

@@ -1,0 +1,23 @@
+"""The interfaces: one abstract class a file."""
+
+from nonsmooth.interfaces.body import Body
+from nonsmooth.interfaces.contact_kinematics import ContactKinematics
+from nonsmooth.interfaces.friction_law import FrictionLaw
+from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
+from nonsmooth.interfaces.motion import Motion
+from nonsmooth.interfaces.normal_law import NormalLaw
+from nonsmooth.interfaces.scenario import Scenario
+from nonsmooth.interfaces.shape import Shape
+
+__all__ = [
+    "Body",
+    "ContactKinematics",
+    "FrictionLaw",
+    "ImpactLaw",
+    "ImpactMap",
+    "ImpactProcess",
+    "Motion",
+    "NormalLaw",
+    "Scenario",
+    "Shape",
+]

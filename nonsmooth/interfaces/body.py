@@ -1,0 +1,76 @@
+"""Body: coordinates, dynamics and the motion of a frame that carries shapes."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.interfaces.shape import Shape
+from nonsmooth.parameters import Component
+
+Vector = NDArray[np.float64]
+
+
+class Body(Component, ABC):
+    """One body of a system.
+
+    The contract:
+
+    1. ``evaluator`` is a plain function ``evaluate(t, q, u, out, ...)`` that writes the body's output
+       block (:mod:`nonsmooth.model.layout`) at time t [s], coordinates q, velocities u; parts that are
+       zero need not be written.  Its further arguments are names out of ``parameters()`` and of the
+       surroundings (gravity_x, gravity_y, gravity_z [m/s^2]).
+    2. M du/dt = h + contact forces, dq/dt = B(q) u; the Jacobian maps u to the velocity of the frame
+       origin and its angular velocity, both in world axes.
+    3. A driven body has no coordinates and writes the frame motion only.
+    4. ``state`` turns what a user says of the start into q and u, or raises InvalidInput.
+    """
+
+    @property
+    @abstractmethod
+    def shapes(self) -> tuple[Shape, ...]:
+        """The shapes that the frame carries."""
+
+    @property
+    @abstractmethod
+    def n_q(self) -> int:
+        """Number of coordinates."""
+
+    @property
+    @abstractmethod
+    def n_u(self) -> int:
+        """Number of velocities."""
+
+    @property
+    @abstractmethod
+    def quaternion(self) -> int:
+        """Offset of a unit quaternion in q, -1 without one."""
+
+    @property
+    @abstractmethod
+    def evaluator(self) -> Callable[..., None]:
+        """The function of point 1."""
+
+    @property
+    @abstractmethod
+    def scales(self) -> tuple[Vector, Vector]:
+        """Sizes of q and u below which errors count as absolute, shapes [n_q] and [n_u]."""
+
+    @property
+    @abstractmethod
+    def time_scale(self) -> float:
+        """Shortest time over which prescribed motion changes [s]; infinite without any."""
+
+    @abstractmethod
+    def state(self, **start: Any) -> tuple[Vector, Vector]:
+        """Return q and u of a start, shapes [n_q] and [n_u].
+
+        Raises
+        ------
+        InvalidInput
+            If a word is unknown, a shape is wrong, a number is not finite or a quaternion not unit.
+        """

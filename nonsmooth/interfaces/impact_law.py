@@ -1,0 +1,60 @@
+"""ImpactLaw: what happens to the colliding set, as a process in pseudo-time or as a map of velocities."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+
+from nonsmooth.parameters import Component
+
+
+class ImpactLaw(Component, ABC):
+    """A law for impacts.  Law authors subclass :class:`ImpactProcess` or :class:`ImpactMap`.
+
+    All contacts of one system follow one kind of law, because an impact owns the whole colliding set.
+    """
+
+    @property
+    @abstractmethod
+    def contact_time(self) -> float:
+        """Duration of a contact T_c [s], below which bounces count as closed, Eq. (33)."""
+
+    @abstractmethod
+    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
+        """Tell whether the energies [J] stored and returned at a contact obey the law."""
+
+
+class ImpactProcess(ImpactLaw, ABC):
+    """An impact law integrated by the engine, Eqs. (19)-(28).
+
+    The contract: plain functions whose further arguments are parameters of the law,
+
+    1. ``force(indentation, ...)``: normal force, zero at zero, increasing, Eq. (20);
+    2. ``efficiency(rate, ...)``: share of the stored energy that the gap rate [m/s] gives back, Eq. (28);
+       1 for rates up to zero, between 0 and 1 above.
+    """
+
+    @property
+    @abstractmethod
+    def force(self) -> Callable[..., float]:
+        """The function of point 1."""
+
+    @property
+    @abstractmethod
+    def efficiency(self) -> Callable[..., float]:
+        """The function of point 2."""
+
+
+class ImpactMap(ImpactLaw, ABC):
+    """An impact law that maps the rates before the impact to its impulses.
+
+    The contract: ``impulses(n, delassus, rates, out, friction, ...)`` is a plain function of the number of
+    contacts, the Delassus matrix [1/kg] (row by row, shape [3 n, 3 n], rows n, t1, t2 of each contact), the rates before
+    [m/s, 3 n] and the impulses to be written [N s, 3 n]; ``friction`` and its further arguments, parameters
+    of the law, are vectors over the contacts.
+    """
+
+    @property
+    @abstractmethod
+    def impulses(self) -> Callable[..., None]:
+        """The function of the contract."""

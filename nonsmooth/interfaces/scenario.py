@@ -1,0 +1,65 @@
+"""Scenario: a parametrised system with its figures and the numbers that say what happened."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from nonsmooth.parameters import Component
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+    from nonsmooth.system.system import System
+
+
+class Scenario(Component, ABC):
+    """A ready-made system.
+
+    The contract:
+
+    1. Parameters are dataclass fields declared with :func:`nonsmooth.parameters.parameter`.
+    2. ``build`` returns a new System; ``t_end`` says how long to run it.
+    3. ``summarise``, ``coordinates`` and ``figures`` only read the solution.
+    """
+
+    title: ClassVar[str]
+
+    @property
+    @abstractmethod
+    def t_end(self) -> float:
+        """End time of the run [s]."""
+
+    @property
+    @abstractmethod
+    def sample_interval(self) -> float:
+        """Time between samples of the solution [s]."""
+
+    @abstractmethod
+    def build(self) -> System:
+        """Return the system at its start."""
+
+    @abstractmethod
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters with the values that the run uses."""
+
+    @abstractmethod
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the scenario's own coordinates over the samples: name -> array [n_samples]."""
+
+    @abstractmethod
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u} at the end in the scenario's own coordinates."""
+
+    @abstractmethod
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the numbers that say what happened."""
+
+    @abstractmethod
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return matplotlib figures of this run by file name."""
+
+    @classmethod
+    @abstractmethod
+    def gallery(cls, progress: Any) -> Mapping[str, Any]:
+        """Run what the scenario's published figures need and return them all by file name."""

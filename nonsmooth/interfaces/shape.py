@@ -1,0 +1,22 @@
+"""Shape: a piece of a body's surface, fixed in the body frame."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from nonsmooth.parameters import Component
+
+
+class Shape(Component, ABC):
+    """What a contact pair sees of a body.
+
+    A shape
+
+    1. is a frozen dataclass of floats, in the frame of its body;
+    2. knows no body and no contact: pairs of shapes are the business of ContactKinematics.
+    """
+
+    @property
+    @abstractmethod
+    def length(self) -> float:
+        """Characteristic length [m]; 0 for an unbounded shape."""

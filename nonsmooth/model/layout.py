@@ -1,0 +1,289 @@
+"""The engine's memory: one table of scalars, one of float arrays, one of integer arrays.
+
+Everything that the engine knows stands in one record ``S`` of scalars and two heaps.  An entry of
+``S`` named after an array holds the offset of that array in its heap, so ``w[S.gap + c]`` is the gap
+of contact ``c`` and ``k[S.mode + c]`` its mode.  All sizes are run-time counts: another number of
+bodies or contacts is another set of offsets, never another compilation.
+
+Every body owns an output block, written by its ``evaluate`` function, with the parts below in this
+order; :data:`FRAME` floats of frame motion come first and are all that a driven body writes.
+
+======================  ===============  =======================================================
+part                    size             meaning
+======================  ===============  =======================================================
+position                3                origin of the body frame [m]
+rotation                9                body axes as columns, row by row
+velocity                3                of the origin [m/s]
+angular velocity        3                in world axes [rad/s]
+acceleration bias       3                of the origin while u' = 0 [m/s^2]
+angular bias            3                in world axes while u' = 0 [rad/s^2]
+jacobian                6 n_u            of (velocity, angular velocity) with respect to u
+coordinate rates        n_q              dq/dt = B u
+force                   n_u              h of M u' = h + W lambda_N + N lambda_T
+inverse mass            n_u n_u          M^-1
+energy                  2                kinetic and potential [J]
+======================  ===============  =======================================================
+
+The geometry block of a contact holds gap, normal (from the first body to the second), first
+tangent, witness points on both bodies and, for either surface, the matrices ``slide`` and ``turn`` of
+``slide @ u = turn @ nu``: the witness sliding at u over the body turns the normal by nu (both in the
+tangent plane).  A sphere of radius r has slide 1, turn r; a plane slide 0, turn 1; a vertex slide 1, turn 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from nonsmooth.model import tableau
+
+FRAME = 24
+"""Floats of frame motion at the head of a body's output block."""
+GEOMETRY = 29
+"""Floats of a contact's geometry block."""
+N_STAGES = len(tableau.NODES)
+"""Stages of the Runge-Kutta pair."""
+
+ROOMS = (
+    "resolve",
+    "gauss_seidel",
+    "energetic_impact",
+    "evaluate_impact_forces",
+    "solve_contact",
+    "slope",
+    "evaluate_contact",
+    "evaluate_at",
+    "evaluate_guards",
+    "settle",
+    "advance",
+)
+"""Engine functions that are compiled apart and called by address (:func:`nonsmooth.engine.kernel.room`)."""
+
+INTEGER_SCALARS = (
+    "n_bodies",
+    "n_contacts",
+    "n_q",
+    "n_u",
+    "n_y",
+    "n_active",
+    "n_unknown",
+    "n_redundant",
+    "map_width",
+    "event_capacity",
+    "sample_capacity",
+    "n_events",
+    "n_samples",
+    "event_width",
+    "status",
+    "started",
+    "steps",
+    "rejected",
+    "impacts",
+    "phases",
+    "impact_steps",
+    "impact_stop",
+    "culprit",
+    "impact_map",
+    "painleve",
+    "trigger",
+    "fresh",
+    "repeated",
+    "recorded",
+    "sample_index",
+)
+FLOAT_SCALARS = (
+    "t",
+    "t_end",
+    "h",
+    "h_max",
+    "h_try",
+    "rtol",
+    "impact_rtol",
+    "time_tolerance",
+    "gap_tolerance",
+    "velocity_tolerance",
+    "sample_interval",
+    "next_sample",
+    "driven_work",
+    "friction_loss",
+    "restitution_loss",
+    "closing_loss",
+    "projection_loss",
+    "speed_scale",
+    "impact_seed",
+    "last_event_t",
+)
+
+_Size = Callable[[Mapping[str, int]], int]
+
+
+def _per(stride: int, count: str) -> _Size:
+    return lambda n: stride * n[count]
+
+
+_FLOAT_ARRAYS: dict[str, _Size] = {
+    "stages": lambda n: 6 * N_STAGES,
+    "error_weights": lambda n: N_STAGES,
+    "dense": lambda n: 4 * N_STAGES,
+    "y": _per(1, "n_y"),
+    "y_new": _per(1, "n_y"),
+    "y_stage": _per(1, "n_y"),
+    "y_scale": _per(1, "n_y"),
+    "slopes": _per(N_STAGES, "n_y"),
+    "du": _per(1, "n_u"),
+    "geometry": _per(GEOMETRY, "n_contacts"),
+    "rate": _per(3, "n_contacts"),
+    "prescribed_rate": _per(3, "n_contacts"),
+    "bias": _per(3, "n_contacts"),
+    "direction": _per(2, "n_contacts"),
+    "guard": _per(2, "n_contacts"),
+    "guard_first": _per(2, "n_contacts"),
+    "gap_rate": _per(1, "n_contacts"),
+    "gap_rate_first": _per(1, "n_contacts"),
+    "gap_rate_last": _per(1, "n_contacts"),
+    "map_block": lambda n: n["map_width"] * n["n_contacts"],
+    "contact_time": _per(1, "n_contacts"),
+    # the local problem of the active contacts
+    "delassus": lambda n: (3 * n["n_contacts"]) ** 2,
+    "b": _per(3, "n_contacts"),
+    "f": _per(3, "n_contacts"),
+    "d": _per(2, "n_contacts"),
+    "mu": _per(1, "n_contacts"),
+    "mu_static": _per(1, "n_contacts"),
+    "margin": _per(1, "n_contacts"),
+    "acceleration": _per(3, "n_contacts"),
+    "event_head": lambda n: 5,
+    "event_impulse": _per(3, "n_contacts"),
+    # linear algebra
+    "matrix": lambda n: max(16, (3 * n["n_contacts"]) ** 2),
+    "basis": lambda n: (3 * n["n_contacts"]) ** 2,
+    "null": lambda n: (3 * n["n_contacts"]) ** 2,
+    "right": lambda n: max(4, 3 * n["n_contacts"]),
+    "x": _per(3, "n_contacts"),
+    "sigma": _per(3, "n_contacts"),
+    "small": lambda n: 24,
+    # the impact
+    "impact_y": _per(6, "n_contacts"),
+    "impact_new": _per(6, "n_contacts"),
+    "impact_stage": _per(6, "n_contacts"),
+    "impact_slopes": _per(6 * N_STAGES, "n_contacts"),
+    "impact_z0": _per(3, "n_contacts"),
+    "impact_z": _per(3, "n_contacts"),
+    "impact_guard": _per(3, "n_contacts"),
+    "impact_x_scale": _per(1, "n_contacts"),
+    "impact_f_scale": _per(1, "n_contacts"),
+    "impact_mark": _per(1, "n_contacts"),
+    "stored": _per(1, "n_contacts"),
+    "returned": _per(1, "n_contacts"),
+    "rubbed": _per(1, "n_contacts"),
+    "impulse": _per(3, "n_contacts"),
+    "u_before": _per(1, "n_u"),
+    # output
+    "events": lambda n: n["event_capacity"] * n["event_width"],
+    "samples": lambda n: n["sample_capacity"] * (n["n_y"] + 1),
+}
+_INTEGER_ARRAYS: dict[str, _Size] = {
+    "rooms": lambda n: len(ROOMS),
+    "body_q": _per(1, "n_bodies"),
+    "body_u": _per(1, "n_bodies"),
+    "body_nq": _per(1, "n_bodies"),
+    "body_nu": _per(1, "n_bodies"),
+    "body_function": _per(1, "n_bodies"),
+    "body_parameters": _per(1, "n_bodies"),
+    "body_out": _per(1, "n_bodies"),
+    "body_quaternion": _per(1, "n_bodies"),
+    "body_a": _per(1, "n_contacts"),
+    "body_b": _per(1, "n_contacts"),
+    "geometry_function": _per(1, "n_contacts"),
+    "geometry_parameters": _per(1, "n_contacts"),
+    "friction_function": _per(1, "n_contacts"),
+    "friction_parameters": _per(1, "n_contacts"),
+    "force_function": _per(1, "n_contacts"),
+    "force_parameters": _per(1, "n_contacts"),
+    "efficiency_function": _per(1, "n_contacts"),
+    "efficiency_parameters": _per(1, "n_contacts"),
+    "map_parameters": _per(1, "n_contacts"),
+    "jacobian_a": _per(1, "n_contacts"),
+    "jacobian_b": _per(1, "n_contacts"),
+    "response_a": _per(1, "n_contacts"),
+    "response_b": _per(1, "n_contacts"),
+    "mode": _per(1, "n_contacts"),
+    "code_before": _per(1, "n_contacts"),
+    "code_during": _per(1, "n_contacts"),
+    "mode_tried": _per(1, "n_contacts"),
+    "touching": _per(1, "n_contacts"),
+    "impacting": _per(1, "n_contacts"),
+    "active": _per(1, "n_contacts"),
+    "normal_held": _per(1, "n_contacts"),
+    "tangent_held": _per(1, "n_contacts"),
+    "at_rest": _per(1, "n_contacts"),
+    "redundant": _per(1, "n_contacts"),
+    "column": _per(3, "n_contacts"),
+    "phase": _per(1, "n_contacts"),
+    "armed": _per(3, "n_contacts"),
+    "guard_armed": _per(2, "n_contacts"),
+    "guard_deflated": _per(2, "n_contacts"),
+    "event_codes": lambda n: n["event_capacity"] * (3 + n["n_contacts"]),
+}
+
+SCALARS = np.dtype(
+    [(name, "i8") for name in INTEGER_SCALARS]
+    + [(name, "f8") for name in FLOAT_SCALARS]
+    + [(name, "i8") for name in (*_FLOAT_ARRAYS, *_INTEGER_ARRAYS)],
+    align=True,
+)
+"""The record ``S``."""
+
+
+@dataclass(frozen=True)
+class Memory:
+    """Scalars and heaps of one trajectory.
+
+    Attributes
+    ----------
+    scalars : numpy.ndarray
+        The record ``S``, shape [1].
+    floats : numpy.ndarray
+        The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
+    integers : numpy.ndarray
+        The heap ``k``.
+    """
+
+    scalars: np.ndarray
+    floats: np.ndarray
+    integers: np.ndarray
+
+    def array(self, name: str, size: int) -> np.ndarray:
+        """Return a view of ``size`` entries of the named array."""
+        heap = self.floats if name in _FLOAT_ARRAYS else self.integers
+        start = int(self.scalars[0][name])
+        return heap[start : start + size]
+
+
+def allocate(counts: Mapping[str, int], extra: int) -> Memory:
+    """Lay out the arrays for the given counts, with ``extra`` floats appended to the float heap.
+
+    Parameters
+    ----------
+    counts : mapping of str to int
+        n_bodies, n_contacts, n_q, n_u, n_y, map_width, event_capacity, event_width, sample_capacity.
+    extra : int
+        Floats for body blocks, Jacobians and parameters; they start at ``Memory.floats[-extra:]``.
+    """
+    scalars = np.zeros(1, SCALARS)
+    totals: list[int] = []
+    for table in (_FLOAT_ARRAYS, _INTEGER_ARRAYS):
+        total = 0
+        for name, size in table.items():
+            scalars[name] = total
+            total += size(counts)
+        totals.append(total)
+    for name, value in counts.items():
+        scalars[name] = value
+    memory = Memory(scalars, np.zeros(totals[0] + max(extra, 1)), np.zeros(max(totals[1], 1), np.int64))
+    memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
+    memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
+    memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
+    return memory

@@ -1,0 +1,145 @@
+"""Typed, unit-carrying parameters of components: declared once, checked, described, printed."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, get_type_hints
+
+from nonsmooth.errors import InvalidInput, UnknownName
+
+
+class UnusualValue(UserWarning):
+    """A parameter that is allowed, but of an order of magnitude that suggests a wrong unit."""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What is known of one parameter.
+
+    Attributes
+    ----------
+    doc : str
+        One line that says what it is.
+    unit : str
+        SI unit, "1" for a pure number, "" for a name.
+    minimum, maximum : float
+        Bounds that belong to the allowed range.
+    above : float
+        Bound that does not.
+    usual : tuple of float
+        Range outside of which a warning asks whether the unit is right.
+    choices : tuple of str
+        Allowed words.
+    assumed : bool
+        True where the source does not give the value and we chose it.
+    """
+
+    doc: str
+    unit: str = "1"
+    minimum: float = -math.inf
+    maximum: float = math.inf
+    above: float = -math.inf
+    usual: tuple[float, float] = (0.0, math.inf)
+    choices: tuple[str, ...] = ()
+    assumed: bool = False
+
+    def describe(self) -> str:
+        """Return the allowed range in words."""
+        if self.choices:
+            return "one of " + ", ".join(self.choices)
+        parts = []
+        if self.above > -math.inf:
+            parts.append(f"> {self.above:g}")
+        if self.minimum > -math.inf:
+            parts.append(f">= {self.minimum:g}")
+        if self.maximum < math.inf:
+            parts.append(f"<= {self.maximum:g}")
+        return " and ".join(parts) or "any finite number"
+
+
+def parameter(default: Any = dataclasses.MISSING, *, doc: str, unit: str = "1", **rule: Any) -> Any:
+    """Declare a dataclass field as a parameter; see :class:`Rule` for the keywords."""
+    return dataclasses.field(default=default, metadata={"rule": Rule(doc, unit, **rule)})
+
+
+def rules(owner: type) -> dict[str, tuple[dataclasses.Field[Any], Rule]]:
+    """Return the declared parameters of a component class by name."""
+    return {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}
+
+
+def check_number(thing: str, value: Any, rule: Rule) -> None:
+    """Raise InvalidInput unless ``value`` is a finite number within the rule; warn if it is unusual."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{rule.unit}].")
+    if value < rule.minimum or value > rule.maximum or value <= rule.above:
+        raise InvalidInput(
+            thing, f"must be {rule.describe()} [{rule.unit}]", value, f"It is the {rule.doc}."
+        )
+    low, high = rule.usual
+    if value != 0.0 and not low <= abs(value) <= high:
+        warnings.warn(
+            f"{thing} = {value:g} [{rule.unit}] is outside the usual range {low:g} to {high:g}. "
+            "Units are SI: is the order of magnitude meant?",
+            UnusualValue,
+            stacklevel=4,
+        )
+
+
+class Component:
+    """Base of everything that has parameters: checks them when it is made."""
+
+    def __post_init__(self) -> None:
+        for name, (field, rule) in rules(type(self)).items():
+            value = getattr(self, name)
+            thing = f"{type(self).__name__}.{name}"
+            if value is None and field.default is None:
+                continue
+            if rule.choices and value not in rule.choices:
+                raise UnknownName(thing, str(value), rule.choices)
+            if rule.unit != "":
+                check_number(thing, value, rule)
+        self._check()
+
+    def _check(self) -> None:
+        """Check what no single parameter can tell; nothing by default."""
+
+    def parameters(self) -> dict[str, float]:
+        """Return the numbers that the component's compiled functions may ask for, by name."""
+        numbers = {}
+        for name, (_, rule) in rules(type(self)).items():
+            if rule.unit != "" and getattr(self, name) is not None:
+                numbers[name] = float(getattr(self, name))
+        return numbers
+
+
+def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, Any]:
+    """Turn ``name=value`` words of the command line into parameters of ``owner``.
+
+    Raises
+    ------
+    UnknownName
+        If a name is not a parameter.
+    InvalidInput
+        If a value is not of the parameter's type.
+    """
+    known = rules(owner)
+    hints = get_type_hints(owner)
+    values: dict[str, Any] = {}
+    for name, word in words.items():
+        if name not in known:
+            raise UnknownName(f"parameter of {kind}", name, known)
+        rule = known[name][1]
+        if rule.unit == "" or hints[name] is str:
+            values[name] = word
+            continue
+        try:
+            values[name] = float(word)
+        except ValueError:
+            raise InvalidInput(
+                f"{kind}.{name}", "must be a number", word, f"Give it in [{rule.unit}], for example {name}=1.0."
+            ) from None
+    return values

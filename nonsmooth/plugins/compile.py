@@ -1,0 +1,82 @@
+"""From a plain Python function with named parameters to an address that the engine calls."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from nonsmooth.engine.kernel import COMPILATION_ERRORS, address_of, at, jit
+from nonsmooth.errors import PluginError, UnknownName
+
+ROLES = {
+    "scalar": ("x",),
+    "body": ("t", "q", "u", "out"),
+    "pair": ("a", "b", "out"),
+    "map": ("n", "delassus", "rates", "out"),
+}
+"""What the engine passes to a function of each form, before the function's own parameters."""
+
+_SHIMS = {
+    "scalar": "def shim(x, p): return law(x{unpacked})",
+    "body": "def shim(t, q, u, p, out): law(t, q, u, out{unpacked})",
+    "pair": "def shim(a, b, p, out): law(a, b, out{unpacked})",
+    "map": "def shim(n, delassus, rates, p, out): law(n, delassus, rates, out{unpacked})",
+}
+
+
+def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
+    """Return the names of a function's own parameters, in order."""
+    return tuple(inspect.signature(function).parameters)[len(ROLES[form]) :]
+
+
+def bind(
+    function: Callable[..., Any], form: str, values: Mapping[str, float], owner: str
+) -> tuple[int, tuple[float, ...]]:
+    """Compile a law function and pick its parameters out of ``values`` by name.
+
+    Parameters
+    ----------
+    function : callable
+        A plain function whose first arguments are those of ``ROLES[form]``.
+    form : str
+        "scalar", "body", "pair" or "map".
+    values : mapping of str to float
+        The parameters that the law's object and its surroundings offer.
+    owner : str
+        The law, for messages.
+
+    Returns
+    -------
+    tuple of int and tuple of float
+        The address and the parameters in the order of the function's signature.
+
+    Raises
+    ------
+    UnknownName
+        If the function asks for a parameter that nobody gives.
+    PluginError
+        If the function cannot be compiled.
+    """
+    names = parameter_names(function, form)
+    for name in names:
+        if name not in values:
+            raise UnknownName(f"{owner}: {function.__qualname__} asks for a parameter whose", name, values)
+    return _address(function, form, owner), tuple(float(values[name]) for name in names)
+
+
+@functools.cache
+def _address(function: Callable[..., Any], form: str, owner: str) -> int:
+    names = parameter_names(function, form)
+    item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
+    unpacked = "".join(", " + item.format(i) for i in range(len(names)))
+    scope: dict[str, Any] = {"law": jit(function), "at": at}
+    exec(_SHIMS[form].format(unpacked=unpacked), scope)  # the shim's text is ours, never the user's
+    try:
+        return address_of(scope["shim"], form)
+    except COMPILATION_ERRORS as error:
+        raise PluginError(
+            f"{owner}: {function.__qualname__}({', '.join(ROLES[form] + names)}) cannot be compiled. "
+            f"Run with NONSMOOTH_PLAIN=1 to debug it as plain Python. {error}"
+        ) from error

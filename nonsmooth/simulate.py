@@ -1,0 +1,154 @@
+"""Run a system: the loop that feeds the engine, empties its buffers and reports progress."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.modes import DONE, PAUSED, REASONS
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.model.assembly import Model, assemble
+from nonsmooth.model.options import Options
+from nonsmooth.plugins.diagnose import culprit
+from nonsmooth.solution.energy import EnergyAccount
+from nonsmooth.solution.events import Events
+from nonsmooth.solution.solution import Counters, Solution
+from nonsmooth.system.system import System
+
+_STEPS_AT_ONCE = 2000
+_DEFAULT_SAMPLES = 2000
+Progress = Callable[[float, float], None]
+
+
+def simulate(
+    system: System,
+    t_end: float,
+    *,
+    sample_interval: float | None = None,
+    options: Options | None = None,
+    progress: Progress | None = None,
+) -> Solution:
+    """Simulate a system from t = 0.
+
+    Parameters
+    ----------
+    system : System
+        Bodies, contacts, starts.
+    t_end : float
+        End time [s].
+    sample_interval : float, optional
+        Time between stored samples [s]; t_end / 2000 by default.  Events are stored exactly in any case.
+    options : Options, optional
+        Tolerances.
+    progress : callable, optional
+        Called now and then with the time reached and the end time [s].
+
+    Returns
+    -------
+    Solution
+        With status "done", or "interrupted" after Ctrl-C.
+
+    Raises
+    ------
+    InvalidInput
+        If the start or a number is not valid; nothing has run then.
+    RunFailed
+        If the run cannot go on; its ``solution`` holds what was computed.
+    """
+    interval = t_end / _DEFAULT_SAMPLES if sample_interval is None else sample_interval
+    for name, value in (("t_end", t_end), ("sample_interval", interval)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise InvalidInput(f"simulate: {name}", "must be positive and finite", value, "Give it in [s].")
+    model = assemble(system, options or Options())
+    model.memory.scalars["t_end"] = t_end
+    model.memory.scalars["sample_interval"] = interval
+    return _run(model, progress)
+
+
+def _run(model: Model, progress: Progress | None) -> Solution:
+    scalars = model.memory.scalars
+    start = model.energy()
+    rows: list[np.ndarray] = []
+    codes: list[np.ndarray] = []
+    samples: list[np.ndarray] = []
+    began = time.perf_counter()
+    status, word = PAUSED, "done"
+    try:
+        while status == PAUSED:
+            status = int(call_room("advance", model.memory, _STEPS_AT_ONCE))
+            _drain(model, rows, codes, samples)
+            if progress is not None:
+                progress(float(scalars["t"][0]), float(scalars["t_end"][0]))
+    except KeyboardInterrupt:
+        _drain(model, rows, codes, samples)
+        word = "interrupted"
+    if status not in (DONE, PAUSED):
+        word = "failed"
+    message = REASONS[status]
+    if word == "failed":
+        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {culprit(model, status)}".strip()
+    wall = time.perf_counter() - began
+    solution = _solution(model, start, rows, codes, samples, word, message, wall)
+    if word == "failed":
+        raise RunFailed(f"{message} What was computed is in the error's `solution`.", solution)
+    return solution
+
+
+def _drain(
+    model: Model, rows: list[np.ndarray], codes: list[np.ndarray], samples: list[np.ndarray]
+) -> None:
+    scalars, memory = model.memory.scalars, model.memory
+    n_events, n_samples = int(scalars["n_events"][0]), int(scalars["n_samples"][0])
+    width = model.n_y + 1
+    rows.append(memory.array("events", n_events * model.event_width).reshape(n_events, -1).copy())
+    codes.append(memory.array("event_codes", n_events * model.code_width).reshape(n_events, -1).copy())
+    samples.append(memory.array("samples", n_samples * width).reshape(n_samples, width).copy())
+    scalars["n_events"] = scalars["n_samples"] = 0
+
+
+def _solution(
+    model: Model,
+    start: tuple[float, float],
+    rows: list[np.ndarray],
+    codes: list[np.ndarray],
+    samples: list[np.ndarray],
+    word: str,
+    message: str,
+    wall: float,
+) -> Solution:
+    memory, scalars = model.memory, model.memory.scalars
+    n_q, n_u = model.n_q, model.n_u
+    table = np.concatenate([s.reshape(-1, model.n_y + 1) for s in samples])
+    all_rows = np.concatenate([r.reshape(-1, model.event_width) for r in rows])
+    all_codes = np.concatenate([c.reshape(-1, model.code_width) for c in codes])
+    y = memory.array("y", model.n_y).copy()
+    end = model.energy()
+    energy = EnergyAccount(
+        *start,
+        *end,
+        driven_work=float(scalars["driven_work"][0]) + float(y[n_q + n_u]),
+        restitution_loss=float(scalars["restitution_loss"][0]),
+        friction_loss=float(scalars["friction_loss"][0]) + float(y[n_q + n_u + 1]),
+        closing_loss=float(scalars["closing_loss"][0]),
+    )
+    counters = Counters(
+        *(int(scalars[name][0]) for name in ("steps", "rejected", "impacts", "impact_steps")), wall_seconds=wall
+    )
+    return Solution(
+        model.system,
+        table[:, 0],
+        table[:, 1 : 1 + n_q],
+        table[:, 1 + n_q : 1 + n_q + n_u],
+        Events.from_rows(all_rows, all_codes, len(model.system.contacts), n_q, n_u),
+        energy,
+        counters,
+        float(scalars["t"][0]),
+        y[:n_q],
+        y[n_q : n_q + n_u],
+        word,
+        message,
+    )

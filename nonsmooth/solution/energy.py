@@ -1,0 +1,57 @@
+"""The energy account of a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class EnergyAccount:
+    """Where the energy went [J].
+
+    Attributes
+    ----------
+    kinetic_start, potential_start, kinetic_end, potential_end : float
+        Energies of the free bodies.
+    driven_work : float
+        Work that the driven bodies did on the others.
+    restitution_loss, friction_loss, closing_loss : float
+        Losses in impacts, to friction in impacts and sustained slip, and in closing steps and projections.
+    """
+
+    kinetic_start: float
+    potential_start: float
+    kinetic_end: float
+    potential_end: float
+    driven_work: float
+    restitution_loss: float
+    friction_loss: float
+    closing_loss: float
+
+    @property
+    def change(self) -> float:
+        """Change of kinetic and potential energy [J]."""
+        return self.kinetic_end + self.potential_end - self.kinetic_start - self.potential_start
+
+    @property
+    def loss(self) -> float:
+        """All losses [J]."""
+        return self.restitution_loss + self.friction_loss + self.closing_loss
+
+    @property
+    def exchanged(self) -> float:
+        """Energy that changed its form in the run [J]."""
+        return (
+            abs(self.driven_work)
+            + abs(self.restitution_loss)
+            + abs(self.friction_loss)
+            + abs(self.closing_loss)
+            + abs(self.kinetic_end - self.kinetic_start)
+            + abs(self.potential_end - self.potential_start)
+        )
+
+    @property
+    def residual(self) -> float:
+        """What the account does not explain, relative to the energy exchanged."""
+        unexplained = abs(self.change - self.driven_work + self.loss)
+        return unexplained / self.exchanged if self.exchanged > 0.0 else unexplained

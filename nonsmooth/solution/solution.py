@@ -1,0 +1,124 @@
+"""Solution: everything that a run computed, and why it stopped."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.interfaces import Body
+from nonsmooth.solution.energy import EnergyAccount
+from nonsmooth.solution.events import Events, words
+from nonsmooth.system.system import System
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True)
+class Counters:
+    """What the run cost.
+
+    Attributes
+    ----------
+    steps, rejected : int
+        Accepted and rejected steps of the flow.
+    impacts, impact_steps : int
+        Impacts and the steps taken inside them.
+    wall_seconds : float
+        Wall time of the engine [s].
+    """
+
+    steps: int
+    rejected: int
+    impacts: int
+    impact_steps: int
+    wall_seconds: float
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The result of a run.
+
+    Attributes
+    ----------
+    system : System
+        What was simulated.
+    t : array
+        Times of the samples [s], shape [n].
+    q, u : array
+        Coordinates and velocities at the samples, shapes [n, n_q] and [n, n_u].
+    events : Events
+        All events.
+    energy : EnergyAccount
+        The energy account.
+    counters : Counters
+        Steps and times.
+    t_end : float
+        Time that the run reached [s].
+    q_end, u_end : array
+        State at that time.
+    status : str
+        "done", "interrupted" or "failed".
+    message : str
+        Why it stopped.
+    """
+
+    system: System
+    t: NDArray[np.float64]
+    q: NDArray[np.float64]
+    u: NDArray[np.float64]
+    events: Events
+    energy: EnergyAccount
+    counters: Counters
+    t_end: float
+    q_end: NDArray[np.float64]
+    u_end: NDArray[np.float64]
+    status: str
+    message: str
+
+    @property
+    def modes(self) -> dict[str, float]:
+        """Share of the time spent in each mode word; impacts are listed with 0, as they take no time."""
+        shares: dict[str, float] = {}
+        if len(self.events) == 0:
+            return shares
+        durations = np.diff(np.append(self.events.time, self.t_end))
+        total = float(durations.sum())
+        for word, duration in zip(self.events.words("after"), durations, strict=True):
+            shares[word] = shares.get(word, 0.0) + (float(duration) / total if total > 0.0 else 0.0)
+        for word in self.events.words("during"):
+            shares.setdefault(word, 0.0)
+        return dict(sorted(shares.items(), key=lambda item: -item[1]))
+
+    def transitions(self) -> list[tuple[float, str, str, str, str]]:
+        """Return (time [s], cause, mode before, mode during, mode after) of every event."""
+        columns = (self.events.words(which) for which in ("before", "during", "after"))
+        return list(zip(self.events.time.tolist(), self.events.causes(), *columns, strict=True))
+
+    def of(self, body: Body) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the samples of q and u of one body, shapes [n, body.n_q] and [n, body.n_u]."""
+        i_q, i_u = self.offsets(body)
+        return self.q[:, i_q : i_q + body.n_q], self.u[:, i_u : i_u + body.n_u]
+
+    def offsets(self, body: Body) -> tuple[int, int]:
+        """Return where the coordinates and the velocities of a body begin."""
+        i_q = i_u = 0
+        for other in self.system.bodies:
+            if other is body:
+                return i_q, i_u
+            i_q, i_u = i_q + other.n_q, i_u + other.n_u
+        raise KeyError(f"{body!r} is not in this system")
+
+    def mode_words(self, times: NDArray[np.float64]) -> list[str]:
+        """Return the mode word that holds just after each of the times [s]."""
+        index = np.clip(np.searchsorted(self.events.time, times, side="right") - 1, 0, None)
+        return words(self.events.after[index])
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return samples and events as one dataset with units."""
+        from nonsmooth.solution.files import to_dataset
+
+        return to_dataset(self)

@@ -1,0 +1,1 @@
+"""What the user writes: bodies, contacts, laws, starts."""

@@ -1,0 +1,174 @@
+"""System: what the user wrote, in objects, completely validated."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess, NormalLaw, Shape
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import Rule, check_number
+from nonsmooth.plugins import registry
+from nonsmooth.system.contact import Contact
+
+_LARGEST_GRAVITY = 1e4
+
+
+class System:
+    """Bodies, contacts with their laws, and where everything starts.
+
+    Parameters
+    ----------
+    bodies : sequence of Body
+        The bodies; each object once.
+    gravity : float
+        Gravity along -z [m/s^2].
+
+    Raises
+    ------
+    InvalidInput
+        If there is no body, one is listed twice or is not a Body, or gravity is not finite.
+    """
+
+    def __init__(self, bodies: Sequence[Body], gravity: float = 9.81) -> None:
+        for body in bodies:
+            if not isinstance(body, Body):
+                raise InvalidInput("System.bodies", "must contain bodies only", body, "Give Body objects.")
+        if len({id(body) for body in bodies}) != len(bodies) or not bodies:
+            raise InvalidInput(
+                "System.bodies",
+                "must be at least one body, each once",
+                [type(b).__name__ for b in bodies],
+                "Make a new object for another body of the same kind.",
+            )
+        check_number("System.gravity", gravity, Rule("gravity along -z", "m/s^2", -_LARGEST_GRAVITY, _LARGEST_GRAVITY))
+        self._bodies = tuple(bodies)
+        self._gravity = float(gravity)
+        self._contacts: list[Contact] = []
+        self._starts: dict[int, tuple[Vector, Vector]] = {id(body): body.state() for body in bodies}
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """The bodies, in the order given."""
+        return self._bodies
+
+    @property
+    def gravity(self) -> tuple[float, float, float]:
+        """Gravity vector [m/s^2]."""
+        return 0.0, 0.0, -self._gravity
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The potential contacts, in the order declared."""
+        return tuple(self._contacts)
+
+    def start(self, body: Body) -> tuple[Vector, Vector]:
+        """Return q and u of a body at t = 0."""
+        return self._starts[id(body)]
+
+    def place(self, body: Body, **start: Any) -> None:
+        """Say where a body starts; the words are those of its ``state``."""
+        self._require(body, "System.place")
+        self._starts[id(body)] = body.state(**start)
+
+    def contact(
+        self, first: Body, second: Body, *, normal: NormalLaw, friction: FrictionLaw, impact: ImpactLaw
+    ) -> tuple[Contact, ...]:
+        """Let two bodies touch: one contact per pair of their shapes, all with the same laws.
+
+        Returns
+        -------
+        tuple of Contact
+            The contacts added.
+
+        Raises
+        ------
+        InvalidInput
+            If a body is not of this system, a law is missing or of the wrong kind, no kinematics is known
+            for a pair of shapes, or the impact law is of another kind than that of the other contacts.
+        """
+        self._require(first, "System.contact")
+        self._require(second, "System.contact")
+        for law, kind in ((normal, NormalLaw), (friction, FrictionLaw), (impact, ImpactLaw)):
+            if not isinstance(law, kind):
+                raise InvalidInput("System.contact", f"needs a {kind.__name__}", law, "See `nonsmooth list laws`.")
+        if not isinstance(impact, (ImpactProcess, ImpactMap)):
+            raise InvalidInput(
+                "System.contact", "needs an ImpactProcess or ImpactMap", impact, "Subclass one of the two."
+            )
+        if self._contacts and not _same_kind(impact, self._contacts[0].impact):
+            raise InvalidInput(
+                "System.contact",
+                f"needs an impact law of the kind of {type(self._contacts[0].impact).__name__}",
+                type(impact).__name__,
+                "An impact owns the whole colliding set: give all contacts laws of one kind.",
+            )
+        if first is second:
+            raise InvalidInput(
+                "System.contact", "needs two different bodies", type(first).__name__, "Name the other body."
+            )
+        added = []
+        for a in first.shapes:
+            for b in second.shapes:
+                added += self._pair(first, a, second, b, normal, friction, impact)
+        self._contacts += added
+        return tuple(added)
+
+    def _pair(
+        self,
+        first: Body,
+        a: Shape,
+        second: Body,
+        b: Shape,
+        normal: NormalLaw,
+        friction: FrictionLaw,
+        impact: ImpactLaw,
+    ) -> list[Contact]:
+        known = registry.load_all("kinematics").values()
+        number = len(self._contacts)
+        for kinematics in known:
+            for one, shape_one, two, shape_two in ((first, a, second, b), (second, b, first, a)):
+                if kinematics.pair == (type(shape_one), type(shape_two)):
+                    return [
+                        Contact(
+                            f"contact of {type(one).__name__} and {type(two).__name__} (from number {number + 1})",
+                            one,
+                            two,
+                            geometry,
+                            normal,
+                            friction,
+                            impact,
+                        )
+                        for geometry in kinematics.between(shape_one, shape_two)
+                    ]
+        pairs = sorted(f"{k.pair[0].__name__}-{k.pair[1].__name__}" for k in known)
+        raise InvalidInput(
+            "System.contact",
+            "needs shapes whose contact kinematics is known",
+            f"{type(a).__name__}-{type(b).__name__}",
+            f"Known pairs: {', '.join(pairs)}.",
+        )
+
+    def _require(self, body: Body, where: str) -> None:
+        if id(body) not in self._starts:
+            raise InvalidInput(where, "needs a body of this system", body, "Add it to System([...]) first.")
+
+    @property
+    def time_scale(self) -> float:
+        """Shortest time over which prescribed motion changes [s]."""
+        return min((body.time_scale for body in self._bodies), default=math.inf)
+
+    @property
+    def n_degrees(self) -> int:
+        """Number of velocities of all bodies."""
+        return int(np.sum([body.n_u for body in self._bodies]))
+
+
+def _same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:
+    if isinstance(one, ImpactProcess):
+        return isinstance(other, ImpactProcess)
+    return type(one) is type(other)
