@@ -13,10 +13,6 @@ from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import component_error, stage_state
 from nonsmooth.model.layout import FRAME
 
-_CROSSING = 1e-12
-"""Below this slip speed [m/s] the direction at the start of the step holds."""
-
-
 @kernel("void(S, F, I, f8, i8)")
 def right_hand_side(S, w, k, t, y):
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``."""
@@ -43,18 +39,21 @@ def right_hand_side(S, w, k, t, y):
 
 @kernel("void(S, F, I, i8)")
 def _set_friction(S, w, k, a):
-    """Set what is held and the slip direction, continued smoothly through a reversal within the step."""
+    """Set what is held and the slip direction, continued smoothly through a reversal within the step.
+
+    Where the slip is too slow to have a direction of its own, that at the start of the step holds.
+    """
     c = k[S.active + a]
     k[S.normal_held + a] = 1
-    w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
     if k[S.mode + c] == STICK:
+        w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
         k[S.tangent_held + a] = 1
         return
     k[S.tangent_held + a] = 0
     d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
     v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
     speed = math.sqrt(v1 * v1 + v2 * v2)
-    if speed > _CROSSING:
+    if speed > S.velocity_tolerance:
         sign = 1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0
         d1, d2 = sign * v1 / speed, sign * v2 / speed
     w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2

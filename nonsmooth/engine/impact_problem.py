@@ -120,8 +120,14 @@ def _break_away(S, w, k, a):
 
 @kernel("void(S, F, I, i8)")
 def _evaluate_guards(S, w, k, y):
-    """Write the three guards of every active contact: rate, energy, friction; all of order 1."""
+    """Evaluate the forces at the impact state ``y`` and write the guards."""
     evaluate_impact_forces(S, w, k, y)
+    _write_guards(S, w, k, y)
+
+
+@kernel("void(S, F, I, i8)")
+def _write_guards(S, w, k, y):
+    """Write the three guards of every active contact: rate, energy, friction; all of order 1."""
     evaluate_margins(S, w, k)
     for a in range(S.n_active):
         c = k[S.active + a]
@@ -164,8 +170,9 @@ def _fired(S, w, k, but):
 
 @kernel()
 def _arm(S, w, k):
-    """Arm the guards that are positive now."""
+    """Arm the guards that are positive now, where the next step starts."""
     for i in range(3 * S.n_active):
+        w[S.impact_guard_first + i] = w[S.impact_guard + i]
         if w[S.impact_guard + i] > 0.0:
             k[S.armed + i] = 1
 
@@ -177,47 +184,54 @@ def _guard_at(S, w, k, h, theta, i):
     return w[S.impact_guard + i]
 
 
-@kernel("f8(S, F, I, f8, f8, i8)")
-def _root(S, w, k, h, high, i):
-    """Return the fraction of the step at which guard ``i`` vanishes, by Illinois on the interpolant."""
-    low = 0.0
-    g_low, g_high = _guard_at(S, w, k, h, 0.0, i), _guard_at(S, w, k, h, high, i)
+@kernel("f8(S, F, I, f8, f8, f8, i8)")
+def _root(S, w, k, h, high, g_high, i):
+    """Return the fraction of the step at which guard ``i`` vanishes on the interpolant (Anderson-Bjorck).
+
+    The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``.
+    """
+    low, g_low = 0.0, w[S.impact_guard_first + i]
     if g_low <= 0.0:
+        S.guard_slope = 0.0
         return 1e-3 * high
+    theta = high
     for _iteration in range(60):
+        S.guard_slope = (g_high - g_low) / ((high - low) * h)
         theta = high - g_high * (high - low) / (g_high - g_low)
         g = _guard_at(S, w, k, h, theta, i)
         if abs(g) <= 1e-13 or high - low <= 1e-14:
             return theta
         if g < 0.0:
+            ratio = 1.0 - g / g_high
+            g_low *= ratio if ratio > 0.0 else 0.5
             high, g_high = theta, g
-            g_low *= 0.5
         else:
+            ratio = 1.0 - g / g_low
+            g_high *= ratio if ratio > 0.0 else 0.5
             low, g_low = theta, g
-            g_high *= 0.5
-    return high
+    return theta
 
 
-@kernel("f8(S, F, I, f8, f8)")
-def _locate(S, w, k, h, high):
-    """Return the step that ends at the first guard to fire before the fraction ``high``; keep it in ``trigger``."""
-    _guard_at(S, w, k, h, high, 0)
+@kernel("f8(S, F, I, f8)")
+def _locate(S, w, k, h):
+    """Return the step that ends at the first guard to fire within ``h``; keep the guard in ``trigger``.
+
+    Called with the guards evaluated at the end of the step.
+    """
+    theta = 1.0
     first = _fired(S, w, k, -1)
-    theta = high
     while first >= 0:
         S.trigger = first
-        theta = _root(S, w, k, h, theta, first)
-        _guard_at(S, w, k, h, theta, 0)
+        theta = _root(S, w, k, h, theta, w[S.impact_guard + first], first)
         first = _fired(S, w, k, first)
     i = S.trigger
-    g = _guard_at(S, w, k, h, theta, i)
-    slope = (g - _guard_at(S, w, k, h, 0.99 * theta, i)) / (0.01 * theta * h)
     step = theta * h
+    slope = S.guard_slope
     for _iteration in range(3):
         # the interpolant is of lower order than the step: correct on the step itself
         try_impact_step(S, w, k, step)
         S.impact_steps += 1
-        _evaluate_guards(S, w, k, S.impact_new)
+        _write_guards(S, w, k, S.impact_new)
         g = w[S.impact_guard + i]
         if abs(g) <= 1e-13 or not slope < 0.0:
             break
@@ -345,12 +359,12 @@ def energetic_impact(S, w, k):
         k[S.armed + i] = 0
     _evaluate_guards(S, w, k, S.impact_y)
     _arm(S, w, k)
+    impact_slope(S, w, k, S.impact_y, S.impact_slopes)
     h = shortest * (0.25 if m == 1 else S.impact_rtol**0.4)
     for _step in range(_MOST_STEPS):
         if _finished(S, w, k) == 1:
             _finish(S, w, k)
             return FINISHED
-        impact_slope(S, w, k, S.impact_y, S.impact_slopes)
         error = try_impact_step(S, w, k, h)
         S.impact_steps += 1
         if not error <= 1.0:
@@ -359,23 +373,21 @@ def energetic_impact(S, w, k):
             h *= step_factor(error) if error < _UNUSED else 0.1
             continue
         grown = h * step_factor(error)
-        high = 0.0
-        _guard_at(S, w, k, h, 0.5, 0)
-        if _fired(S, w, k, -1) >= 0:
-            high = 0.5
-        else:
-            _evaluate_guards(S, w, k, S.impact_new)
-            if _fired(S, w, k, -1) >= 0:
-                high = 1.0
-        if high > 0.0:
-            _locate(S, w, k, h, high)
+        # the last stage has left the forces at the end of the step
+        _write_guards(S, w, k, S.impact_new)
+        fired = 1 if _fired(S, w, k, -1) >= 0 else 0
+        if fired == 1:
+            _locate(S, w, k, h)
             grown = max(h, shortest * S.impact_rtol**0.4)
         for i in range(n):
             w[S.impact_y + i] = w[S.impact_new + i]
-        if high > 0.0:
+        if fired == 1:
             _switch(S, w, k, 1e-2 * shortest)
+            impact_slope(S, w, k, S.impact_y, S.impact_slopes)
         else:
             _arm(S, w, k)
+            for i in range(n):
+                w[S.impact_slopes + i] = w[S.impact_slopes + 6 * n + i]
         h = grown
     return ENDLESS
 

@@ -23,7 +23,7 @@ def evaluate_bodies(S, w, k, t, y):
 
 @kernel("void(S, F, I, i8)")
 def evaluate_geometry(S, w, k, c):
-    """Write gap, normal, tangent, witness points and curvature of contact ``c``."""
+    """Write gap, witness points, curvature and the axes n, t1, t2 of contact ``c``."""
     call_pair(
         k[S.geometry_function + c],
         at(w, k[S.body_out + k[S.body_a + c]]),
@@ -31,6 +31,13 @@ def evaluate_geometry(S, w, k, c):
         at(w, k[S.geometry_parameters + c]),
         at(w, S.geometry + GEOMETRY * c),
     )
+    n = S.axes + 9 * c
+    t = n + 3
+    for i in range(6):
+        w[n + i] = w[S.geometry + GEOMETRY * c + 1 + i]
+    w[n + 6] = w[n + 1] * w[t + 2] - w[n + 2] * w[t + 1]
+    w[n + 7] = w[n + 2] * w[t] - w[n] * w[t + 2]
+    w[n + 8] = w[n] * w[t + 1] - w[n + 1] * w[t]
 
 
 @kernel("f8(F, i8, i8, i8)")
@@ -46,25 +53,12 @@ def _point_speed(w, frame, point, axis):
 
 
 @kernel("void(S, F, I, i8)")
-def _second_tangent(S, w, k, c):
-    """Write n x t1 behind the axes n, t1 in the scratch ``small``."""
-    geometry = S.geometry + GEOMETRY * c
-    for i in range(6):
-        w[S.small + i] = w[geometry + 1 + i]
-    n, t = S.small, S.small + 3
-    w[S.small + 6] = w[n + 1] * w[t + 2] - w[n + 2] * w[t + 1]
-    w[S.small + 7] = w[n + 2] * w[t] - w[n] * w[t + 2]
-    w[S.small + 8] = w[n] * w[t + 1] - w[n + 1] * w[t]
-
-
-@kernel("void(S, F, I, i8)")
 def evaluate_rates(S, w, k, c):
     """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
-    _second_tangent(S, w, k, c)
     point = S.geometry + GEOMETRY * c + 7
     a, b = k[S.body_out + k[S.body_a + c]], k[S.body_out + k[S.body_b + c]]
     for r in range(3):
-        axis = S.small + 3 * r
+        axis = S.axes + 9 * c + 3 * r
         w[S.rate + 3 * c + r] = _point_speed(w, b, point + 3, axis) - _point_speed(w, a, point, axis)
 
 
@@ -108,13 +102,12 @@ def inverse_mass(S, w, k, body):
 @kernel("void(S, F, I, i8, i8)")
 def evaluate_jacobian(S, w, k, c, y):
     """Write W^T and N^T of contact ``c`` (rows n, t1, t2), M^-1 times them, and the prescribed rates."""
-    _second_tangent(S, w, k, c)
     point = S.geometry + GEOMETRY * c + 7
     a, b = k[S.body_a + c], k[S.body_b + c]
     n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
     j_a, j_b = k[S.jacobian_a + c], k[S.jacobian_b + c]
-    _side_jacobian(w, k[S.body_out + a], point, S.small, n_a, j_a, -1.0)
-    _side_jacobian(w, k[S.body_out + b], point + 3, S.small, n_b, j_b, 1.0)
+    _side_jacobian(w, k[S.body_out + a], point, S.axes + 9 * c, n_a, j_a, -1.0)
+    _side_jacobian(w, k[S.body_out + b], point + 3, S.axes + 9 * c, n_b, j_b, 1.0)
     _side_response(w, j_a, inverse_mass(S, w, k, a), n_a, k[S.response_a + c])
     _side_response(w, j_b, inverse_mass(S, w, k, b), n_b, k[S.response_b + c])
     u_a, u_b = y + S.n_q + k[S.body_u + a], y + S.n_q + k[S.body_u + b]
@@ -151,9 +144,9 @@ def evaluate_bias(S, w, k, c):
     relative turning of the bodies and d their relative velocity at the witness points, both in the
     tangent plane (physics of general shapes; for plane and sphere it gives the S terms of Eq. (13)).
     """
-    _second_tangent(S, w, k, c)
     geometry = S.geometry + GEOMETRY * c
-    n, t1, t2 = S.small, S.small + 3, S.small + 6
+    n = S.axes + 9 * c
+    t1, t2 = n + 3, n + 6
     a, b = k[S.body_out + k[S.body_a + c]], k[S.body_out + k[S.body_b + c]]
     gap = w[geometry]
     # turning of the normal with the first body, (omega_A x n) in the tangent plane; rho likewise for B - A
@@ -169,7 +162,7 @@ def evaluate_bias(S, w, k, c):
     w1, w2 = u1 + gap * nu1 - d1, u2 + gap * nu2 - d2
     point = geometry + 7
     for r in range(3):
-        axis = S.small + 3 * r
+        axis = S.axes + 9 * c + 3 * r
         w[S.bias + 3 * c + r] = _point_bias(
             w,
             b,

@@ -137,7 +137,7 @@ def _impact(S, w, k, cause):
     S.restitution_loss += restitution
     S.friction_loss += friction
     # until the instant is settled: apart is open, the rest goes by its slip
-    _touch(S, w, k)
+    S.approaching = _touch(S, w, k)
     for c in range(S.n_contacts):
         _provisional_mode(S, w, k, c)
     record_event(S, w, k, cause, contact, S.phases)
@@ -234,11 +234,13 @@ def settle(S, w, k, cause, contact):
     """Carry the system through the present instant, ``cause`` and ``contact`` saying why it is one; return the status."""
     S.recorded = 0
     resting = 0
+    approaching = _touch(S, w, k)
     for _attempt in range(_ATTEMPTS):
-        if _touch(S, w, k) == 1:
+        if approaching == 1:
             status = _impact(S, w, k, IMPACT)
             if status != RUNNING:
                 return status
+            approaching = S.approaching
             continue
         if S.recorded == 0:
             remember(S, w, k)
@@ -252,12 +254,14 @@ def settle(S, w, k, cause, contact):
                 status = _impact_without_collision(S, w, k)
                 if status != RUNNING:
                     return status
+                approaching = S.approaching
                 continue
             accelerate(S, w, k)
         _adopt(S, w, k)
         if _close(S, w, k) == 0:
             _finish(S, w, k, cause, contact)
             return RUNNING
+        approaching = _touch(S, w, k)
     return SETTLE_ENDLESS
 
 

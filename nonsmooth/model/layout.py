@@ -91,6 +91,7 @@ INTEGER_SCALARS = (
     "fresh",
     "repeated",
     "recorded",
+    "approaching",
     "sample_index",
 )
 FLOAT_SCALARS = (
@@ -98,7 +99,8 @@ FLOAT_SCALARS = (
     "t_end",
     "h",
     "h_max",
-    "h_try",
+    "h_free",
+    "h_closed",
     "rtol",
     "impact_rtol",
     "time_tolerance",
@@ -114,6 +116,7 @@ FLOAT_SCALARS = (
     "speed_scale",
     "impact_seed",
     "last_event_t",
+    "guard_slope",
 )
 
 _Size = Callable[[Mapping[str, int]], int]
@@ -134,6 +137,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "slopes": _per(N_STAGES, "n_y"),
     "du": _per(1, "n_u"),
     "geometry": _per(GEOMETRY, "n_contacts"),
+    "axes": _per(9, "n_contacts"),
     "rate": _per(3, "n_contacts"),
     "prescribed_rate": _per(3, "n_contacts"),
     "bias": _per(3, "n_contacts"),
@@ -142,7 +146,10 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "guard_first": _per(2, "n_contacts"),
     "gap_rate": _per(1, "n_contacts"),
     "gap_rate_first": _per(1, "n_contacts"),
-    "gap_rate_last": _per(1, "n_contacts"),
+    "gap_rate_middle": _per(1, "n_contacts"),
+    "gap_rate_end": _per(1, "n_contacts"),
+    "guard_end": _per(2, "n_contacts"),
+    "rate_end": _per(3, "n_contacts"),
     "map_block": lambda n: n["map_width"] * n["n_contacts"],
     "contact_time": _per(1, "n_contacts"),
     # the local problem of the active contacts
@@ -163,7 +170,6 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "right": lambda n: max(4, 3 * n["n_contacts"]),
     "x": _per(3, "n_contacts"),
     "sigma": _per(3, "n_contacts"),
-    "small": lambda n: 24,
     # the impact
     "impact_y": _per(6, "n_contacts"),
     "impact_new": _per(6, "n_contacts"),
@@ -172,6 +178,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "impact_z0": _per(3, "n_contacts"),
     "impact_z": _per(3, "n_contacts"),
     "impact_guard": _per(3, "n_contacts"),
+    "impact_guard_first": _per(3, "n_contacts"),
     "impact_x_scale": _per(1, "n_contacts"),
     "impact_f_scale": _per(1, "n_contacts"),
     "impact_mark": _per(1, "n_contacts"),
