@@ -16,7 +16,7 @@ from __future__ import annotations
 from nonsmooth.engine.flow import right_hand_side
 from nonsmooth.engine.forces import evaluate_margins
 from nonsmooth.engine.kernel import kernel, room
-from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_geometry, evaluate_rates
+from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_driven_bodies, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import GEOMETRY
 
@@ -24,10 +24,12 @@ _WRONG = -1e-9
 """A guard that is not armed fires below this all the same."""
 
 
-@kernel("void(S, F, I, i8)")
-def write_guards(S, w, k, forces):
-    """Write the guards where bodies are evaluated; those of closed contacts only if ``forces`` are known (1)."""
-    if forces == 1 and S.n_active > 0:
+@kernel("void(S, F, I, f8, i8, i8)")
+def write_guards(S, w, k, t, y, forces):
+    """Write the guards after the right-hand side at ``t`` and ``y``; of closed contacts if ``forces`` are known (1)."""
+    if S.n_active == 0:
+        evaluate_driven_bodies(S, w, k, t, y)
+    elif forces == 1:
         evaluate_margins(S, w, k)
         for a in range(S.n_active):
             c = k[S.active + a]
@@ -55,7 +57,7 @@ def evaluate_guards(S, w, k, t, y, elapsed, forces):
         right_hand_side(S, w, k, t, y)
     else:
         evaluate_bodies(S, w, k, t, y)
-    write_guards(S, w, k, forces)
+    write_guards(S, w, k, t, y, forces)
     deflate(S, w, k, elapsed)
 
 
@@ -72,6 +74,7 @@ def keep_end(S, w, k):
     """Keep guards and rates of the end of a step, where the next one starts."""
     for c in range(S.n_contacts):
         w[S.gap_rate_end + c] = w[S.gap_rate + c]
+        w[S.gap_end + c] = w[S.geometry + GEOMETRY * c]
         for i in range(2):
             w[S.guard_end + 2 * c + i] = w[S.guard + 2 * c + i]
         for r in range(3):

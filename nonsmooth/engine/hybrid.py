@@ -31,6 +31,7 @@ from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
 
 _EVENTS_AT_ONCE = 1000
+_DRIFT = 0.01
 _ROOM = 64
 """Free rows that an instant may need in the event buffer."""
 
@@ -78,6 +79,19 @@ def _accepted_step(S, w, k):
     return STEP_TOO_SMALL
 
 
+@kernel("i8(S, F, I)")
+def _drifted(S, w, k):
+    """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            rate, gap = abs(w[S.rate_end + 3 * c]), abs(w[S.gap_end + c])
+            if k[S.mode + c] == STICK:
+                rate += abs(w[S.rate_end + 3 * c + 1]) + abs(w[S.rate_end + 3 * c + 2])
+            if rate > _DRIFT * S.velocity_tolerance or gap > _DRIFT * S.gap_tolerance:
+                return 1
+    return 0
+
+
 @kernel("void(S, F, I, f8)")
 def _commit(S, w, k, h):
     """Take over the step of ``h``: samples, state, time, constraints."""
@@ -86,7 +100,7 @@ def _commit(S, w, k, h):
         w[S.y + i] = w[S.y_new + i]
     S.t += h
     normalise_quaternions(S, w, k)
-    if activate_closed(S, w, k) > 0:
+    if _drifted(S, w, k) == 1 and activate_closed(S, w, k) > 0:
         S.closing_loss += project_rates(S, w, k)
         project_gaps(S, w, k)
 
@@ -105,7 +119,7 @@ def _step(S, w, k):
     """Advance by one step or to the next event, whichever is earlier; return the status."""
     if S.fresh == 0:
         slope(S, w, k, S.t, S.y, S.slopes)
-        write_guards(S, w, k, 1)
+        write_guards(S, w, k, S.t, S.y, 1)
         keep_end(S, w, k)
     else:
         for i in range(S.n_y):

@@ -7,18 +7,40 @@ from nonsmooth.engine.linear import eliminate
 from nonsmooth.model.layout import FRAME, GEOMETRY
 
 
+@kernel("void(S, F, I, f8, i8, i8)")
+def evaluate_body(S, w, k, t, y, body):
+    """Let one body write its output block at time ``t`` and the state at offset ``y``."""
+    call_body(
+        k[S.body_function + body],
+        t,
+        at(w, y + k[S.body_q + body]),
+        at(w, y + S.n_q + k[S.body_u + body]),
+        at(w, k[S.body_parameters + body]),
+        at(w, k[S.body_out + body]),
+    )
+
+
 @kernel("void(S, F, I, f8, i8)")
 def evaluate_bodies(S, w, k, t, y):
     """Let every body write its output block at time ``t`` and the state at offset ``y``."""
     for body in range(S.n_bodies):
-        call_body(
-            k[S.body_function + body],
-            t,
-            at(w, y + k[S.body_q + body]),
-            at(w, y + S.n_q + k[S.body_u + body]),
-            at(w, k[S.body_parameters + body]),
-            at(w, k[S.body_out + body]),
-        )
+        evaluate_body(S, w, k, t, y, body)
+
+
+@kernel("void(S, F, I, f8, i8)")
+def evaluate_driven_bodies(S, w, k, t, y):
+    """Let the bodies without coordinates write their output blocks."""
+    for body in range(S.n_bodies):
+        if k[S.body_nu + body] == 0:
+            evaluate_body(S, w, k, t, y, body)
+
+
+@kernel("void(S, F, I, f8, i8)")
+def evaluate_free_bodies(S, w, k, t, y):
+    """Let the bodies that have coordinates write their output blocks; for free flight."""
+    for body in range(S.n_bodies):
+        if k[S.body_nu + body] > 0:
+            evaluate_body(S, w, k, t, y, body)
 
 
 @kernel("void(S, F, I, i8)")
@@ -135,9 +157,11 @@ def _point_bias(w, frame, point, axis, sx, sy, sz):
     )
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_bias(S, w, k, c):
+@kernel("void(S, F, I, i8, i8)")
+def evaluate_bias(S, w, k, c, rows):
     """Write S_N and S_T of Eq. (13) with the prescribed accelerations: g'' and v' of contact ``c`` while u' = 0.
+
+    Only the normal one with ``rows`` 1, all with 3.
 
     The witness points slide over their bodies at u and w, and the normal turns by nu relative to the
     first one: slide_a u = turn_a nu, slide_b w = -turn_b (nu - rho), w = u + g nu - d, with rho the
@@ -161,7 +185,7 @@ def evaluate_bias(S, w, k, c):
     u1, u2, nu1, nu2 = w[S.right], w[S.right + 1], w[S.right + 2], w[S.right + 3]
     w1, w2 = u1 + gap * nu1 - d1, u2 + gap * nu2 - d2
     point = geometry + 7
-    for r in range(3):
+    for r in range(rows):
         axis = S.axes + 9 * c + 3 * r
         w[S.bias + 3 * c + r] = _point_bias(
             w,
@@ -185,8 +209,9 @@ def evaluate_bias(S, w, k, c):
     spin = w[a + 15] * w[n] + w[a + 16] * w[n + 1] + w[a + 17] * w[n + 2]
     rate = w[S.rate + 3 * c]
     w[S.bias + 3 * c] += n1 * v1 + n2 * v2
-    w[S.bias + 3 * c + 1] += spin * v2 - n1 * rate
-    w[S.bias + 3 * c + 2] += -spin * v1 - n2 * rate
+    if rows == 3:
+        w[S.bias + 3 * c + 1] += spin * v2 - n1 * rate
+        w[S.bias + 3 * c + 2] += -spin * v1 - n2 * rate
 
 
 @kernel("void(S, F, I, i8, f8, f8, f8, f8)")
@@ -211,13 +236,13 @@ def _witness_system(S, w, k, c, rho1, rho2, d1, d2):
         )
 
 
-@room("void(S, F, I, i8, i8)")
-def evaluate_contact(S, w, k, c, y):
-    """Write everything about contact ``c`` at the state ``y``, the bodies being evaluated."""
+@room("void(S, F, I, i8, i8, i8)")
+def evaluate_contact(S, w, k, c, y, rows):
+    """Write everything about contact ``c`` at the state ``y``, the bodies being evaluated; ``rows`` of the bias."""
     evaluate_geometry(S, w, k, c)
     evaluate_rates(S, w, k, c)
     evaluate_jacobian(S, w, k, c, y)
-    evaluate_bias(S, w, k, c)
+    evaluate_bias(S, w, k, c, rows)
 
 
 @room()
@@ -225,4 +250,4 @@ def evaluate_at(S, w, k):
     """Evaluate all bodies and contacts at the present time and state."""
     evaluate_bodies(S, w, k, S.t, S.y)
     for c in range(S.n_contacts):
-        evaluate_contact(S, w, k, c, S.y)
+        evaluate_contact(S, w, k, c, S.y, 3)

@@ -13,6 +13,8 @@ from nonsmooth.engine.modes import OPEN
 from nonsmooth.engine.runge_kutta import dense_state
 
 _MIDDLE = 0.5
+_SHORT = 1e-7
+"""Corrections below this part of a step are made along the tangent; their error is its square."""
 
 
 @kernel("i8(S, F, I)")
@@ -56,37 +58,46 @@ def _dip(S, w, k, h, low, high, middle):
         if k[S.mode + c] == OPEN and before < 0.0 and after > 0.0:
             theta = _least_gap(S, w, k, h, low, high, c)
             if theta > 0.0:
+                _guards_within(S, w, k, h, theta, _any_closed(S, w, k))
                 return theta
     return 0.0
 
 
 @kernel("f8(S, F, I, f8)")
 def first_crossing(S, w, k, h):
-    """Return a fraction of the step by which some guard has fired, or 0 if none does.
+    """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
 
     Called right after the step, when bodies and forces stand at its end.
     """
     closed = _any_closed(S, w, k)
-    write_guards(S, w, k, 1)
+    write_guards(S, w, k, S.t + h, S.y_new, 1)
     keep_end(S, w, k)
     deflate(S, w, k, h)
     fired = first_fired(S, w, k, 1, -1)
-    _guards_within(S, w, k, h, _MIDDLE, closed)
-    if first_fired(S, w, k, closed, -1) >= 0:
+    # where no stage saw a force or slip that violates its mode, the middle is looked at for gaps only
+    forces = closed if S.suspect == 1 else 0
+    _guards_within(S, w, k, h, _MIDDLE, forces)
+    if first_fired(S, w, k, forces, -1) >= 0:
+        if forces != closed:
+            _guards_within(S, w, k, h, _MIDDLE, closed)
         return _MIDDLE
-    arm_further(S, w, k, closed)
+    arm_further(S, w, k, forces)
     for c in range(S.n_contacts):
         w[S.gap_rate_middle + c] = w[S.gap_rate + c]
     theta = _dip(S, w, k, h, 0.0, _MIDDLE, 1)
     if theta > 0.0:
         return theta
-    if fired >= 0:
-        return 1.0
-    for i in range(2 * S.n_contacts):
-        # armed only in the middle of the step, and negative at its end
-        if k[S.guard_armed + i] == 1 and w[S.guard_end + i] < 0.0:
+    theta = 0.0
+    if fired < 0:
+        theta = _dip(S, w, k, h, _MIDDLE, 1.0, 0)
+    if theta == 0.0:
+        for i in range(2 * S.n_contacts):
+            w[S.guard + i] = w[S.guard_end + i]
+        deflate(S, w, k, h)
+        # guards armed only in the middle of the step count as well
+        if first_fired(S, w, k, 1, -1) >= 0:
             return 1.0
-    return _dip(S, w, k, h, _MIDDLE, 1.0, 0)
+    return theta
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
@@ -146,8 +157,7 @@ def locate(S, w, k, h, high):
     The root on the interpolant is corrected on the step itself, whose order is higher.
     """
     closed = _any_closed(S, w, k)
-    _guards_within(S, w, k, h, high, closed)
-    first = first_fired(S, w, k, closed, -1)
+    first = first_fired(S, w, k, 1, -1)
     theta = high
     S.trigger = max(0, first)
     while first >= 0:
@@ -156,16 +166,22 @@ def locate(S, w, k, h, high):
         first = first_fired(S, w, k, closed, S.trigger)
     i = S.trigger
     step = theta * h
-    slope = S.guard_slope
     for _iteration in range(4):
         try_step(S, w, k, step)
-        write_guards(S, w, k, 1)
+        write_guards(S, w, k, S.t + step, S.y_new, 1)
         value = w[S.guard + i]
+        slope = S.guard_slope
         if k[S.mode + i // 2] == OPEN:
             slope = w[S.gap_rate + i // 2]
         elif k[S.guard_deflated + i] == 1:
             value /= step
-        if not slope < 0.0 or abs(value) <= -0.1 * S.time_tolerance * slope:
+        if not slope < 0.0:
             break
-        step = min(1.2 * theta * h, max(0.8 * theta * h, step - value / slope))
+        correction = min(0.2 * theta * h, max(-0.2 * theta * h, -value / slope))
+        step += correction
+        if abs(correction) <= _SHORT * h:
+            # so short a way is straight
+            for j in range(S.n_y):
+                w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
+            break
     return step

@@ -22,7 +22,7 @@ def activate_closed(S, w, k):
     if m > 0:
         evaluate_bodies(S, w, k, S.t, S.y)
         for a in range(m):
-            evaluate_contact(S, w, k, k[S.active + a], S.y)
+            evaluate_contact(S, w, k, k[S.active + a], S.y, 1)
     return m
 
 

@@ -47,7 +47,7 @@ def _touch(S, w, k):
         if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c] > near:
             k[S.touching + c] = 0
             continue
-        evaluate_contact(S, w, k, c, S.y)
+        evaluate_contact(S, w, k, c, S.y, 3)
         if rate < -S.velocity_tolerance:
             approaching = 1
     return approaching
