@@ -90,7 +90,7 @@ def slope(S, w, k, t, y, out):
     w[out + S.n_q + S.n_u + 1] = lost
 
 
-@kernel("f8(S, F, I, f8)")
+@room("f8(S, F, I, f8)")
 def try_step(S, w, k, h):
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
 

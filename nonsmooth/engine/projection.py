@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.kernel import kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import FRAME, GEOMETRY
@@ -26,7 +26,7 @@ def activate_closed(S, w, k):
     return m
 
 
-@kernel("f8(S, F, I)")
+@room("f8(S, F, I)")
 def project_rates(S, w, k):
     """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
 

@@ -58,6 +58,11 @@ ROOMS = (
     "evaluate_guards",
     "settle",
     "advance",
+    "try_step",
+    "collide",
+    "touch",
+    "project_rates",
+    "set_up",
 )
 """Engine functions that are compiled apart and called by address (:func:`nonsmooth.engine.kernel.room`)."""
 
