@@ -11,12 +11,12 @@ PICTURES = ("matplotlib",)
 RESULTS = ("matplotlib", "xarray", "h5netcdf", "h5py")
 
 
-class MissingPackages(NonsmoothError):
+class MissingPackagesError(NonsmoothError):
     """Optional packages that a request needs and that are not installed."""
 
 
 def require(packages: Iterable[str]) -> None:
-    """Raise MissingPackages unless all are installed; imports none of them."""
+    """Raise MissingPackagesError unless all are installed; imports none of them."""
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     if missing:
-        raise MissingPackages(f'--out needs {", ".join(missing)}: pip install "nonsmooth[full]"')
+        raise MissingPackagesError(f'--out needs {", ".join(missing)}: pip install "nonsmooth[full]"')

@@ -45,7 +45,8 @@ def _draw(owner: Any) -> Mapping[str, Any] | None:
 
     def after_steps(t: float, t_end: float) -> None:
         progress(t, t_end)
-        interrupt.check()
+        if t < t_end:
+            interrupt.check()
 
     with Interrupt() as interrupt:
         try:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 
 from nonsmooth.cli import figures, list, run, show
-from nonsmooth.cli.extras import MissingPackages
+from nonsmooth.cli.extras import MissingPackagesError
 from nonsmooth.cli.messages import complain, warn_plainly
 from nonsmooth.errors import InvalidInput, NonsmoothError
 from nonsmooth.parameters import UnusualValue
@@ -51,7 +51,7 @@ def main(words: Sequence[str] | None = None) -> int:
         warnings.showwarning = warn_plainly(warnings.showwarning)
         try:
             return DONE if arguments.execute(arguments) else FAILED
-        except (InvalidInput, MissingPackages) as error:
+        except (InvalidInput, MissingPackagesError) as error:
             complain(" ".join(str(error).split()))
             return WRONG_REQUEST
         except NonsmoothError as error:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,17 +10,14 @@ import numpy as np
 from nonsmooth.cli.table import lines
 from nonsmooth.solution.solution import Solution
 
-Report = Mapping[str, Any]
-_NOTHING: Report = {
-    name: None
-    for name in ("t_end", "wall_seconds", "n_events", "n_impacts", "n_steps", "mode_words", "energy_residual")
-}
+Report = dict[str, Any]
+_NUMBERS = ("t_end", "wall_seconds", "n_events", "n_impacts", "n_steps", "mode_words", "energy_residual")
 
 
 def of_solution(solution: Solution | None) -> Report:
     """Return what the report takes from the solution; nothing but None without one."""
     if solution is None:
-        return _NOTHING
+        return dict.fromkeys(_NUMBERS)
     return {
         "t_end": solution.t_end,
         "wall_seconds": solution.counters.wall_seconds,
@@ -56,7 +52,7 @@ def as_text(report: Report) -> str:
 
 
 def _plain(report: Report) -> Any:
-    return json.loads(json.dumps(dict(report), default=_listed), parse_constant=lambda _: None)
+    return json.loads(json.dumps(report, default=_listed), parse_constant=lambda _: None)
 
 
 def _listed(value: Any) -> Any:

@@ -57,7 +57,7 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
         solution, status, message = None, "failed", troubles[0]
     else:
         solution, status, message = _compute(scenario, system)
-    outcome = head | {"status": status, "message": message} | report.of_solution(solution)
+    outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
     outcome |= {"final": None, "summary": None}
     if solution is None:
         return outcome
@@ -70,7 +70,8 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
     if arguments.out is not None:
         results.save_text(report.as_json(outcome), arguments.out / "summary.json", troubles)
         _save_figures(scenario, solution, arguments.out, troubles)
-        tell(f"results are in {arguments.out}")
+        if not troubles:
+            tell(f"results are in {arguments.out}")
     return outcome
 
 
@@ -80,7 +81,8 @@ def _compute(scenario: Scenario, system: System) -> tuple[Solution | None, str, 
 
     def after_steps(t: float, t_end: float) -> None:
         progress(t, t_end)
-        interrupt.check()
+        if t < t_end:
+            interrupt.check()
 
     try:
         with Interrupt() as interrupt:

@@ -83,7 +83,7 @@ def load(group: str, name: str) -> Any:
         wanted = " or ".join(base.__name__ for base in GROUPS[group])
         raise PluginError(f"{title} must be a subclass of {wanted}, not {loaded!r}.")
     if inspect.isabstract(loaded):
-        missing = ", ".join(sorted(loaded.__abstractmethods__))
+        missing = ", ".join(sorted(vars(loaded)["__abstractmethods__"]))
         raise PluginError(f"{title} must define {missing}.")
     if not dataclasses.is_dataclass(loaded):
         raise PluginError(f"{title} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}.")

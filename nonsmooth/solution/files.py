@@ -29,7 +29,8 @@ class FileError(NonsmoothError, OSError):
     """A file or folder that could not be written; the message names the path."""
 
     def __init__(self, path: object, error: OSError) -> None:
-        super().__init__(f"{path} could not be written: {error.strerror or error}. Free space there or choose another folder.")
+        reason = error.strerror or error
+        super().__init__(f"{path} could not be written: {reason}. Free space there or choose another folder.")
 
 
 def prepare(folder: Path) -> None:
@@ -139,7 +140,7 @@ def save(solution: Solution, folder: Path, coordinates: Coordinates = _NONE) -> 
 
 
 def _write_dataset(solution: Solution, coordinates: Coordinates, path: Path) -> None:
-    import h5netcdf
+    import h5netcdf  # type: ignore[import-untyped]
     from xarray.backends import H5NetCDFStore
 
     # in memory first: where a disk is full, HDF5 fails once per object, at length, and again when the process ends

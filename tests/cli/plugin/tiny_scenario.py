@@ -18,7 +18,6 @@ from nonsmooth.parameters import parameter
 NUMBER = 1.0
 
 
-@final
 @dataclass(frozen=True)
 class Tiny(Scenario):
     """A ball on a vibrating plate."""
@@ -27,7 +26,9 @@ class Tiny(Scenario):
 
     t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0)
     radius: float = parameter(5e-3, doc="radius of the ball", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)
-    mode: str = parameter("bounce", doc="what to do", unit="", choices=("bounce", "nan law", "bad figure", "bad summary"))
+    mode: str = parameter(
+        "bounce", doc="what to do", unit="", choices=("bounce", "nan law", "bad figure", "bad summary")
+    )
 
     @property
     def sample_interval(self) -> float:
@@ -90,6 +91,14 @@ class Tiny(Scenario):
         return drawn
 
 
+@final
+@dataclass(frozen=True)
+class Demanding(Tiny):
+    """The same without a default."""
+
+    t_end: float = parameter(doc="end time", unit="s", above=0.0)
+
+
 def _nan(speed: float) -> float:
     return math.nan
 
@@ -121,5 +130,5 @@ class Bare(NormalLaw):
     """A law that is no dataclass."""
 
     def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
-        """Always."""
+        """Accept everything."""
         return True
