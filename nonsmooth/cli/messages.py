@@ -30,8 +30,10 @@ def say(text: str) -> None:
 
 
 def tell(text: str) -> None:
-    """Print a message to standard error."""
-    print(text, file=sys.stderr, flush=True)
+    """Print a message to standard error, if that is open and takes it: a message lost must not cost a run."""
+    if sys.stderr is not None:
+        with contextlib.suppress(OSError):
+            print(text, file=sys.stderr, flush=True)
 
 
 def complain(text: str) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import sys
 import time
 from collections.abc import Callable
@@ -62,11 +64,13 @@ class Progress:
             self._write(self._style.last)
 
     def _write(self, text: str) -> None:
-        self._stream.write(text)
-        self._stream.flush()
+        with contextlib.suppress(OSError):  # a closed pipe must not cost the run
+            self._stream.write(text)
+            self._stream.flush()
         self._written = True
 
 
 def on_standard_error() -> Progress:
     """Return the progress that suits the standard error of this process."""
-    return Progress(sys.stderr, TERMINAL if sys.stderr.isatty() else LINES)
+    stream = sys.stderr or io.StringIO()  # None where it was closed from the start
+    return Progress(stream, TERMINAL if stream.isatty() else LINES)

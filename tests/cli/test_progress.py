@@ -6,7 +6,7 @@ import io
 
 import pytest
 
-from nonsmooth.cli.progress import LINES, TERMINAL, Progress, Style
+from nonsmooth.cli.progress import LINES, TERMINAL, Progress, Style, on_standard_error
 
 
 class _Clock:
@@ -56,3 +56,23 @@ def test_the_next_of_several_runs_is_estimated_by_itself() -> None:
     clock.now = 111.0
     progress(5.0, 10.0)
     assert stream.getvalue().splitlines()[-1] == "t = 5 of 10 s (50%), about 10 s to go"
+
+
+def test_a_stream_that_takes_nothing_does_not_stop_the_run() -> None:
+    class Full(io.StringIO):
+        def flush(self) -> None:
+            raise BrokenPipeError
+
+    clock, stream = _Clock(), Full()
+    progress = Progress(stream, LINES, clock)
+    clock.now = 100.0
+    progress(1.0, 10.0)
+    progress.finish()
+    assert stream.getvalue().startswith("t = 1 of 10 s")
+
+
+def test_without_standard_error_nothing_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stderr", None)
+    progress = on_standard_error()
+    progress(1.0, 10.0)
+    progress.finish()
