@@ -12,6 +12,8 @@ from nonsmooth.engine.kernel import kernel, room
 
 _SWEEPS = 4000
 _SETTLED = 1e-15
+_FLAT = 1e-14
+"""Determinant of a tangential block, relative to its trace squared, below which it has rank one."""
 
 
 @kernel("f8(S, F, i8)")
@@ -57,8 +59,14 @@ def _update_tangent(S, w, k, a):
     c2 = _row(S, w, 3 * a + 2) - g12 * t1 - g22 * t2
     k[S.tangent_held + a] = 1
     determinant = g11 * g22 - g12 * g12
-    if determinant > 0.0:
+    trace = g11 + g22
+    if determinant > _FLAT * trace * trace:
         t1, t2 = (g12 * c2 - g22 * c1) / determinant, (g12 * c1 - g11 * c2) / determinant
+    elif trace > 0.0:
+        # motion along one line only: the least force, G^+ c = G c / trace^2 for a matrix of rank one
+        t1, t2 = -(g11 * c1 + g12 * c2) / (trace * trace), -(g12 * c1 + g22 * c2) / (trace * trace)
+    else:
+        t1 = t2 = 0.0
     if math.sqrt(t1 * t1 + t2 * t2) <= w[S.mu_static + a] * w[f]:
         w[f + 1], w[f + 2] = t1, t2
         return
@@ -72,7 +80,7 @@ def _cut_to_disc(w, t, g11, g12, g22, c1, c2, radius):
     if radius <= 0.0:
         w[t] = w[t + 1] = 0.0
         return
-    alpha = 0.0
+    alpha = _FLAT * (g11 + g22)
     for _iteration in range(60):
         a11, a22 = g11 + alpha, g22 + alpha
         determinant = a11 * a22 - g12 * g12
@@ -82,7 +90,7 @@ def _cut_to_disc(w, t, g11, g12, g22, c1, c2, radius):
         # Newton on 1 / |T(alpha)|, which is nearly linear in alpha
         slope = (a22 * x * x - 2.0 * g12 * x * y + a11 * y * y) / (determinant * norm)
         step = (norm - radius) * norm / (radius * slope)
-        alpha = max(0.0, alpha + step)
+        alpha = max(_FLAT * (g11 + g22), alpha + step)
         if abs(step) <= 1e-16 * (alpha + g11 + g22):
             break
     norm = math.sqrt(w[t] * w[t] + w[t + 1] * w[t + 1])

@@ -38,6 +38,8 @@ _TOGETHER = 1e-13
 _WRONG = -1e-7
 _AT_EVENT = 4.0 * NOISE
 _SHORT = 1e-7
+_NO_RETURN = 1e-20
+"""Efficiencies below this, the square of a restitution, count as none."""
 
 
 @kernel("f8(S, F, I)")
@@ -258,7 +260,9 @@ def _locate(S, w, k, h):
     """
     theta = 1.0
     first = _fired(S, w, k, -1)
-    while first >= 0:
+    for _other in range(3 * S.n_active):
+        if first < 0:
+            break
         S.trigger = first
         theta = _root(S, w, k, h, theta, w[S.impact_guard + first], first)
         first = _fired(S, w, k, first)
@@ -372,7 +376,7 @@ def _turn(S, w, k, a):
     phase = k[S.phase + a]
     if phase == COMPRESSION:
         _account(S, w, k, a)
-        if efficiency(S, w, k, a, 1e-300) > 0.0:
+        if efficiency(S, w, k, a, 1e-300) > _NO_RETURN:
             k[S.phase + a] = EXPANSION
             return 0
         # without restitution the stored energy is lost at once and the contact stays closed

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from nonsmooth.engine.kernel import at, call_body, call_pair, kernel, room
-from nonsmooth.engine.linear import eliminate
 from nonsmooth.model.layout import FRAME, GEOMETRY
 
 
@@ -86,32 +85,36 @@ def evaluate_rates(S, w, k, c):
 
 @kernel("void(F, i8, i8, i8, i8, i8, f8)")
 def _side_jacobian(w, frame, point, axes, n_u, out, sign):
-    """Write the three rows of one body: sign * (axis, rho x axis) . frame Jacobian."""
+    """Write the three rows of one body: sign * (axis, rho x axis) . frame Jacobian, whose zeros are skipped."""
     x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
     jacobian = frame + FRAME
+    for i in range(3 * n_u):
+        w[out + i] = 0.0
+    for i in range(3):
+        for j in range(n_u):
+            entry = sign * w[jacobian + i * n_u + j]
+            if entry != 0.0:
+                for r in range(3):
+                    w[out + r * n_u + j] += entry * w[axes + 3 * r + i]
     for r in range(3):
         ax, ay, az = w[axes + 3 * r], w[axes + 3 * r + 1], w[axes + 3 * r + 2]
         mx, my, mz = y * az - z * ay, z * ax - x * az, x * ay - y * ax
-        for i in range(n_u):
-            w[out + r * n_u + i] = sign * (
-                ax * w[jacobian + i]
-                + ay * w[jacobian + n_u + i]
-                + az * w[jacobian + 2 * n_u + i]
-                + mx * w[jacobian + 3 * n_u + i]
-                + my * w[jacobian + 4 * n_u + i]
-                + mz * w[jacobian + 5 * n_u + i]
-            )
+        for j in range(n_u):
+            turning = jacobian + 3 * n_u + j
+            w[out + r * n_u + j] += sign * (mx * w[turning] + my * w[turning + n_u] + mz * w[turning + 2 * n_u])
 
 
 @kernel("void(F, i8, i8, i8, i8)")
 def _side_response(w, jacobian, inverse_mass, n_u, out):
-    """Write M^-1 J^T of one body, three rows of n_u."""
-    for r in range(3):
-        for i in range(n_u):
-            total = 0.0
-            for j in range(n_u):
-                total += w[inverse_mass + i * n_u + j] * w[jacobian + r * n_u + j]
-            w[out + r * n_u + i] = total
+    """Write M^-1 J^T of one body, three rows of n_u; zeros of M^-1 are skipped."""
+    for i in range(3 * n_u):
+        w[out + i] = 0.0
+    for i in range(n_u):
+        for j in range(n_u):
+            entry = w[inverse_mass + i * n_u + j]
+            if entry != 0.0:
+                for r in range(3):
+                    w[out + r * n_u + i] += entry * w[jacobian + r * n_u + j]
 
 
 @kernel("i8(S, F, I, i8)")
@@ -180,9 +183,22 @@ def evaluate_bias(S, w, k, c, rows):
     rho2 = -(w[b + 15] * w[t1] + w[b + 16] * w[t1 + 1] + w[b + 17] * w[t1 + 2]) - turn_a2
     v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
     d1, d2 = v1 - gap * turn_a1, v2 - gap * turn_a2
-    _witness_system(S, w, k, c, rho1, rho2, d1, d2)
-    eliminate(w, S.matrix, 4, S.right)
-    u1, u2, nu1, nu2 = w[S.right], w[S.right + 1], w[S.right + 2], w[S.right + 3]
+    # slide and turn of one surface commute, so u = turn_a x, nu = slide_a x leaves two unknowns
+    slide_a, turn_a, slide_b, turn_b = geometry + 13, geometry + 17, geometry + 21, geometry + 25
+    r1 = w[slide_b] * d1 + w[slide_b + 1] * d2 + w[turn_b] * rho1 + w[turn_b + 1] * rho2
+    r2 = w[slide_b + 2] * d1 + w[slide_b + 3] * d2 + w[turn_b + 2] * rho1 + w[turn_b + 3] * rho2
+    for i in range(2):
+        for j in range(2):
+            total = 0.0
+            for m in range(2):
+                reach = w[turn_a + 2 * m + j] + gap * w[slide_a + 2 * m + j]
+                total += w[slide_b + 2 * i + m] * reach + w[turn_b + 2 * i + m] * w[slide_a + 2 * m + j]
+            w[S.small + 2 * i + j] = total
+    m11, m12, m21, m22 = w[S.small], w[S.small + 1], w[S.small + 2], w[S.small + 3]
+    determinant = m11 * m22 - m12 * m21
+    x1, x2 = (m22 * r1 - m12 * r2) / determinant, (m11 * r2 - m21 * r1) / determinant
+    u1, u2 = w[turn_a] * x1 + w[turn_a + 1] * x2, w[turn_a + 2] * x1 + w[turn_a + 3] * x2
+    nu1, nu2 = w[slide_a] * x1 + w[slide_a + 1] * x2, w[slide_a + 2] * x1 + w[slide_a + 3] * x2
     w1, w2 = u1 + gap * nu1 - d1, u2 + gap * nu2 - d2
     point = geometry + 7
     for r in range(rows):
@@ -212,28 +228,6 @@ def evaluate_bias(S, w, k, c, rows):
     if rows == 3:
         w[S.bias + 3 * c + 1] += spin * v2 - n1 * rate
         w[S.bias + 3 * c + 2] += -spin * v1 - n2 * rate
-
-
-@kernel("void(S, F, I, i8, f8, f8, f8, f8)")
-def _witness_system(S, w, k, c, rho1, rho2, d1, d2):
-    """Write the 4 x 4 system for (u, nu): slide_a u - turn_a nu = 0, slide_b (u + g nu - d) + turn_b (nu - rho) = 0."""
-    geometry = S.geometry + GEOMETRY * c
-    gap = w[geometry]
-    slide_a, turn_a, slide_b, turn_b = geometry + 13, geometry + 17, geometry + 21, geometry + 25
-    for i in range(2):
-        upper, lower = S.matrix + 4 * i, S.matrix + 8 + 4 * i
-        for j in range(2):
-            w[upper + j] = w[slide_a + 2 * i + j]
-            w[upper + 2 + j] = -w[turn_a + 2 * i + j]
-            w[lower + j] = w[slide_b + 2 * i + j]
-            w[lower + 2 + j] = gap * w[slide_b + 2 * i + j] + w[turn_b + 2 * i + j]
-        w[S.right + i] = 0.0
-        w[S.right + 2 + i] = (
-            w[slide_b + 2 * i] * d1
-            + w[slide_b + 2 * i + 1] * d2
-            + w[turn_b + 2 * i] * rho1
-            + w[turn_b + 2 * i + 1] * rho2
-        )
 
 
 @room("void(S, F, I, i8, i8, i8)")

@@ -160,7 +160,9 @@ def locate(S, w, k, h, high):
     first = first_fired(S, w, k, 1, -1)
     theta = high
     S.trigger = max(0, first)
-    while first >= 0:
+    for _other in range(2 * S.n_contacts):
+        if first < 0:
+            break
         S.trigger = first
         theta = _root(S, w, k, h, theta, first, closed)
         first = first_fired(S, w, k, closed, S.trigger)

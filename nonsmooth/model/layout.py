@@ -27,7 +27,8 @@ energy                  2                kinetic and potential [J]
 The geometry block of a contact holds gap, normal (from the first body to the second), first
 tangent, witness points on both bodies and, for either surface, the matrices ``slide`` and ``turn`` of
 ``slide @ u = turn @ nu``: the witness sliding at u over the body turns the normal by nu (both in the
-tangent plane).  A sphere of radius r has slide 1, turn r; a plane slide 0, turn 1; a vertex slide 1, turn 0.
+tangent plane; they commute).  A sphere of radius r has slide 1, turn r; a plane slide 0, turn 1; a vertex slide 1,
+turn 0.  A point contact needs a curved or sharp side: two planes have none.
 """
 
 from __future__ import annotations
@@ -148,6 +149,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "du": _per(1, "n_u"),
     "geometry": _per(GEOMETRY, "n_contacts"),
     "axes": _per(9, "n_contacts"),
+    "small": lambda n: 4,
     "rate": _per(3, "n_contacts"),
     "prescribed_rate": _per(3, "n_contacts"),
     "bias": _per(3, "n_contacts"),
@@ -175,10 +177,10 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "event_head": lambda n: 5,
     "event_impulse": _per(3, "n_contacts"),
     # linear algebra
-    "matrix": lambda n: max(16, (3 * n["n_contacts"]) ** 2),
+    "matrix": lambda n: (3 * n["n_contacts"]) ** 2,
     "basis": lambda n: (3 * n["n_contacts"]) ** 2,
     "null": lambda n: (3 * n["n_contacts"]) ** 2,
-    "right": lambda n: max(4, 3 * n["n_contacts"]),
+    "right": _per(3, "n_contacts"),
     "x": _per(3, "n_contacts"),
     "sigma": _per(3, "n_contacts"),
     # the impact
