@@ -59,7 +59,8 @@ def all_figures(kind: type[DumbbellScenario], progress: Progress | None) -> dict
     figures = _motions({name: runs[name] for name in ("drift", "jump", "jump 1", "flutter")})
     across = {mode: runs[f"{mode} 3D"] for mode in ("drift", "jump", "flutter")}
     figures |= _portraits(across, ("theta", "beta", "gamma"))
-    figures["fig11_paths"] = paths(across, _SPANS, "Paths from above: drift circles, jump goes straight, flutter zigzags")
+    sight = "Paths from above: drift circles, jump goes straight, flutter zigzags"
+    figures["fig11_paths"] = paths(across, _SPANS, sight)
     laws = {"energetic (compliant limit)": runs["energetic"], "Newton, in one step": runs["newton"]}
     figures["fig12_impact_laws"] = drift_by_law(laws, "The impact law decides even the direction of the drift")
     return figures
@@ -106,7 +107,9 @@ _PLOTS: dict[str, tuple[tuple[str, Callable[[Trace, str], Figure], str, str], ..
             "Slip at A at the end of the run",
         ),
     ),
-    "jump": (("fig04_jump_motion", normal_motion, "Jump: both balls strike together, once per plate period", _HEIGHTS),),
+    "jump": (
+        ("fig04_jump_motion", normal_motion, "Jump: both balls strike together, once per plate period", _HEIGHTS),
+    ),
     "jump 1": (
         (
             "fig05_jump_tilted_motion",
@@ -139,6 +142,6 @@ def _portraits(runs: Mapping[str, Run], angles: tuple[str, ...]) -> dict[str, Fi
     figures = {}
     for angle in angles:
         stem, sight = _ANGLES[angle]
-        title = f"Phase portraits of {angle}, {sight}" if len(runs) > 1 else f"Phase portrait of {angle} at the end of the run"
-        figures[stem] = portrait(angle, traces, title)
+        single = f"Phase portrait of {angle} at the end of the run"
+        figures[stem] = portrait(angle, traces, f"Phase portraits of {angle}, {sight}" if len(runs) > 1 else single)
     return figures

@@ -24,7 +24,7 @@ def drift_by_law(runs: Mapping[str, tuple[DumbbellScenario, Solution]], title: s
         motion = scenario.motion(solution)
         speed = 1e3 * scenario.summarise(solution)["drift_velocity"][1]
         moved = 1e3 * (motion.centre[:, 1] - motion.centre[0, 1])
-        axis.plot(motion.t, moved, label=f"{name}: {f'{speed:+.1f}'.replace('-', '−')} mm/s when settled", **look)
+        axis.plot(motion.t, moved, label=f"{name}: {speed:+.1f} mm/s when settled", **look)
     axis.set_xlabel("time [s]")
     axis.set_ylabel("displacement of the mass centre along y [mm]")
     style.legend(axes)

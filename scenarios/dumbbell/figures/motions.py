@@ -21,7 +21,7 @@ def normal_motion(trace: Trace, title: str) -> Figure:
     axis = axes[0]
     heights, plate = 1e3 * trace.heights, 1e3 * trace.scenario.plate_height(trace.t)
     circles = np.arange(0.0, trace.clock[-1], 1e3 / (trace.scenario.frequency * _CIRCLES_PER_PERIOD))
-    axis.plot(trace.clock, plate, label="plate", **style.PLATE)
+    axis.plot(trace.clock, plate, label="plate", zorder=3, **style.PLATE)
     axis.plot(trace.clock, heights[:, 1], label="ball 2", **style.BALL_2)
     axis.plot(circles, np.interp(circles, trace.clock, heights[:, 0]), label="ball 1", **style.BALL_1)
     axis.set_xlabel(f"time since t = {trace.t[0]:.3f} s [ms]")

@@ -28,7 +28,7 @@ _MAGNIFIED = ("flutter",)
 def paths(runs: Mapping[str, Run], spans: Mapping[str, float], title: str) -> Figure:
     """Draw the path in the last ``spans`` [plate periods] of each run, with the velocity as arrows."""
     note = style.footnote(*(scenario for scenario, _ in runs.values()))
-    figure, axes = style.new_figure(title, note, len(runs), width=max(5.6, 3.9 * len(runs)), height=5.2)
+    figure, axes = style.new_figure(title, note, len(runs), width=max(7.2, 3.9 * len(runs)), height=5.2)
     for axis, (mode, (scenario, solution)) in zip(axes, runs.items(), strict=True):
         motion = scenario.motion(solution)
         keep = motion.t >= motion.t[-1] - spans[mode] / scenario.frequency - 1e-9
@@ -66,10 +66,9 @@ def _along(path: Floats) -> Floats:
     moved = path - path[0]
     length = float(np.hypot(*moved[-1]))
     if length == 0.0:
-        return moved
+        return np.asarray(moved)
     c, s = moved[-1] / length
-    turned: Floats = moved @ np.array([[c, -s], [s, c]])
-    return turned
+    return np.asarray(moved @ np.array([[c, -s], [s, c]]))
 
 
 def _arrows(axis: Axes, t: Floats, path: Floats) -> None:

@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_SYMBOL = {"theta": "θ", "beta": "β", "gamma": "γ"}
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+_SYMBOL = {"theta": "θ", "beta": "β", "gamma": "\N{GREEK SMALL LETTER GAMMA}"}
 _TURN = 1e-9
 """Angle [rad] and rate [rad/s] below which a portrait is a point."""
 _ARROWS = 4
@@ -36,13 +39,9 @@ def portrait(angle: str, traces: Mapping[str, Trace], title: str) -> Figure:
         x, y = trace.q[:, column], trace.u[:, column]
         if np.ptp(x) < _TURN and np.ptp(y) < _TURN:
             _point(axis, x, y)
-        elif mode == "flutter":
-            _flutter(axis, trace, x, y)
         else:
-            _drift(axis, trace, x, y)
-        if mode == "jump":
-            _marks(axis, x, y, trace.struck[:, 0] & ~trace.struck[:, 1], "single impact at A", _DIAMOND)
-            _marks(axis, x, y, trace.struck[:, 1] & ~trace.struck[:, 0], "single impact at B", _CIRCLE)
+            _DRAW.get(mode, _drift)(axis, trace, x, y)
+            _arrows(axis, x, y, trace)
         axis.set_title(mode, fontsize=10)
         axis.set_xlabel(f"{_SYMBOL[angle]} [rad]")
         axis.tick_params(labelsize=8)
@@ -52,37 +51,52 @@ def portrait(angle: str, traces: Mapping[str, Trace], title: str) -> Figure:
     return figure
 
 
-def _point(axis: Axes, x: Any, y: Any) -> None:
+def _point(axis: Axes, x: Floats, y: Floats) -> None:
     axis.plot([x[-1]], [y[-1]], "k*", markersize=11, label="fixed point")
     axis.set_xlim(x[-1] - 0.1, x[-1] + 0.1)
     axis.set_ylim(y[-1] - 0.1, y[-1] + 0.1)
 
 
-def _drift(axis: Axes, trace: Trace, x: Any, y: Any) -> None:
+def _drift(axis: Axes, trace: Trace, x: Floats, y: Floats) -> None:
     """Black: free flight and single impacts; blue, dashed: one ball on the plate; red circles: double impacts."""
-    double = trace.struck.all(axis=1)
-    standing = trace.touching.any(axis=1) & ~trace.struck.any(axis=1)
+    double, hit = _struck(trace)
+    standing = np.asarray(trace.touching.any(axis=1)) & ~hit
     _steps(axis, x, y, ~standing & ~double, "free flight, single impacts", style.CURVE)
     _steps(axis, x, y, standing, "single contact", style.OTHER)
     _marks(axis, x, y, double, "double impact", style.IMPACT)
-    _arrows(axis, x, y, trace)
 
 
-def _flutter(axis: Axes, trace: Trace, x: Any, y: Any) -> None:
+def _jump(axis: Axes, trace: Trace, x: Floats, y: Floats) -> None:
+    """Black: flight; red circles: double impacts; diamonds and black circles: single ones."""
+    double, hit = _struck(trace)
+    _steps(axis, x, y, ~hit, "free flight", style.CURVE)
+    _marks(axis, x, y, double, "double impact", style.IMPACT)
+    _marks(axis, x, y, trace.struck[:, 0] & ~double, "single impact at A", _DIAMOND)
+    _marks(axis, x, y, trace.struck[:, 1] & ~double, "single impact at B", _CIRCLE)
+
+
+def _flutter(axis: Axes, trace: Trace, x: Floats, y: Floats) -> None:
     """Red: flight before an impact of A (diamond); black, dashed: flight before one of B (circle)."""
-    hits = np.flatnonzero(trace.struck.any(axis=1))
+    _, hit = _struck(trace)
+    hits = np.flatnonzero(hit)
     following = np.searchsorted(hits, np.arange(len(x)))
     known = following < len(hits)
     first = known & trace.struck[hits[np.minimum(following, len(hits) - 1)], 0] if len(hits) else known
-    smooth = ~trace.struck.any(axis=1)
-    _steps(axis, x, y, smooth & known & first, "free flight before A strikes", _BEFORE_A)
-    _steps(axis, x, y, smooth & known & ~first, "free flight before B strikes", _BEFORE_B)
+    _steps(axis, x, y, ~hit & known & first, "free flight before A strikes", _BEFORE_A)
+    _steps(axis, x, y, ~hit & known & ~first, "free flight before B strikes", _BEFORE_B)
     _marks(axis, x, y, trace.struck[:, 0], "single impact at A", _DIAMOND)
     _marks(axis, x, y, trace.struck[:, 1], "single impact at B", _CIRCLE)
-    _arrows(axis, x, y, trace)
 
 
-def _steps(axis: Axes, x: Any, y: Any, chosen: NDArray[np.bool_], label: str, look: dict[str, Any]) -> None:
+_DRAW = {"drift": _drift, "jump": _jump, "flutter": _flutter}
+
+
+def _struck(trace: Trace) -> tuple[Flags, Flags]:
+    """Return which steps are double impacts, and which are impacts at all."""
+    return np.asarray(trace.struck.all(axis=1)), np.asarray(trace.struck.any(axis=1))
+
+
+def _steps(axis: Axes, x: Floats, y: Floats, chosen: Flags, label: str, look: dict[str, Any]) -> None:
     """Draw the ways from the chosen points to their next ones, joined where they follow each other."""
     index = np.flatnonzero(chosen[:-1])
     if not len(index):
@@ -94,7 +108,7 @@ def _steps(axis: Axes, x: Any, y: Any, chosen: NDArray[np.bool_], label: str, lo
     axis.plot(line_x, line_y, label=label, **look)
 
 
-def _marks(axis: Axes, x: Any, y: Any, chosen: NDArray[np.bool_], label: str, look: dict[str, Any]) -> None:
+def _marks(axis: Axes, x: Floats, y: Floats, chosen: Flags, label: str, look: dict[str, Any]) -> None:
     """Mark the states before and after the chosen jumps and join them."""
     index = np.flatnonzero(chosen[:-1])
     if not len(index):
@@ -104,9 +118,9 @@ def _marks(axis: Axes, x: Any, y: Any, chosen: NDArray[np.bool_], label: str, lo
     axis.plot(x[index], y[index], **look)
 
 
-def _arrows(axis: Axes, x: Any, y: Any, trace: Trace) -> None:
+def _arrows(axis: Axes, x: Floats, y: Floats, trace: Trace) -> None:
     """Show the sense of time on the first smooth ways."""
-    smooth = np.flatnonzero(~trace.struck.any(axis=1)[:-1] & (np.diff(trace.t) > 0.0))
+    smooth = np.flatnonzero(~_struck(trace)[1][:-1] & (np.diff(trace.t) > 0.0))
     for i in smooth[np.linspace(0, len(smooth) - 1, _ARROWS + 2).astype(int)[1:-1]]:
         axis.annotate(
             "",

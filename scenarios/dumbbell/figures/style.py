@@ -38,7 +38,7 @@ def new_figure(
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), layout="constrained")
-    body, foot = figure.subfigures(2, 1, height_ratios=[height - _FOOT, _FOOT])
+    body, foot = figure.subfigures(2, 1, squeeze=False, height_ratios=[height - _FOOT, _FOOT])[:, 0]
     body.suptitle(title, fontsize=11)
     foot.text(0.012, 0.5, note, fontsize=7, color="0.25", va="center", linespacing=1.3)
     axes = list(body.subplots(1, panels, squeeze=False)[0])
