@@ -1,12 +1,14 @@
 """nonsmooth: event-driven multibody dynamics with friction and energetic multiple impacts."""
 
 from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFailed, UnknownName
+from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.model.options import Options
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
 __all__ = [
+    "ImpactResult",
     "InvalidInput",
     "NonsmoothError",
     "Options",
@@ -16,4 +18,5 @@ __all__ = [
     "System",
     "UnknownName",
     "simulate",
+    "solve_impact",
 ]

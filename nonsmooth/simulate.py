@@ -104,8 +104,10 @@ def _drain(
     scalars, memory = model.memory.scalars, model.memory
     n_events, n_samples = int(scalars["n_events"][0]), int(scalars["n_samples"][0])
     width = model.n_y + 1
-    rows.append(memory.array("events", n_events * model.event_width).reshape(n_events, model.event_width).copy())
-    codes.append(memory.array("event_codes", n_events * model.code_width).reshape(n_events, model.code_width).copy())
+    found = memory.array("events", n_events * model.event_width)
+    rows.append(found.reshape(n_events, model.event_width).copy())
+    marks = memory.array("event_codes", n_events * model.code_width)
+    codes.append(marks.reshape(n_events, model.code_width).copy())
     samples.append(memory.array("samples", n_samples * width).reshape(n_samples, width).copy())
     scalars["n_events"] = scalars["n_samples"] = 0
 

@@ -38,7 +38,7 @@ def free_acceleration(S, w, k):
             w[S.du + k[S.body_u + body] + i] = total
 
 
-@kernel()
+@room()
 def set_up(S, w, k):
     """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics being known."""
     free_acceleration(S, w, k)

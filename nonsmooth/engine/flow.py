@@ -8,32 +8,33 @@ from nonsmooth.engine.contact_problem import free_acceleration, friction_coeffic
 from nonsmooth.engine.delassus import add_response, assemble_delassus, row
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import kernel, room
-from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact
+from nonsmooth.engine.kinematics import evaluate_contact, evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import component_error, stage_state
 from nonsmooth.model.layout import FRAME
 
-_CROSSING = 1e-12
-"""Below this slip speed [m/s] the direction at the start of the step holds."""
-
-
 @kernel("void(S, F, I, f8, i8)")
 def right_hand_side(S, w, k, t, y):
-    """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``."""
-    evaluate_bodies(S, w, k, t, y)
-    free_acceleration(S, w, k)
+    """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
+
+    In free flight the driven bodies are left alone.
+    """
     m = 0
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             k[S.active + m] = c
             m += 1
     S.n_active = m
+    evaluate_free_bodies(S, w, k, t, y)
+    free_acceleration(S, w, k)
     if m == 0:
         return
+    evaluate_driven_bodies(S, w, k, t, y)
     for a in range(m):
         c = k[S.active + a]
-        evaluate_contact(S, w, k, c, y)
-        for r in range(3):
+        rows = 3 if k[S.mode + c] == STICK else 1
+        evaluate_contact(S, w, k, c, y, rows)
+        for r in range(rows):
             w[S.b + 3 * a + r] = w[S.bias + 3 * c + r] + row(S, w, k, c, r, S.du)
         _set_friction(S, w, k, a)
     assemble_delassus(S, w, k)
@@ -43,18 +44,21 @@ def right_hand_side(S, w, k, t, y):
 
 @kernel("void(S, F, I, i8)")
 def _set_friction(S, w, k, a):
-    """Set what is held and the slip direction, continued smoothly through a reversal within the step."""
+    """Set what is held and the slip direction, continued smoothly through a reversal within the step.
+
+    Where the slip is too slow to have a direction of its own, that at the start of the step holds.
+    """
     c = k[S.active + a]
     k[S.normal_held + a] = 1
-    w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
     if k[S.mode + c] == STICK:
+        w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
         k[S.tangent_held + a] = 1
         return
     k[S.tangent_held + a] = 0
     d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
     v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
     speed = math.sqrt(v1 * v1 + v2 * v2)
-    if speed > _CROSSING:
+    if speed > S.velocity_tolerance:
         sign = 1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0
         d1, d2 = sign * v1 / speed, sign * v2 / speed
     w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
@@ -79,17 +83,22 @@ def slope(S, w, k, t, y, out):
             driven -= force * w[S.prescribed_rate + 3 * c + r]
             if r > 0 and k[S.tangent_held + a] == 0:
                 lost -= force * w[S.rate + 3 * c + r]
+        slip = w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
+        if k[S.tangent_held + a] == 1 or w[S.f + 3 * a] < 0.0 or slip < 0.0:
+            S.suspect = 1
     w[out + S.n_q + S.n_u] = driven
     w[out + S.n_q + S.n_u + 1] = lost
 
 
-@kernel("f8(S, F, I, f8)")
+@room("f8(S, F, I, f8)")
 def try_step(S, w, k, h):
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
 
-    ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.
+    ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip
+    that violates its mode at some stage raises ``suspect``.
     """
     n = S.n_y
+    S.suspect = 0
     for stage in range(1, 7):
         out = S.y_new if stage == 6 else S.y_stage
         stage_state(S, w, S.y, S.slopes, n, stage, h, out)

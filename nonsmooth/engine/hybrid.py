@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.flow import slope, try_step
-from nonsmooth.engine.guards import arm_guards, first_crossing, locate
+from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
 from nonsmooth.engine.kernel import kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies
+from nonsmooth.engine.location import first_crossing, locate
 from nonsmooth.engine.modes import (
     DONE,
     EVENTS_ENDLESS,
@@ -30,6 +31,7 @@ from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
 
 _EVENTS_AT_ONCE = 1000
+_DRIFT = 0.01
 _ROOM = 64
 """Free rows that an instant may need in the event buffer."""
 
@@ -39,7 +41,7 @@ def _orient_slips(S, w, k):
     """Take the present slip directions as those of the step that begins."""
     for c in range(S.n_contacts):
         if k[S.mode + c] == SLIDE:
-            v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+            v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
             if speed > S.velocity_tolerance:
                 w[S.direction + 2 * c] = v1 / speed
@@ -49,14 +51,21 @@ def _orient_slips(S, w, k):
 @kernel("i8(S, F, I)")
 def _accepted_step(S, w, k):
     """Find a step that meets the tolerance, in ``h``; return the status."""
-    h = min(S.h, S.h_max, S.t_end - S.t)
+    closed = 0
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            closed = 1
+    h = min(S.h_closed if closed == 1 else S.h_free, S.h_max, S.t_end - S.t)
     if S.sample_interval > 0.0:
         h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
     for _attempt in range(200):
         error = try_step(S, w, k, h)
         if error <= 1.0:
             S.h = h
-            S.h_try = h * step_factor(error)
+            if closed == 1:
+                S.h_closed = h * step_factor(error)
+            else:
+                S.h_free = h * step_factor(error)
             return RUNNING
         S.rejected += 1
         if not error < 1e300:
@@ -70,6 +79,19 @@ def _accepted_step(S, w, k):
     return STEP_TOO_SMALL
 
 
+@kernel("i8(S, F, I)")
+def _drifted(S, w, k):
+    """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            rate, gap = abs(w[S.rate_end + 3 * c]), abs(w[S.gap_end + c])
+            if k[S.mode + c] == STICK:
+                rate += abs(w[S.rate_end + 3 * c + 1]) + abs(w[S.rate_end + 3 * c + 2])
+            if rate > _DRIFT * S.velocity_tolerance or gap > _DRIFT * S.gap_tolerance:
+                return 1
+    return 0
+
+
 @kernel("void(S, F, I, f8)")
 def _commit(S, w, k, h):
     """Take over the step of ``h``: samples, state, time, constraints."""
@@ -78,10 +100,9 @@ def _commit(S, w, k, h):
         w[S.y + i] = w[S.y_new + i]
     S.t += h
     normalise_quaternions(S, w, k)
-    if activate_closed(S, w, k) > 0:
-        project_gaps(S, w, k)
-        activate_closed(S, w, k)
+    if _drifted(S, w, k) == 1 and activate_closed(S, w, k) > 0:
         S.closing_loss += project_rates(S, w, k)
+        project_gaps(S, w, k)
 
 
 @kernel("i8(S, F, I)")
@@ -96,7 +117,15 @@ def _cause(S, w, k):
 @kernel("i8(S, F, I)")
 def _step(S, w, k):
     """Advance by one step or to the next event, whichever is earlier; return the status."""
-    slope(S, w, k, S.t, S.y, S.slopes)
+    if S.fresh == 0:
+        slope(S, w, k, S.t, S.y, S.slopes)
+        write_guards(S, w, k, S.t, S.y, 1)
+        keep_end(S, w, k)
+    else:
+        for i in range(S.n_y):
+            w[S.slopes + i] = w[S.slopes + 6 * S.n_y + i]
+    for c in range(S.n_contacts):
+        w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
     status = _accepted_step(S, w, k)
@@ -107,8 +136,9 @@ def _step(S, w, k):
     high = first_crossing(S, w, k, h)
     if high == 0.0:
         _commit(S, w, k, h)
-        S.h = S.h_try
+        S.fresh = 1
         return RUNNING
+    S.fresh = 0
     h = locate(S, w, k, h, high)
     cause = _cause(S, w, k)
     contact = S.trigger // 2
@@ -121,9 +151,7 @@ def _step(S, w, k):
     S.last_event_t = S.t
     if S.repeated > _EVENTS_AT_ONCE:
         return EVENTS_ENDLESS
-    status = settle(S, w, k, cause, contact)
-    S.h = S.h_try
-    return status
+    return settle(S, w, k, cause, contact)
 
 
 @kernel("void(S, F, I, i8)")

@@ -1,10 +1,10 @@
 """Rates of the multiple impact in pseudo-time: forces, impulses, deformation, energies.
 
-For every active contact the state holds (P_N, P_1, P_2, x, W, D): impulses, deformation, work of the
-normal force, work lost to friction.  With F_i = f_i(x_i), Eqs. (23)-(28) divided by a common clock s
-read  dP_i/ds = (F_i, T_i),  dx_i/ds = -g'_i / efficiency(g'_i),  z = z_0 + G P.
-A lone contact needs no deformation, only its energy: with F = 1 the clock is its impulse, x its stored
-energy, and every phase is a polynomial that the integrator follows exactly.
+For every active contact the state holds (P_N, P_1, P_2, x, W, D, E): impulses, deformation, work of the
+normal force, work lost to friction, stored energy.  With F_i = f_i(x_i), Eqs. (23)-(28) divided by a common
+clock s read  dP_i/ds = (F_i, T_i),  dx_i/ds = -g'_i / efficiency(g'_i),  z = z_0 + G P.
+A lone contact needs no deformation, only its energy: with F = 1 the clock is its impulse, and every phase is
+a polynomial that the integrator follows exactly.
 """
 
 from __future__ import annotations
@@ -19,17 +19,23 @@ from nonsmooth.engine.runge_kutta import component_error, stage_state
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
 
+STRIDE = 7
+"""Floats of one contact in the state of an impact."""
+
 NOISE = 1e-12
 """Rates below this, relative to the impact speed, do not switch a phase."""
+
+REST = 1e-8
+"""Slip velocities below this, relative to the impact speed, count as none."""
 
 
 @kernel("f8(S, F, I, i8, f8)")
 def normal_force(S, w, k, a, x):
     """Return the force of the active contact ``a`` at the deformation ``x``, Eq. (20)."""
+    if a == S.lone:
+        return 1.0
     if x <= 0.0:
         return 0.0
-    if S.n_active == 1:
-        return 1.0
     c = k[S.active + a]
     return call_scalar(k[S.force_function + c], x, at(w, k[S.force_parameters + c]))
 
@@ -49,7 +55,7 @@ def evaluate_impact_rates(S, w, k, y):
         w[S.impact_z + i] = w[S.impact_z0 + i]
     for a in range(S.n_active):
         for r in range(3):
-            p = w[y + 6 * a + r]
+            p = w[y + STRIDE * a + r]
             if p != 0.0:
                 for i in range(width):
                     w[S.impact_z + i] += w[S.delassus + i * width + 3 * a + r] * p
@@ -63,9 +69,7 @@ def evaluate_impact_forces(S, w, k, y):
     for a in range(S.n_active):
         phase = k[S.phase + a]
         if phase == COMPRESSION or phase == EXPANSION:
-            # a lone contact starts and ends at x = 0, where its clock runs all the same
-            x = w[y + 6 * a + 3] if S.n_active > 1 else 1.0
-            w[S.f + 3 * a] = normal_force(S, w, k, a, x)
+            w[S.f + 3 * a] = normal_force(S, w, k, a, w[y + STRIDE * a + 3])
         else:
             w[S.f + 3 * a] = 0.0
         k[S.normal_held + a] = 1 if phase == HELD else 0
@@ -85,7 +89,7 @@ def _slide(S, w, k, a):
     d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
     v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
     speed = math.sqrt(v1 * v1 + v2 * v2)
-    if speed > NOISE * S.speed_scale:
+    if speed > REST * S.speed_scale:
         sign = 1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0
         d1, d2 = sign * v1 / speed, sign * v2 / speed
     mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
@@ -100,16 +104,18 @@ def impact_slope(S, w, k, y, out):
     """Write d(P, x, W, D)/ds of all active contacts."""
     evaluate_impact_forces(S, w, k, y)
     for a in range(S.n_active):
-        f, z, o = S.f + 3 * a, S.impact_z + 3 * a, out + 6 * a
+        f, z, o = S.f + 3 * a, S.impact_z + 3 * a, out + STRIDE * a
         rate = w[z]
         for r in range(3):
             w[o + r] = w[f + r]
         phase = k[S.phase + a]
+        w[o + 3] = 0.0
         if phase == COMPRESSION:
             w[o + 3] = -rate / efficiency(S, w, k, a, min(rate, 0.0))
         elif phase == EXPANSION:
             w[o + 3] = -rate / efficiency(S, w, k, a, max(rate, 1e-300))
-        else:
+        w[o + 6] = w[f] * w[o + 3]
+        if a == S.lone:
             w[o + 3] = 0.0
         w[o + 4] = w[f] * rate
         w[o + 5] = -(w[f + 1] * w[z + 1] + w[f + 2] * w[z + 2])
@@ -118,7 +124,7 @@ def impact_slope(S, w, k, y, out):
 @kernel("f8(S, F, I, f8)")
 def try_impact_step(S, w, k, h):
     """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance."""
-    n = 6 * S.n_active
+    n = STRIDE * S.n_active
     for stage in range(1, 7):
         out = S.impact_new if stage == 6 else S.impact_stage
         stage_state(S, w, S.impact_y, S.impact_slopes, n, stage, h, out)
@@ -126,8 +132,8 @@ def try_impact_step(S, w, k, h):
     worst = 0.0
     for a in range(S.n_active):
         impulse_scale = S.speed_scale / w[S.delassus + 3 * a * 3 * S.n_active + 3 * a]
-        for r in range(6):
-            error = component_error(S, w, S.impact_slopes, n, h, 6 * a + r)
+        for r in range(STRIDE):
+            error = component_error(S, w, S.impact_slopes, n, h, STRIDE * a + r)
             if r == 3:
                 error /= w[S.impact_x_scale + a]
             elif r > 3:

@@ -7,23 +7,45 @@ from nonsmooth.engine.linear import eliminate
 from nonsmooth.model.layout import FRAME, GEOMETRY
 
 
+@kernel("void(S, F, I, f8, i8, i8)")
+def evaluate_body(S, w, k, t, y, body):
+    """Let one body write its output block at time ``t`` and the state at offset ``y``."""
+    call_body(
+        k[S.body_function + body],
+        t,
+        at(w, y + k[S.body_q + body]),
+        at(w, y + S.n_q + k[S.body_u + body]),
+        at(w, k[S.body_parameters + body]),
+        at(w, k[S.body_out + body]),
+    )
+
+
 @kernel("void(S, F, I, f8, i8)")
 def evaluate_bodies(S, w, k, t, y):
     """Let every body write its output block at time ``t`` and the state at offset ``y``."""
     for body in range(S.n_bodies):
-        call_body(
-            k[S.body_function + body],
-            t,
-            at(w, y + k[S.body_q + body]),
-            at(w, y + S.n_q + k[S.body_u + body]),
-            at(w, k[S.body_parameters + body]),
-            at(w, k[S.body_out + body]),
-        )
+        evaluate_body(S, w, k, t, y, body)
+
+
+@kernel("void(S, F, I, f8, i8)")
+def evaluate_driven_bodies(S, w, k, t, y):
+    """Let the bodies without coordinates write their output blocks."""
+    for body in range(S.n_bodies):
+        if k[S.body_nu + body] == 0:
+            evaluate_body(S, w, k, t, y, body)
+
+
+@kernel("void(S, F, I, f8, i8)")
+def evaluate_free_bodies(S, w, k, t, y):
+    """Let the bodies that have coordinates write their output blocks; for free flight."""
+    for body in range(S.n_bodies):
+        if k[S.body_nu + body] > 0:
+            evaluate_body(S, w, k, t, y, body)
 
 
 @kernel("void(S, F, I, i8)")
 def evaluate_geometry(S, w, k, c):
-    """Write gap, normal, tangent, witness points and curvature of contact ``c``."""
+    """Write gap, witness points, curvature and the axes n, t1, t2 of contact ``c``."""
     call_pair(
         k[S.geometry_function + c],
         at(w, k[S.body_out + k[S.body_a + c]]),
@@ -31,6 +53,13 @@ def evaluate_geometry(S, w, k, c):
         at(w, k[S.geometry_parameters + c]),
         at(w, S.geometry + GEOMETRY * c),
     )
+    n = S.axes + 9 * c
+    t = n + 3
+    for i in range(6):
+        w[n + i] = w[S.geometry + GEOMETRY * c + 1 + i]
+    w[n + 6] = w[n + 1] * w[t + 2] - w[n + 2] * w[t + 1]
+    w[n + 7] = w[n + 2] * w[t] - w[n] * w[t + 2]
+    w[n + 8] = w[n] * w[t + 1] - w[n + 1] * w[t]
 
 
 @kernel("f8(F, i8, i8, i8)")
@@ -46,25 +75,12 @@ def _point_speed(w, frame, point, axis):
 
 
 @kernel("void(S, F, I, i8)")
-def _second_tangent(S, w, k, c):
-    """Write n x t1 behind the axes n, t1 in the scratch ``small``."""
-    geometry = S.geometry + GEOMETRY * c
-    for i in range(6):
-        w[S.small + i] = w[geometry + 1 + i]
-    n, t = S.small, S.small + 3
-    w[S.small + 6] = w[n + 1] * w[t + 2] - w[n + 2] * w[t + 1]
-    w[S.small + 7] = w[n + 2] * w[t] - w[n] * w[t + 2]
-    w[S.small + 8] = w[n] * w[t + 1] - w[n + 1] * w[t]
-
-
-@kernel("void(S, F, I, i8)")
 def evaluate_rates(S, w, k, c):
     """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
-    _second_tangent(S, w, k, c)
     point = S.geometry + GEOMETRY * c + 7
     a, b = k[S.body_out + k[S.body_a + c]], k[S.body_out + k[S.body_b + c]]
     for r in range(3):
-        axis = S.small + 3 * r
+        axis = S.axes + 9 * c + 3 * r
         w[S.rate + 3 * c + r] = _point_speed(w, b, point + 3, axis) - _point_speed(w, a, point, axis)
 
 
@@ -108,13 +124,12 @@ def inverse_mass(S, w, k, body):
 @kernel("void(S, F, I, i8, i8)")
 def evaluate_jacobian(S, w, k, c, y):
     """Write W^T and N^T of contact ``c`` (rows n, t1, t2), M^-1 times them, and the prescribed rates."""
-    _second_tangent(S, w, k, c)
     point = S.geometry + GEOMETRY * c + 7
     a, b = k[S.body_a + c], k[S.body_b + c]
     n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
     j_a, j_b = k[S.jacobian_a + c], k[S.jacobian_b + c]
-    _side_jacobian(w, k[S.body_out + a], point, S.small, n_a, j_a, -1.0)
-    _side_jacobian(w, k[S.body_out + b], point + 3, S.small, n_b, j_b, 1.0)
+    _side_jacobian(w, k[S.body_out + a], point, S.axes + 9 * c, n_a, j_a, -1.0)
+    _side_jacobian(w, k[S.body_out + b], point + 3, S.axes + 9 * c, n_b, j_b, 1.0)
     _side_response(w, j_a, inverse_mass(S, w, k, a), n_a, k[S.response_a + c])
     _side_response(w, j_b, inverse_mass(S, w, k, b), n_b, k[S.response_b + c])
     u_a, u_b = y + S.n_q + k[S.body_u + a], y + S.n_q + k[S.body_u + b]
@@ -142,18 +157,20 @@ def _point_bias(w, frame, point, axis, sx, sy, sz):
     )
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_bias(S, w, k, c):
+@kernel("void(S, F, I, i8, i8)")
+def evaluate_bias(S, w, k, c, rows):
     """Write S_N and S_T of Eq. (13) with the prescribed accelerations: g'' and v' of contact ``c`` while u' = 0.
+
+    Only the normal one with ``rows`` 1, all with 3.
 
     The witness points slide over their bodies at u and w, and the normal turns by nu relative to the
     first one: slide_a u = turn_a nu, slide_b w = -turn_b (nu - rho), w = u + g nu - d, with rho the
     relative turning of the bodies and d their relative velocity at the witness points, both in the
     tangent plane (physics of general shapes; for plane and sphere it gives the S terms of Eq. (13)).
     """
-    _second_tangent(S, w, k, c)
     geometry = S.geometry + GEOMETRY * c
-    n, t1, t2 = S.small, S.small + 3, S.small + 6
+    n = S.axes + 9 * c
+    t1, t2 = n + 3, n + 6
     a, b = k[S.body_out + k[S.body_a + c]], k[S.body_out + k[S.body_b + c]]
     gap = w[geometry]
     # turning of the normal with the first body, (omega_A x n) in the tangent plane; rho likewise for B - A
@@ -168,8 +185,8 @@ def evaluate_bias(S, w, k, c):
     u1, u2, nu1, nu2 = w[S.right], w[S.right + 1], w[S.right + 2], w[S.right + 3]
     w1, w2 = u1 + gap * nu1 - d1, u2 + gap * nu2 - d2
     point = geometry + 7
-    for r in range(3):
-        axis = S.small + 3 * r
+    for r in range(rows):
+        axis = S.axes + 9 * c + 3 * r
         w[S.bias + 3 * c + r] = _point_bias(
             w,
             b,
@@ -192,8 +209,9 @@ def evaluate_bias(S, w, k, c):
     spin = w[a + 15] * w[n] + w[a + 16] * w[n + 1] + w[a + 17] * w[n + 2]
     rate = w[S.rate + 3 * c]
     w[S.bias + 3 * c] += n1 * v1 + n2 * v2
-    w[S.bias + 3 * c + 1] += spin * v2 - n1 * rate
-    w[S.bias + 3 * c + 2] += -spin * v1 - n2 * rate
+    if rows == 3:
+        w[S.bias + 3 * c + 1] += spin * v2 - n1 * rate
+        w[S.bias + 3 * c + 2] += -spin * v1 - n2 * rate
 
 
 @kernel("void(S, F, I, i8, f8, f8, f8, f8)")
@@ -218,13 +236,13 @@ def _witness_system(S, w, k, c, rho1, rho2, d1, d2):
         )
 
 
-@room("void(S, F, I, i8, i8)")
-def evaluate_contact(S, w, k, c, y):
-    """Write everything about contact ``c`` at the state ``y``, the bodies being evaluated."""
+@room("void(S, F, I, i8, i8, i8)")
+def evaluate_contact(S, w, k, c, y, rows):
+    """Write everything about contact ``c`` at the state ``y``, the bodies being evaluated; ``rows`` of the bias."""
     evaluate_geometry(S, w, k, c)
     evaluate_rates(S, w, k, c)
     evaluate_jacobian(S, w, k, c, y)
-    evaluate_bias(S, w, k, c)
+    evaluate_bias(S, w, k, c, rows)
 
 
 @room()
@@ -232,4 +250,4 @@ def evaluate_at(S, w, k):
     """Evaluate all bodies and contacts at the present time and state."""
     evaluate_bodies(S, w, k, S.t, S.y)
     for c in range(S.n_contacts):
-        evaluate_contact(S, w, k, c, S.y)
+        evaluate_contact(S, w, k, c, S.y, 3)

@@ -25,7 +25,13 @@ from numba.extending import intrinsic
 from nonsmooth.model.layout import ROOMS, SCALARS, Memory
 
 _PACKAGE = Path(__file__).resolve().parents[1]
-_OPTIONS: dict[str, Any] = {"nopython": True, "nogil": True, "error_model": "numpy"}
+_OPTIONS: dict[str, Any] = {
+    "nopython": True,
+    "nogil": True,
+    "error_model": "numpy",
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+}
 
 _SCALARS = numba.from_dtype(SCALARS)
 _FLOATS = types.CPointer(types.float64)

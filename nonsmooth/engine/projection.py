@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.kernel import kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import FRAME, GEOMETRY
@@ -22,15 +22,15 @@ def activate_closed(S, w, k):
     if m > 0:
         evaluate_bodies(S, w, k, S.t, S.y)
         for a in range(m):
-            evaluate_contact(S, w, k, k[S.active + a], S.y)
+            evaluate_contact(S, w, k, k[S.active + a], S.y, 1)
     return m
 
 
-@kernel("f8(S, F, I)")
+@room("f8(S, F, I)")
 def project_rates(S, w, k):
-    """Bring gap rates of the active contacts, and slip velocities of the sticking ones, to zero.
+    """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
 
-    The correction is the impulse of least kinetic energy, without friction on sliding contacts.
+    A slip that is only about to start counts as none: its direction would be that of round-off.  The correction is the impulse of least kinetic energy, without friction on sliding contacts.
     Returns the kinetic energy it removes [J]; the work of the driven bodies is booked.
     """
     m = S.n_active
@@ -40,7 +40,8 @@ def project_rates(S, w, k):
     for a in range(m):
         c = k[S.active + a]
         k[S.normal_held + a] = 1
-        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK else 0
+        slow = max(abs(w[S.rate + 3 * c + 1]), abs(w[S.rate + 3 * c + 2])) <= S.velocity_tolerance
+        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or slow else 0
         w[S.mu + a] = 0.0
         for r in range(3):
             w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]

@@ -33,8 +33,8 @@ _ATTEMPTS = 200
 _PAINLEVE_ATTEMPTS = 5
 
 
-@kernel("i8(S, F, I)")
-def _touch(S, w, k):
+@room("i8(S, F, I)")
+def touch(S, w, k):
     """Find and evaluate the touching contacts; return 1 if one of them approaches."""
     evaluate_bodies(S, w, k, S.t, S.y)
     approaching = 0
@@ -47,7 +47,7 @@ def _touch(S, w, k):
         if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c] > near:
             k[S.touching + c] = 0
             continue
-        evaluate_contact(S, w, k, c, S.y)
+        evaluate_contact(S, w, k, c, S.y, 3)
         if rate < -S.velocity_tolerance:
             approaching = 1
     return approaching
@@ -95,8 +95,8 @@ def _map_impact(S, w, k):
         w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = normal, 0.0, tangential
 
 
-@kernel("i8(S, F, I, i8)")
-def _impact(S, w, k, cause):
+@room("i8(S, F, I, i8)")
+def collide(S, w, k, cause):
     """Run the impact law on the touching contacts, book its energies, record it; return the status."""
     remember(S, w, k)
     _activate_touching(S, w, k)
@@ -137,7 +137,7 @@ def _impact(S, w, k, cause):
     S.restitution_loss += restitution
     S.friction_loss += friction
     # until the instant is settled: apart is open, the rest goes by its slip
-    _touch(S, w, k)
+    S.approaching = touch(S, w, k)
     for c in range(S.n_contacts):
         _provisional_mode(S, w, k, c)
     record_event(S, w, k, cause, contact, S.phases)
@@ -190,7 +190,7 @@ def _impact_without_collision(S, w, k):
             k[S.impacting + k[S.active + a]] = 1
             S.impact_seed = max(S.impact_seed, _speed(S, w, k, k[S.active + a]))
     S.painleve = 1
-    status = _impact(S, w, k, PAINLEVE)
+    status = collide(S, w, k, PAINLEVE)
     S.painleve = 0
     S.impact_seed = 0.0
     return status
@@ -234,11 +234,13 @@ def settle(S, w, k, cause, contact):
     """Carry the system through the present instant, ``cause`` and ``contact`` saying why it is one; return the status."""
     S.recorded = 0
     resting = 0
+    approaching = touch(S, w, k)
     for _attempt in range(_ATTEMPTS):
-        if _touch(S, w, k) == 1:
-            status = _impact(S, w, k, IMPACT)
+        if approaching == 1:
+            status = collide(S, w, k, IMPACT)
             if status != RUNNING:
                 return status
+            approaching = S.approaching
             continue
         if S.recorded == 0:
             remember(S, w, k)
@@ -252,12 +254,14 @@ def settle(S, w, k, cause, contact):
                 status = _impact_without_collision(S, w, k)
                 if status != RUNNING:
                     return status
+                approaching = S.approaching
                 continue
             accelerate(S, w, k)
         _adopt(S, w, k)
         if _close(S, w, k) == 0:
             _finish(S, w, k, cause, contact)
             return RUNNING
+        approaching = touch(S, w, k)
     return SETTLE_ENDLESS
 
 

@@ -220,7 +220,8 @@ def _set_scalars(model: Model, options: Options) -> None:
         "gap_tolerance": options.gap_tolerance,
         "velocity_tolerance": options.velocity_tolerance,
         "h_max": step,
-        "h": step if math.isfinite(step) else 1e-3,
+        "h_free": step,
+        "h_closed": step,
         "last_event_t": -math.inf,
     }
     for name, value in values.items():

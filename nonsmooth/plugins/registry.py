@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
-import importlib
+import importlib.util
+import inspect
 import warnings
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
@@ -19,6 +21,12 @@ GROUPS: dict[str, tuple[type, ...]] = {
     "kinematics": (ContactKinematics,),
 }
 """Entry-point groups ``nonsmooth.<name>`` and the interfaces that their members implement."""
+
+KINDS = {"bodies": "body", "laws": "law", "scenarios": "scenario", "kinematics": "contact kinematics"}
+"""What one member of a group is called."""
+
+_HOME = Path(__file__).resolve().parents[2]
+_BUILT_IN = ("bodies", "laws", "scenarios")
 
 
 class BrokenPlugin(UserWarning):
@@ -63,15 +71,22 @@ def load(group: str, name: str) -> Any:
         If it cannot be imported or is not what the group asks for.
     """
     if name not in _points(group):
-        raise UnknownName(f"{group}", name, names(group))
+        raise UnknownName(KINDS[group], name, names(group))
     point = _points(group)[name]
+    title = f"{KINDS[group]} {name!r} ({point.value}, from {source(group, name)})"
     try:
         loaded = point.load()
     except Exception as error:
-        raise PluginError(f"{name} ({point.value}) cannot be loaded: {error}. {_shadow(point)}") from error
+        reason = f"{type(error).__name__}: {error}"
+        raise PluginError(" ".join([f"{title} cannot be loaded: {reason}.", *_hidden()])) from error
     if not (isinstance(loaded, type) and issubclass(loaded, GROUPS[group])):
         wanted = " or ".join(base.__name__ for base in GROUPS[group])
-        raise PluginError(f"{name} ({point.value}) of nonsmooth.{group} must be a subclass of {wanted}, not {loaded!r}.")
+        raise PluginError(f"{title} must be a subclass of {wanted}, not {loaded!r}.")
+    if inspect.isabstract(loaded):
+        missing = ", ".join(sorted(vars(loaded)["__abstractmethods__"]))
+        raise PluginError(f"{title} must define {missing}.")
+    if not dataclasses.is_dataclass(loaded):
+        raise PluginError(f"{title} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}.")
     return loaded
 
 
@@ -86,13 +101,18 @@ def load_all(group: str) -> dict[str, Any]:
     return loaded
 
 
-def _shadow(point: EntryPoint) -> str:
-    """Say which file of the user hides the package that the entry point means."""
-    top = point.value.partition(":")[0].partition(".")[0]
-    try:
-        found = importlib.import_module(top).__file__ or ""
-    except ImportError:
-        return ""
-    if top in ("bodies", "laws", "scenarios") and Path(found).parent.name != top:
-        return f"The file {found} hides the package {top!r} of nonsmooth: rename it."
-    return ""
+def _hidden() -> list[str]:
+    """Say which files of the user hide packages that come with nonsmooth, as a laws.py in the working folder does."""
+    found = {}
+    for package in _BUILT_IN:
+        try:
+            spec = importlib.util.find_spec(package)
+        except ValueError:  # a module put together by hand, without a specification
+            continue
+        if spec is not None and spec.origin is not None:
+            found[package] = Path(spec.origin).resolve()
+    return [
+        f"The file {file} hides the package {package!r} that comes with nonsmooth: rename it."
+        for package, file in found.items()
+        if file.parent != _HOME / package
+    ]

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
+import io
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,15 +20,61 @@ from nonsmooth.solution.solution import Solution
 if TYPE_CHECKING:
     import xarray
 
+Coordinates = Mapping[str, Any]
+_NONE: Coordinates = MappingProxyType({})
 _ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
 
 
 class FileError(NonsmoothError, OSError):
-    """A result file that could not be written; the message names the path."""
+    """A file or folder that could not be written; the message names the path."""
+
+    def __init__(self, path: object, error: OSError) -> None:
+        reason = error.strerror or error
+        super().__init__(f"{path} could not be written: {reason}. Free space there or choose another folder.")
 
 
-def to_dataset(solution: Solution) -> xarray.Dataset:
-    """Return samples and events of a solution as one dataset with units."""
+def prepare(folder: Path) -> None:
+    """Create a folder and try to write into it, so that a wrong path is found before a run and not after it.
+
+    Raises
+    ------
+    FileError
+        If that is not possible.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as probe:
+            probe.write(b"probe")
+    except OSError as error:
+        raise FileError(folder, error) from error
+
+
+@contextlib.contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Yield a path to write to; it becomes ``path`` when all is written, so that no half file takes that name.
+
+    Raises
+    ------
+    FileError
+        If writing fails; an older file of that name stays as it was.
+    """
+    part = path.with_name(f".{path.name}.part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        yield part
+        os.replace(part, path)
+    except OSError as error:
+        raise FileError(path, error) from error
+    finally:
+        with contextlib.suppress(OSError):
+            part.unlink()
+
+
+def to_dataset(solution: Solution, coordinates: Coordinates = _NONE) -> xarray.Dataset:
+    """Return samples and events of a solution as one dataset with units.
+
+    ``coordinates`` are further variables over the samples, as a scenario gives them: name -> array [n_samples].
+    """
     import xarray
 
     events = solution.events
@@ -46,14 +98,15 @@ def to_dataset(solution: Solution) -> xarray.Dataset:
         variables[f"mode_{which}"] = (("event",), spelled, {"long_name": f"mode word {which} the event"})
     for name in _ENERGIES:
         variables[name] = (("event",), getattr(events, name), {"units": "J", "long_name": name.replace("_", " ")})
-    account = {name: value for name, value in vars(solution.energy).items()}
+    for name, values in coordinates.items():
+        variables[name] = (("time",), values, {"long_name": "coordinate of the scenario, SI"})
     return xarray.Dataset(
         variables,
         coords={
             "time": ("time", solution.t, {"units": "s"}),
             "event_time": ("event", events.time, {"units": "s"}),
         },
-        attrs=account
+        attrs=vars(solution.energy)
         | {
             "status": solution.status,
             "message": solution.message,
@@ -63,29 +116,41 @@ def to_dataset(solution: Solution) -> xarray.Dataset:
     )
 
 
-def save(solution: Solution, folder: Path) -> list[Path]:
+def save(solution: Solution, folder: Path, coordinates: Coordinates = _NONE) -> list[Path]:
     """Write ``solution.nc`` and ``events.csv`` into a folder; return the paths.
+
+    ``coordinates`` are those of :func:`to_dataset`.
 
     Raises
     ------
     FileError
-        If a file cannot be written; what could be written stays.
+        If a file cannot be written; the other one is written all the same.
     """
-    paths = [folder / "solution.nc", folder / "events.csv"]
-    for path, write in zip(paths, (_save_dataset, _save_events), strict=True):
+    failures = []
+    paths = {folder / "solution.nc": _write_dataset, folder / "events.csv": _write_events}
+    for path, write in paths.items():
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-            write(solution, path)
-        except OSError as error:
-            raise FileError(f"{path} could not be written: {error}. Free space there or give another --out.") from error
-    return paths
+            with replacing(path) as part:
+                write(solution, coordinates, part)
+        except FileError as error:
+            failures.append(error)
+    if failures:
+        raise failures[0]
+    return list(paths)
 
 
-def _save_dataset(solution: Solution, path: Path) -> None:
-    to_dataset(solution).to_netcdf(path, engine="h5netcdf")
+def _write_dataset(solution: Solution, coordinates: Coordinates, path: Path) -> None:
+    import h5netcdf  # type: ignore[import-untyped]
+    from xarray.backends import H5NetCDFStore
+
+    # in memory first: where a disk is full, HDF5 fails once per object, at length, and again when the process ends
+    content = io.BytesIO()
+    with h5netcdf.File(content, "w") as file:
+        to_dataset(solution, coordinates).dump_to_store(H5NetCDFStore(file))
+    path.write_bytes(content.getbuffer())
 
 
-def _save_events(solution: Solution, path: Path) -> None:
+def _write_events(solution: Solution, coordinates: Coordinates, path: Path) -> None:
     events = solution.events
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)

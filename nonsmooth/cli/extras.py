@@ -1,0 +1,22 @@
+"""The optional packages that pictures and result files need."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Iterable
+
+from nonsmooth.errors import NonsmoothError
+
+PICTURES = ("matplotlib",)
+RESULTS = ("matplotlib", "xarray", "h5netcdf", "h5py")
+
+
+class MissingPackagesError(NonsmoothError):
+    """Optional packages that a request needs and that are not installed."""
+
+
+def require(packages: Iterable[str]) -> None:
+    """Raise MissingPackagesError unless all are installed; imports none of them."""
+    missing = [name for name in packages if importlib.util.find_spec(name) is None]
+    if missing:
+        raise MissingPackagesError(f'--out needs {", ".join(missing)}: pip install "nonsmooth[full]"')

@@ -1,0 +1,59 @@
+"""``nonsmooth figures``: the published figures of a scenario."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from nonsmooth.cli import extras, results
+from nonsmooth.cli.interrupt import Interrupt
+from nonsmooth.cli.messages import complain, say
+from nonsmooth.cli.progress import on_standard_error
+from nonsmooth.plugins import registry
+from nonsmooth.solution import files
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("figures", help="draw all figures of a scenario", allow_abbrev=False)
+    command.add_argument("scenario", metavar="SCENARIO", help="see `nonsmooth list scenarios`")
+    command.add_argument("--out", type=Path, metavar="DIR", required=True, help="save them there")
+    command.set_defaults(execute=execute)
+
+
+def execute(arguments: argparse.Namespace) -> bool:
+    """Draw and save the figures; print their paths; tell whether all went well."""
+    owner = registry.load("scenarios", arguments.scenario)
+    extras.require(extras.PICTURES)
+    files.prepare(arguments.out)
+    results.without_display()
+    drawn = _draw(owner)
+    if drawn is None:
+        complain("interrupted: no figure was saved")
+        return False
+    troubles: list[str] = []
+    paths = results.save_figures(drawn, arguments.out, troubles)
+    say("\n".join(map(str, paths)))
+    return not troubles
+
+
+def _draw(owner: Any) -> Mapping[str, Any] | None:
+    """Return the figures by name, None after Ctrl-C: figures of half a run would be wrong ones."""
+    progress = on_standard_error()
+
+    def after_steps(t: float, t_end: float) -> None:
+        progress(t, t_end)
+        if t < t_end:
+            interrupt.check()
+
+    with Interrupt() as interrupt:
+        try:
+            drawn: Mapping[str, Any] = owner.gallery(after_steps)
+        except (Exception, KeyboardInterrupt):
+            if not interrupt.asked:
+                raise
+        finally:
+            progress.finish()
+    return None if interrupt.asked else drawn

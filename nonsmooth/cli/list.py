@@ -1,0 +1,31 @@
+"""``nonsmooth list``: what is installed, plug-ins included."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from nonsmooth.cli.messages import say
+from nonsmooth.cli.table import first_line, lines
+from nonsmooth.plugins import registry
+
+GROUPS = ("scenarios", "bodies", "laws")
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("list", help="what is installed, plug-ins included", allow_abbrev=False)
+    command.add_argument("group", nargs="?", choices=GROUPS, help="all three by default")
+    command.set_defaults(execute=execute)
+
+
+def execute(arguments: argparse.Namespace) -> bool:
+    """Print name, source and first docstring line of every usable plug-in."""
+    wanted = (arguments.group,) if arguments.group else GROUPS
+    say("\n\n".join(_section(group) for group in wanted))
+    return True
+
+
+def _section(group: str) -> str:
+    rows = [(name, registry.source(group, name), first_line(owner)) for name, owner in registry.load_all(group).items()]
+    return "\n".join([f"{group}:", *(lines(rows) or ["  none"])])

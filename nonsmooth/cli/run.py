@@ -1,0 +1,119 @@
+"""``nonsmooth run``: run a scenario, say what happened, save it."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import sys
+from pathlib import Path
+from typing import Any, cast
+
+from nonsmooth.cli import extras, report, request, results
+from nonsmooth.cli.interrupt import Interrupt
+from nonsmooth.cli.messages import complain, say, tell
+from nonsmooth.cli.progress import on_standard_error
+from nonsmooth.errors import PluginError, RunFailed
+from nonsmooth.interfaces import Scenario
+from nonsmooth.simulate import simulate
+from nonsmooth.solution import files
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("run", help="run a scenario", allow_abbrev=False)
+    command.add_argument("scenario", metavar="SCENARIO", help="see `nonsmooth list scenarios`")
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a parameter of `nonsmooth show SCENARIO`, in SI units; may come often",
+    )
+    command.add_argument("--out", type=Path, metavar="DIR", help="save results and figures there")
+    command.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
+    command.set_defaults(execute=execute)
+
+
+def execute(arguments: argparse.Namespace) -> bool:
+    """Run the scenario; tell whether all went well."""
+    troubles: list[str] = []
+    with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints: standard output is for the result
+        outcome = _perform(arguments, troubles)
+    say(report.as_json(outcome) if arguments.json else report.as_text(outcome))
+    return outcome["status"] == "done" and not troubles
+
+
+def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Report:
+    scenario = request.scenario(arguments.scenario, arguments.set)
+    head = {"scenario": arguments.scenario, "parameters": dict(scenario.resolved())}
+    system = scenario.build()
+    if arguments.out is not None:
+        extras.require(extras.RESULTS)
+        with results.noting(troubles, "--out"):
+            files.prepare(arguments.out)
+    if troubles:
+        solution, status, message = None, "failed", troubles[0]
+    else:
+        solution, status, message = _compute(scenario, system)
+    outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
+    outcome |= {"final": None, "summary": None}
+    if solution is None:
+        return outcome
+    if arguments.out is not None:
+        _save_solution(scenario, solution, arguments.out, troubles)
+    with results.noting(troubles, f"{type(scenario).__name__}.final"):
+        outcome["final"] = dict(scenario.final(solution))
+    with results.noting(troubles, f"{type(scenario).__name__}.summarise"):
+        outcome["summary"] = dict(scenario.summarise(solution))
+    if arguments.out is not None:
+        results.save_text(report.as_json(outcome), arguments.out / "summary.json", troubles)
+        _save_figures(scenario, solution, arguments.out, troubles)
+        if not troubles:
+            tell(f"results are in {arguments.out}")
+    return outcome
+
+
+def _compute(scenario: Scenario, system: System) -> tuple[Solution | None, str, str]:
+    """Return the solution, as far as there is one, the status and why the run stopped."""
+    progress = on_standard_error()
+
+    def after_steps(t: float, t_end: float) -> None:
+        progress(t, t_end)
+        if t < t_end:
+            interrupt.check()
+
+    try:
+        with Interrupt() as interrupt:
+            solution = simulate(
+                system, scenario.t_end, sample_interval=scenario.sample_interval, progress=after_steps
+            )
+    except RunFailed as error:
+        kept = cast("Solution | None", error.solution)
+        message = kept.message if kept else str(error)
+        complain(message)
+        return kept, "failed", message
+    except PluginError as error:
+        complain(str(error))
+        return None, "failed", str(error)
+    except KeyboardInterrupt:
+        complain("interrupted before the run began")
+        return None, "interrupted", "interrupted before the run began"
+    finally:
+        progress.finish()
+    return solution, solution.status, solution.message
+
+
+def _save_solution(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
+    coordinates: dict[str, Any] = {}
+    with results.noting(troubles, f"{type(scenario).__name__}.coordinates"):
+        coordinates.update(scenario.coordinates(solution))
+    with results.noting(troubles, "saving the solution"):
+        files.save(solution, folder, coordinates)
+
+
+def _save_figures(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
+    results.without_display()
+    with results.noting(troubles, f"{type(scenario).__name__}.figures"):
+        results.save_figures(scenario.figures(solution), folder, troubles)

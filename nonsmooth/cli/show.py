@@ -1,0 +1,64 @@
+"""``nonsmooth show``: the parameters of a scenario, law or body."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+from typing import Any
+
+from nonsmooth.cli.list import GROUPS
+from nonsmooth.cli.messages import say
+from nonsmooth.cli.table import first_line, lines
+from nonsmooth.errors import UnknownName
+from nonsmooth.parameters import Rule
+from nonsmooth.plugins import registry
+
+_HEAD = ("parameter", "default", "unit", "allowed", "")
+_LEGEND = "  * assumed: the source does not give this value, we chose it"
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser(
+        "show", help="parameters with units, defaults, ranges, and what is assumed", allow_abbrev=False
+    )
+    command.add_argument("name", metavar="NAME", help="a scenario, law or body of `nonsmooth list`")
+    command.set_defaults(execute=execute)
+
+
+def execute(arguments: argparse.Namespace) -> bool:
+    """Print everything of that name: a scenario and a body may share one."""
+    groups = [group for group in GROUPS if arguments.name in registry.names(group)]
+    if not groups:
+        known = {name for group in GROUPS for name in registry.names(group)}
+        raise UnknownName("scenario, law or body", arguments.name, known)
+    say("\n\n".join(_describe(group, arguments.name) for group in groups))
+    return True
+
+
+def _describe(group: str, name: str) -> str:
+    owner = registry.load(group, name)
+    rows = [_row(field) for field in dataclasses.fields(owner) if field.init]
+    table = lines([_HEAD, *rows]) if rows else ["  no parameters"]
+    legend = [_LEGEND] if any(row[1].endswith("*") for row in rows) else []
+    title = f"{name}: {registry.KINDS[group]} of {registry.source(group, name)}"
+    return "\n".join([title, f"  {first_line(owner)}", "", *table, *legend])
+
+
+def _row(field: dataclasses.Field[Any]) -> tuple[str, str, str, str, str]:
+    rule = field.metadata.get("rule")
+    if rule is None:
+        return field.name, _default(field), "", f"a {field.type}", "given from Python only"
+    return field.name, _default(field) + " *" * rule.assumed, rule.unit, _allowed(rule), rule.doc
+
+
+def _allowed(rule: Rule) -> str:
+    return "a name" if rule.unit == "" and not rule.choices else rule.describe()
+
+
+def _default(field: dataclasses.Field[Any]) -> str:
+    if field.default_factory is not dataclasses.MISSING:
+        return repr(field.default_factory())
+    if field.default is dataclasses.MISSING:
+        return "required"
+    return "-" if field.default is None else str(field.default)

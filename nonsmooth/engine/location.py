@@ -1,0 +1,187 @@
+"""Finding events within a step, and stepping exactly to the first of them.
+
+Guards are sampled in the middle and at the end of every step; between two samples at which a gap first
+falls and then rises, its minimum is located, so that no dip is missed.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.flow import try_step
+from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, keep_end, write_guards
+from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.modes import OPEN
+from nonsmooth.engine.runge_kutta import dense_state
+
+_MIDDLE = 0.5
+_SHORT = 1e-7
+"""Corrections below this part of a step are made along the tangent; their error is its square."""
+
+
+@kernel("i8(S, F, I)")
+def _any_closed(S, w, k):
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            return 1
+    return 0
+
+
+@kernel("void(S, F, I, f8, f8, i8)")
+def _guards_within(S, w, k, h, theta, forces):
+    dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
+    evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
+
+
+@kernel("f8(S, F, I, f8, f8, f8, i8)")
+def _least_gap(S, w, k, h, low, high, c):
+    """Return a fraction of the step between ``low`` and ``high`` where the gap of ``c`` is negative, or 0."""
+    for _iteration in range(40):
+        middle = 0.5 * (low + high)
+        _guards_within(S, w, k, h, middle, 0)
+        if w[S.guard + 2 * c] < 0.0:
+            return middle
+        if w[S.gap_rate + c] < 0.0:
+            low = middle
+        else:
+            high = middle
+        # a parabola through the minimum cannot dip below zero any more
+        if w[S.guard + 2 * c] > abs(w[S.gap_rate + c]) * (high - low) * h:
+            break
+    return 0.0
+
+
+@kernel("f8(S, F, I, f8, f8, f8, i8)")
+def _dip(S, w, k, h, low, high, middle):
+    """Look for a dip of an open gap between two samples; ``middle`` 1 if the later one is the middle of the step."""
+    for c in range(S.n_contacts):
+        before = w[S.gap_rate_middle + c] if middle == 0 else w[S.gap_rate_first + c]
+        after = w[S.gap_rate_middle + c] if middle == 1 else w[S.gap_rate_end + c]
+        if k[S.mode + c] == OPEN and before < 0.0 and after > 0.0:
+            theta = _least_gap(S, w, k, h, low, high, c)
+            if theta > 0.0:
+                _guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+                return theta
+    return 0.0
+
+
+@kernel("f8(S, F, I, f8)")
+def first_crossing(S, w, k, h):
+    """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
+
+    Called right after the step, when bodies and forces stand at its end.
+    """
+    closed = _any_closed(S, w, k)
+    write_guards(S, w, k, S.t + h, S.y_new, 1)
+    keep_end(S, w, k)
+    deflate(S, w, k, h)
+    fired = first_fired(S, w, k, 1, -1)
+    # where no stage saw a force or slip that violates its mode, the middle is looked at for gaps only
+    forces = closed if S.suspect == 1 else 0
+    _guards_within(S, w, k, h, _MIDDLE, forces)
+    if first_fired(S, w, k, forces, -1) >= 0:
+        if forces != closed:
+            _guards_within(S, w, k, h, _MIDDLE, closed)
+        return _MIDDLE
+    arm_further(S, w, k, forces)
+    for c in range(S.n_contacts):
+        w[S.gap_rate_middle + c] = w[S.gap_rate + c]
+    theta = _dip(S, w, k, h, 0.0, _MIDDLE, 1)
+    if theta > 0.0:
+        return theta
+    theta = 0.0
+    if fired < 0:
+        theta = _dip(S, w, k, h, _MIDDLE, 1.0, 0)
+    if theta == 0.0:
+        for i in range(2 * S.n_contacts):
+            w[S.guard + i] = w[S.guard_end + i]
+        deflate(S, w, k, h)
+        # guards armed only in the middle of the step count as well
+        if first_fired(S, w, k, 1, -1) >= 0:
+            return 1.0
+    return theta
+
+
+@kernel("f8(S, F, I, f8, f8, i8, i8)")
+def _guard_at(S, w, k, h, theta, i, forces):
+    _guards_within(S, w, k, h, theta, forces)
+    return w[S.guard + i]
+
+
+@kernel("f8(S, F, I, f8, f8, i8, i8)")
+def _root(S, w, k, h, high, i, forces):
+    """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
+
+    Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.  The guards are left
+    evaluated there, the slope of guard ``i`` in ``guard_slope``.
+    """
+    fine = 0.01 * S.time_tolerance
+    low, g_low = 0.0, w[S.guard_first + i]
+    g_high = w[S.guard + i]
+    S.guard_slope = 0.0
+    while g_low <= 0.0:
+        # it was armed inside the step: look for where it was positive
+        low = 0.5 * high if low == 0.0 else 0.5 * low
+        g_low = _guard_at(S, w, k, h, low, i, forces)
+        if low < 1e-4 * high:
+            return low
+    theta = high - g_high * (high - low) / (g_high - g_low)
+    for _iteration in range(100):
+        g = _guard_at(S, w, k, h, theta, i, forces)
+        S.guard_slope = (g_high - g_low) / ((high - low) * h)
+        if k[S.mode + i // 2] == OPEN:
+            S.guard_slope = w[S.gap_rate + i // 2]
+            if k[S.guard_deflated + i] == 1:
+                S.guard_slope = (S.guard_slope - g) / (theta * h)
+        if g == 0.0 or (high - low) * h <= fine or abs(g) <= -fine * S.guard_slope:
+            return theta
+        if g < 0.0:
+            ratio = 1.0 - g / g_high
+            g_low *= ratio if ratio > 0.0 else 0.5
+            high, g_high = theta, g
+        else:
+            ratio = 1.0 - g / g_low
+            g_high *= ratio if ratio > 0.0 else 0.5
+            low, g_low = theta, g
+        following = high - g_high * (high - low) / (g_high - g_low)
+        if k[S.mode + i // 2] == OPEN and S.guard_slope < 0.0:
+            newton = theta - g / (S.guard_slope * h)
+            if low < newton < high:
+                following = newton
+        theta = following
+    return theta
+
+
+@kernel("f8(S, F, I, f8, f8)")
+def locate(S, w, k, h, high):
+    """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
+
+    The root on the interpolant is corrected on the step itself, whose order is higher.
+    """
+    closed = _any_closed(S, w, k)
+    first = first_fired(S, w, k, 1, -1)
+    theta = high
+    S.trigger = max(0, first)
+    while first >= 0:
+        S.trigger = first
+        theta = _root(S, w, k, h, theta, first, closed)
+        first = first_fired(S, w, k, closed, S.trigger)
+    i = S.trigger
+    step = theta * h
+    for _iteration in range(4):
+        try_step(S, w, k, step)
+        write_guards(S, w, k, S.t + step, S.y_new, 1)
+        value = w[S.guard + i]
+        slope = S.guard_slope
+        if k[S.mode + i // 2] == OPEN:
+            slope = w[S.gap_rate + i // 2]
+        elif k[S.guard_deflated + i] == 1:
+            value /= step
+        if not slope < 0.0:
+            break
+        correction = min(0.2 * theta * h, max(-0.2 * theta * h, -value / slope))
+        step += correction
+        if abs(correction) <= _SHORT * h:
+            # so short a way is straight
+            for j in range(S.n_y):
+                w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
+            break
+    return step

@@ -1,0 +1,165 @@
+"""One impact by itself, on matrices."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nonsmooth.engine.impact_problem import FINISHED
+from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.interfaces import FrictionLaw, ImpactProcess
+from nonsmooth.model.layout import Memory, allocate
+from nonsmooth.plugins.compile import bind
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ImpactResult:
+    """What an impact did.
+
+    Attributes
+    ----------
+    velocity : array
+        u after the impact, shape [n_u].
+    normal_impulse : array
+        [N s], shape [n].
+    tangential_impulse : array
+        [N s], shape [n, 2].
+    stored, returned : array
+        Energy stored in compression and returned in expansion [J], shape [n].
+    friction_loss : array
+        Energy lost to friction [J], shape [n].
+    phases : int
+        Number of phases: compressions begun, turns, ends, changes between stick and slip.
+    steps : int
+        Integration steps.
+    """
+
+    velocity: Floats
+    normal_impulse: Floats
+    tangential_impulse: Floats
+    stored: Floats
+    returned: Floats
+    friction_loss: Floats
+    phases: int
+    steps: int
+
+    @property
+    def restitution_loss(self) -> Floats:
+        """Energy lost to restitution [J], shape [n]."""
+        return self.stored - self.returned
+
+
+def solve_impact(
+    mass: ArrayLike,
+    normal: ArrayLike,
+    tangential: ArrayLike,
+    velocity: ArrayLike,
+    impact: Sequence[ImpactProcess],
+    friction: Sequence[FrictionLaw],
+    *,
+    prescribed: ArrayLike | None = None,
+    tolerance: float = 1e-10,
+) -> ImpactResult:
+    """Solve one multiple impact with friction, Eqs. (19)-(28).
+
+    Parameters
+    ----------
+    mass : array
+        Mass matrix M, symmetric positive definite, shape [n_u, n_u].
+    normal : array
+        W, column i the generalised normal direction of contact i, shape [n_u, n].
+    tangential : array
+        N, two columns per contact, shape [n_u, n, 2].
+    velocity : array
+        u before the impact, shape [n_u].
+    impact : sequence of ImpactProcess
+        Impact law of every contact, length n.
+    friction : sequence of FrictionLaw
+        Friction law of every contact, length n.
+    prescribed : array, optional
+        Gap rate and slip velocity that the driven sides add [m/s], shape [n, 3].
+    tolerance : float
+        Relative error of a step.
+
+    Raises
+    ------
+    InvalidInput
+        If a shape is wrong, a number not finite, or M not symmetric positive definite.
+    RunFailed
+        If a law returns numbers that do not end the impact.
+    """
+    m, w, u = (np.array(x, dtype=float, copy=True) for x in (mass, normal, velocity))
+    n_u, n = len(u), len(impact)
+    t = np.array(tangential, dtype=float, copy=True)
+    z_driven = np.zeros((n, 3)) if prescribed is None else np.array(prescribed, dtype=float, copy=True)
+    for name, array, shape in (
+        ("mass", m, (n_u, n_u)),
+        ("normal", w, (n_u, n)),
+        ("tangential", t, (n_u, n, 2)),
+        ("prescribed", z_driven, (n, 3)),
+        ("velocity", u, (n_u,)),
+    ):
+        if array.shape != shape or not np.all(np.isfinite(array)):
+            raise InvalidInput(
+                f"solve_impact: {name}", f"must be finite with shape {shape}", array.shape, "One impact law per contact."
+            )
+    if len(friction) != n or n == 0:
+        raise InvalidInput("solve_impact: friction", f"must have one law for each of {n} contacts", len(friction), "")
+    if not np.allclose(m, m.T, rtol=1e-12, atol=0.0) or np.linalg.eigvalsh(m)[0] <= 0.0:
+        raise InvalidInput("solve_impact: mass", "must be symmetric positive definite", m.tolist(), "Check M.")
+    columns = np.concatenate([w[:, :, None], t], axis=2).reshape(n_u, 3 * n)
+    response = np.linalg.solve(m, columns)
+    delassus = columns.T @ response
+    rates = columns.T @ u + z_driven.ravel()
+    memory = _memory(impact, friction, tolerance)
+    memory.array("delassus", 9 * n * n)[:] = delassus.ravel()
+    memory.array("impact_z0", 3 * n)[:] = rates
+    outcome = FINISHED
+    if np.any(rates[::3] < 0.0):
+        outcome = int(call_room("energetic_impact", memory))
+    if outcome != FINISHED:
+        raise RunFailed("The impact did not end: a force or efficiency is not positive and finite.")
+    impulse = memory.array("impulse", 3 * n).reshape(n, 3).copy()
+    return ImpactResult(
+        u + response @ impulse.ravel(),
+        impulse[:, 0],
+        impulse[:, 1:],
+        *(memory.array(name, n).copy() for name in ("stored", "returned", "rubbed")),
+        phases=int(memory.scalars["phases"][0]),
+        steps=int(memory.scalars["impact_steps"][0]),
+    )
+
+
+def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], tolerance: float) -> Memory:
+    n = len(impact)
+    counts = dict.fromkeys(
+        ("n_bodies", "n_q", "n_u", "n_y", "map_width", "event_capacity", "event_width", "sample_capacity"), 0
+    )
+    blocks = []
+    for i in range(n):
+        for name, law, function in (
+            ("force", impact[i], impact[i].force),
+            ("efficiency", impact[i], impact[i].efficiency),
+            ("friction", friction[i], friction[i].coefficient),
+        ):
+            blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
+    size = sum(len(values) for *_, values in blocks)
+    memory = allocate(counts | {"n_contacts": n}, size)
+    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.scalars["n_active"] = n
+    memory.scalars["impact_rtol"] = tolerance
+    memory.array("active", n)[:] = np.arange(n)
+    memory.array("direction", 2 * n)[::2] = 1.0
+    offset = len(memory.floats) - max(size, 1)
+    for i, name, address, values in blocks:
+        memory.array(f"{name}_function", n)[i] = address
+        memory.array(f"{name}_parameters", n)[i] = offset
+        memory.floats[offset : offset + len(values)] = values
+        offset += len(values)
+    return memory

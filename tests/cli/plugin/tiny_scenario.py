@@ -1,0 +1,134 @@
+"""A plug-in as a user would write it: a ball on a vibrating plate, and some mistakes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+
+from bodies import Ball, Harmonic, Plate
+from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth import Solution, System, simulate
+from nonsmooth.interfaces import FrictionLaw, NormalLaw, Scenario
+from nonsmooth.parameters import parameter
+
+NUMBER = 1.0
+
+
+@dataclass(frozen=True)
+class Tiny(Scenario):
+    """A ball on a vibrating plate."""
+
+    title: ClassVar[str] = "A ball on a vibrating plate"
+
+    t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0)
+    radius: float = parameter(5e-3, doc="radius of the ball", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)
+    mode: str = parameter(
+        "bounce", doc="what to do", unit="", choices=("bounce", "nan law", "bad figure", "bad summary")
+    )
+
+    @property
+    def sample_interval(self) -> float:
+        """A hundredth of the run [s]."""
+        return self.t_end / 100.0
+
+    def build(self) -> System:
+        """Drop the ball from a radius above the plate."""
+        print("a plug-in that prints")
+        ball = Ball(radius=self.radius)
+        plate = Plate(motion=Harmonic(amplitude=3e-4, frequency=25.0))
+        system = System([plate, ball])
+        system.place(ball, position=(0.0, 0.0, 2.0 * self.radius))
+        friction: FrictionLaw = NotANumber() if self.mode == "nan law" else Coulomb(0.2)
+        system.contact(ball, plate, normal=Unilateral(), friction=friction, impact=EnergeticImpact(restitution=0.9))
+        return system
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return everything."""
+        return {"t_end": self.t_end, "radius": self.radius, "mode": self.mode}
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the height [m]."""
+        return {"height": solution.q[:, 2]}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return the state at the end."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return something of every type."""
+        if self.mode == "bad summary":
+            raise ZeroDivisionError("a summary that fails")
+        return {
+            "attractor": "bounce",
+            "period": math.nan,
+            "drift_velocity": np.array([1.0, -np.inf]),
+            "count": np.int64(len(solution.events)),
+            "flag": np.bool_(True),
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the height over time."""
+        from matplotlib.figure import Figure
+
+        if self.mode == "bad figure":
+            raise ZeroDivisionError("a figure that fails")
+        figure = Figure(figsize=(4.0, 3.0))
+        figure.add_subplot().plot(solution.t, solution.q[:, 2])
+        return {"height": figure}
+
+    @classmethod
+    def gallery(cls, progress: Any) -> Mapping[str, Any]:
+        """Return the heights of two runs."""
+        drawn = {}
+        for t_end in (0.05, 0.1):
+            tiny = cls(t_end=t_end)
+            figures = tiny.figures(simulate(tiny.build(), tiny.t_end, progress=progress))
+            drawn[f"height_{t_end:g}"] = figures["height"]
+        return drawn
+
+
+@final
+@dataclass(frozen=True)
+class Demanding(Tiny):
+    """The same without a default."""
+
+    t_end: float = parameter(doc="end time", unit="s", above=0.0)
+
+
+def _nan(speed: float) -> float:
+    return math.nan
+
+
+@final
+@dataclass(frozen=True)
+class NotANumber(FrictionLaw):
+    """A law that returns no number."""
+
+    @property
+    def coefficient(self) -> Callable[..., float]:
+        """No number."""
+        return _nan
+
+    def is_fulfilled(
+        self, slip: tuple[float, float], normal_force: float, tangential_force: tuple[float, float], tolerance: float
+    ) -> bool:
+        """Never."""
+        return False
+
+
+@dataclass(frozen=True)
+class Abstract(NormalLaw):
+    """A law without a certificate."""
+
+
+@final
+class Bare(NormalLaw):
+    """A law that is no dataclass."""
+
+    def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
+        """Accept everything."""
+        return True

@@ -1,0 +1,43 @@
+"""``nonsmooth figures``."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from nonsmooth.cli import figures
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+def test_every_figure_of_the_gallery(call: Call, tmp_path: Path) -> None:
+    status, output, _ = call("figures", "tiny", "--out", str(tmp_path / "new"))
+    assert status == 0
+    paths = [tmp_path / "new" / name for name in ("height_0.05.png", "height_0.1.png")]
+    assert output.splitlines()[-2:] == [str(path) for path in paths]
+    assert all(path.stat().st_size > 1000 for path in paths)
+
+
+def test_after_ctrl_c_no_figure_of_half_a_run(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Impatient:
+        def __call__(self, t: float, t_end: float) -> None:
+            signal.raise_signal(signal.SIGINT)
+
+        def finish(self) -> None:
+            pass
+
+    monkeypatch.setattr(figures, "on_standard_error", Impatient)
+    status, _, errors = call("figures", "tiny", "--out", str(tmp_path))
+    assert status == 1
+    assert "error: interrupted: no figure was saved\n" in errors
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_wrong_folder_is_found_first(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    status, output, errors = call("figures", "tiny", "--out", str(tmp_path / "file"))
+    assert (status, output) == (1, "")
+    assert errors.startswith(f"error: {tmp_path / 'file'} could not be written")

@@ -1,0 +1,37 @@
+"""``nonsmooth list``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+def test_all_groups_with_source_and_first_line(call: Call) -> None:
+    status, output, _ = call("list")
+    assert status == 0
+    assert [line for line in output.splitlines() if line.endswith(":")] == ["scenarios:", "bodies:", "laws:"]
+    for row in (
+        ("tiny", "tiny 0.1", "A ball on a vibrating plate."),
+        ("ball", "nonsmooth 0.1.0", "A free solid sphere."),
+        ("coulomb", "nonsmooth 0.1.0", "Coulomb's law, Eq. (17)."),
+    ):
+        assert any(line.split() == " ".join(row).split() for line in output.splitlines())
+
+
+@pytest.mark.parametrize("group", ["scenarios", "bodies", "laws"])
+def test_one_group(call: Call, group: str) -> None:
+    status, output, _ = call("list", group)
+    assert status == 0
+    assert [line for line in output.splitlines() if not line.startswith("  ")] == [f"{group}:"]
+
+
+def test_a_broken_plug_in_is_a_warning_and_not_listed(call: Call) -> None:
+    status, output, errors = call("list", "laws")
+    assert status == 0
+    assert "tiny" not in output
+    warned = errors.splitlines()
+    assert len(warned) == 3
+    assert all(line.startswith("warning: law 'tiny_") for line in warned)

@@ -1,0 +1,84 @@
+"""Exit statuses and the form of errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.metadata import version
+
+import pytest
+
+from nonsmooth.cli.messages import say
+from nonsmooth.solution.files import FileError
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+def test_version(call: Call) -> None:
+    assert call("--version") == (0, f"nonsmooth {version('nonsmooth')}\n", "")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        (),
+        ("rum", "tiny"),
+        ("list", "planets"),
+        ("show",),
+        ("run",),
+        ("run", "tiny", "--sets", "t_end=1"),
+        ("run", "tiny", "--js"),
+        ("figures", "tiny"),
+    ],
+)
+def test_a_request_that_cannot_be_read_is_wrong(call: Call, words: tuple[str, ...]) -> None:
+    status, output, errors = call(*words)
+    assert status == 2
+    assert output == ""
+    assert "usage: nonsmooth" in errors
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("run", "tinny"), "Did you mean 'tiny'"),
+        (("run", "tiny", "--set", "radios=1"), "Did you mean 'radius'?"),
+        (("run", "tiny", "--set", "radius"), "must have the form name=value, but it is 'radius'"),
+        (("run", "tiny", "--set", "radius="), "must have the form name=value"),
+        (("run", "tiny", "--set", "t_end=1", "--set", "t_end=2"), "must come once, but it is '1 and 2'"),
+        (("run", "tiny", "--set", "radius=5mm"), "must be a number, but it is '5mm'. Give it in [m]"),
+        (("run", "tiny", "--set", "radius=-1"), "Tiny.radius must be > 0 [m], but it is -1.0"),
+        (("run", "tiny", "--set", "radius=nan"), "Tiny.radius must be a finite number"),
+        (("run", "tiny", "--set", "mode=bouncy"), "Did you mean 'bounce'?"),
+        (("run", "tiny_demanding"), "tiny_demanding.t_end must be given"),
+        (("figures", "tinny", "--out", "x"), "Did you mean 'tiny'"),
+        (("show", "dumbell"), "Did you mean 'dumbbell'"),
+    ],
+)
+def test_a_wrong_request_is_one_line_with_the_remedy(call: Call, words: tuple[str, ...], told: str) -> None:
+    status, output, errors = call(*words)
+    assert status == 2
+    assert output == ""
+    assert told in errors
+    assert errors.startswith("error: ")
+    assert errors.count("\n") == 1
+
+
+def test_a_broken_scenario_is_a_failure_that_names_it(call: Call) -> None:
+    status, output, errors = call("run", "tiny_broken")
+    assert status == 1
+    assert output == ""
+    assert "scenario 'tiny_broken' (tiny_scenario:Missing, from tiny 0.1) cannot be loaded" in errors
+
+
+def test_an_unusual_value_is_one_line_per_parameter(call: Call) -> None:
+    status, _, errors = call("run", "tiny", "--set", "radius=10")
+    assert status == 0
+    warned = [line for line in errors.splitlines() if line.startswith("warning: ")]
+    assert [line.split(" = ")[0] for line in warned] == ["warning: Tiny.radius", "warning: Ball.radius"]
+
+
+def test_an_output_that_takes_nothing_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    with open("/dev/full", "w") as full:
+        monkeypatch.setattr("sys.stdout", full)
+        with pytest.raises(FileError, match="standard output could not be written: No space left"):
+            say("result")

@@ -1,0 +1,87 @@
+"""``nonsmooth run --out``: the files, and what happens where they cannot be written."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import resource
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+Call = Callable[..., tuple[int, str, str]]
+_PNG = b"\x89PNG\r\n"
+
+
+@contextmanager
+def _largest_file(size: int) -> Iterator[None]:
+    """Let no file grow over ``size`` bytes: what a full disk does, without one."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_results_events_summary_and_figures(call: Call, tmp_path: Path) -> None:
+    import xarray
+
+    folder = tmp_path / "new" / "results"
+    status, output, errors = call("run", "tiny", "--json", "--out", str(folder))
+    assert status == 0
+    assert f"results are in {folder}\n" in errors
+    assert sorted(p.name for p in folder.iterdir()) == ["events.csv", "height.png", "solution.nc", "summary.json"]
+    assert json.loads((folder / "summary.json").read_text()) == json.loads(output)
+    assert (folder / "height.png").read_bytes().startswith(_PNG)
+    with xarray.open_dataset(folder / "solution.nc", engine="h5netcdf") as saved:
+        assert saved.sizes["event"] == json.loads(output)["n_events"]
+        np.testing.assert_array_equal(saved["height"], saved["q"][:, 2])
+
+
+@pytest.mark.parametrize(("size", "kept"), [(0, set()), (4096, {"events.csv", "summary.json"})])
+def test_a_full_disk_is_an_error_with_the_path(call: Call, tmp_path: Path, size: int, kept: set[str]) -> None:
+    call("run", "tiny", "--out", str(tmp_path))  # so that what is compiled or cached is there already
+    folder = tmp_path / "full"
+    with _largest_file(size):
+        status, output, errors = call("run", "tiny", "--json", "--out", str(folder))
+    assert status == 1
+    assert json.loads(output)["status"] == ("done" if size else "failed")
+    assert f"error: {folder / 'solution.nc' if size else folder} could not be written: File too large." in errors
+    assert "Traceback" not in errors
+    assert {path.name for path in folder.iterdir()} == kept
+
+
+def test_a_wrong_folder_is_found_before_the_run(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    folder = tmp_path / "file" / "results"
+    status, output, errors = call("run", "tiny", "--json", "--out", str(folder))
+    report = json.loads(output)
+    assert status == 1
+    assert (report["status"], report["n_steps"], report["t_end"]) == ("failed", None, None)
+    assert str(folder) in report["message"]
+    assert f"error: {folder} could not be written" in errors
+
+
+def test_a_figure_that_fails_costs_nothing_else(call: Call, tmp_path: Path) -> None:
+    status, output, errors = call("run", "tiny", "--json", "--set", "mode=bad figure", "--out", str(tmp_path))
+    assert status == 1
+    assert json.loads(output)["status"] == "done"
+    assert "error: Tiny.figures failed: ZeroDivisionError: a figure that fails\n" in errors
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["events.csv", "solution.nc", "summary.json"]
+
+
+@pytest.mark.parametrize("command", ["run", "figures"])
+def test_missing_packages_are_told_before_the_run(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    find = importlib.util.find_spec
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "matplotlib" else find(name))
+    status, output, errors = call(command, "tiny", "--out", str(tmp_path / "results"))
+    assert status == 2
+    assert output == ""
+    assert 'error: --out needs matplotlib: pip install "nonsmooth[full]"\n' in errors
+    assert list(tmp_path.iterdir()) == []

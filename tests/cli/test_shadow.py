@@ -1,0 +1,46 @@
+"""A user's own module of the name of one of our packages."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+Start = Callable[..., subprocess.Popen[str]]
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "words"),
+    [
+        ("laws.py", "", ("list", "laws")),
+        ("laws.py", "1 +", ("list", "laws")),
+        ("bodies.py", "import laws", ("list", "bodies")),
+        ("laws/__init__.py", "", ("list", "laws")),
+        ("laws.py", "", ("run", "tiny")),  # not the file's own group: a scenario that needs the laws
+        ("bodies.py", "", ("show", "ball")),
+    ],
+)
+def test_the_file_that_hides_a_package_is_named(
+    start: Start, tmp_path: Path, file: str, content: str, words: tuple[str, ...]
+) -> None:
+    own = tmp_path / file
+    own.parent.mkdir(exist_ok=True)
+    own.write_text(content)
+    process = start(*words)
+    output, errors = process.communicate(timeout=120)
+    package = own.relative_to(tmp_path).parts[0].removesuffix(".py")
+    assert f"The file {own} hides the package {package!r} that comes with nonsmooth: rename it." in errors
+    assert "Traceback" not in errors
+    assert process.returncode == (0 if words[0] == "list" else 1)
+    assert output == ("" if words[0] != "list" else f"{package}:\n  none\n")
+
+
+def test_another_folder_of_that_name_hides_nothing(start: Start, tmp_path: Path) -> None:
+    (tmp_path / "laws").mkdir()
+    process = start("list", "laws")
+    output, errors = process.communicate(timeout=120)
+    assert process.returncode == 0
+    assert "coulomb" in output
+    assert "hides" not in errors

@@ -1,0 +1,99 @@
+"""The registry: names, sources, and what is wrong with a plug-in."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from nonsmooth.errors import PluginError, UnknownName
+from nonsmooth.plugins import registry
+
+Install = Callable[..., None]
+
+_GOOD = """
+from dataclasses import dataclass
+from nonsmooth.interfaces import NormalLaw
+
+@dataclass(frozen=True)
+class Good(NormalLaw):
+    '''A law that accepts everything.'''
+
+    def is_fulfilled(self, acceleration, force, tolerance):
+        return True
+"""
+
+
+@pytest.fixture
+def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
+    """Return a function that installs a distribution: name, entry points of nonsmooth.laws, modules."""
+
+    def run(name: str, entries: str, **modules: str) -> None:
+        folder = tmp_path / name
+        info = folder / f"{name}-1.2.dist-info"
+        info.mkdir(parents=True)
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.2\n")
+        (info / "entry_points.txt").write_text(f"[nonsmooth.laws]\n{entries}\n")
+        for module, content in modules.items():
+            (folder / f"{module}.py").write_text(content)
+        monkeypatch.syspath_prepend(str(folder))
+        registry._points.cache_clear()
+
+    yield run
+    registry._points.cache_clear()
+
+
+@pytest.mark.parametrize("group", ["bodies", "laws", "kinematics"])
+def test_every_built_in_loads(group: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        loaded = registry.load_all(group)
+    assert tuple(loaded) == registry.names(group)
+    assert all(issubclass(owner, registry.GROUPS[group]) for owner in loaded.values())
+
+
+def test_a_plug_in_is_found_with_its_source(install: Install) -> None:
+    install("plug_good", "good = plug_good:Good", plug_good=_GOOD)
+    assert "good" in registry.names("laws")
+    assert registry.source("laws", "good") == "plug_good 1.2"
+    assert registry.load("laws", "good").__name__ == "Good"
+
+
+def test_an_unknown_name_is_answered_with_the_nearest() -> None:
+    with pytest.raises(UnknownName, match=r"law name must be a known one, but it is .columb.\. Did you mean .coulomb."):
+        registry.load("laws", "columb")
+
+
+@pytest.mark.parametrize(
+    ("number", "target", "content", "told"),
+    [
+        (1, "Missing", _GOOD, "cannot be loaded: AttributeError"),
+        (2, "Good", "1 +", "cannot be loaded: SyntaxError"),
+        (3, "Good", "raise KeyError('x')", "cannot be loaded: KeyError"),
+        (4, "Good", "Good = 3", "must be a subclass of NormalLaw or FrictionLaw or ImpactLaw, not 3"),
+        (5, "Good", "class Good: pass", "must be a subclass of NormalLaw"),
+        (6, "Good", _GOOD.replace("def is_fulfilled", "def fulfils"), "must define is_fulfilled"),
+        (7, "Good", _GOOD.replace("@dataclass(frozen=True)", ""), "must be a dataclass: write @dataclass"),
+    ],
+)
+def test_a_broken_plug_in_is_named_with_its_mistake(
+    install: Install, number: int, target: str, content: str, told: str
+) -> None:
+    module = f"plug_broken_{number}"
+    install(module, f"bad = {module}:{target}", **{module: content})
+    with pytest.raises(PluginError, match=told) as raised:
+        registry.load("laws", "bad")
+    assert f"law 'bad' ({module}:{target}, from {module} 1.2)" in str(raised.value)
+    assert "hides" not in str(raised.value)
+    with pytest.warns(registry.BrokenPlugin, match=told):
+        loaded = registry.load_all("laws")
+    assert "bad" not in loaded
+    assert "coulomb" in loaded
+
+
+def test_two_claims_to_a_name_are_told(install: Install) -> None:
+    install("plug_rival", "coulomb = plug_rival:Good", plug_rival=_GOOD)
+    with pytest.warns(registry.BrokenPlugin, match="claimed by laws:Coulomb and by plug_rival:Good; the first is used"):
+        assert registry.load("laws", "coulomb").__name__ == "Coulomb"
