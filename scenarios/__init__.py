@@ -1,0 +1,1 @@
+"""Ready-made systems with their figures and acceptance numbers."""

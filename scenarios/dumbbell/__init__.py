@@ -1,0 +1,1 @@
+"""The paper's scenario: a dumbbell on a vibrating plate."""
