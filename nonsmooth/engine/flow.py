@@ -7,14 +7,15 @@ import math
 from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus import add_response, assemble_delassus, row
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact, evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import component_error, stage_state
 from nonsmooth.model.layout import FRAME
 
+
 @kernel("void(S, F, I, f8, i8)")
-def right_hand_side(S, w, k, t, y):
+def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
     In free flight the driven bodies are left alone.
@@ -43,7 +44,7 @@ def right_hand_side(S, w, k, t, y):
 
 
 @kernel("void(S, F, I, i8)")
-def _set_friction(S, w, k, a):
+def _set_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Set what is held and the slip direction, continued smoothly through a reversal within the step.
 
     Where the slip is too slow to have a direction of its own, that at the start of the step holds.
@@ -66,7 +67,7 @@ def _set_friction(S, w, k, a):
 
 
 @room("void(S, F, I, f8, i8, i8)")
-def slope(S, w, k, t, y, out):
+def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> None:
     """Write dy/dt: coordinate rates, accelerations, power of the driven bodies, power lost to friction."""
     right_hand_side(S, w, k, t, y)
     for body in range(S.n_bodies):
@@ -91,7 +92,7 @@ def slope(S, w, k, t, y, out):
 
 
 @room("f8(S, F, I, f8)")
-def try_step(S, w, k, h):
+def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
 
     ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip

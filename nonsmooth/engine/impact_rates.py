@@ -13,7 +13,7 @@ import math
 
 from nonsmooth.engine.contact_problem import friction_coefficient
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.kernel import at, call_scalar, kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.runge_kutta import component_error, stage_state
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
@@ -30,7 +30,7 @@ REST = 1e-8
 
 
 @kernel("f8(S, F, I, i8, f8)")
-def normal_force(S, w, k, a, x):
+def normal_force(S: Scalars, w: Floats, k: Integers, a: int, x: float) -> float:
     """Return the force of the active contact ``a`` at the deformation ``x``, Eq. (20)."""
     if a == S.lone:
         return 1.0
@@ -41,14 +41,14 @@ def normal_force(S, w, k, a, x):
 
 
 @kernel("f8(S, F, I, i8, f8)")
-def efficiency(S, w, k, a, rate):
+def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float:
     """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
     c = k[S.active + a]
     return call_scalar(k[S.efficiency_function + c], rate, at(w, k[S.efficiency_parameters + c]))
 
 
 @kernel("void(S, F, I, i8)")
-def evaluate_impact_rates(S, w, k, y):
+def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write z = z_0 + G P: gap rates and slip velocities at the impact state ``y``."""
     width = 3 * S.n_active
     for i in range(width):
@@ -62,7 +62,7 @@ def evaluate_impact_rates(S, w, k, y):
 
 
 @room("void(S, F, I, i8)")
-def evaluate_impact_forces(S, w, k, y):
+def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write the forces ``f`` of the active contacts at the impact state ``y`` in the present phases."""
     evaluate_impact_rates(S, w, k, y)
     held = 0
@@ -83,7 +83,7 @@ def evaluate_impact_forces(S, w, k, y):
 
 
 @kernel("void(S, F, I, i8)")
-def _slide(S, w, k, a):
+def _slide(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write the friction of a sliding contact, its direction continued smoothly through a reversal."""
     c = k[S.active + a]
     d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
@@ -100,7 +100,7 @@ def _slide(S, w, k, a):
 
 
 @kernel("void(S, F, I, i8, i8)")
-def impact_slope(S, w, k, y, out):
+def impact_slope(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> None:
     """Write d(P, x, W, D)/ds of all active contacts."""
     evaluate_impact_forces(S, w, k, y)
     for a in range(S.n_active):
@@ -122,7 +122,7 @@ def impact_slope(S, w, k, y, out):
 
 
 @kernel("f8(S, F, I, f8)")
-def try_impact_step(S, w, k, h):
+def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance."""
     n = STRIDE * S.n_active
     for stage in range(1, 7):
@@ -142,4 +142,4 @@ def try_impact_step(S, w, k, h):
                 error /= impulse_scale
             if not error <= worst:
                 worst = error
-    return worst / S.impact_rtol
+    return worst / float(S.impact_rtol)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.flow import try_step
 from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, keep_end, write_guards
-from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.modes import OPEN
 from nonsmooth.engine.runge_kutta import dense_state
 
@@ -18,7 +18,7 @@ _SHORT = 1e-7
 
 
 @kernel("i8(S, F, I)")
-def _any_closed(S, w, k):
+def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             return 1
@@ -26,13 +26,13 @@ def _any_closed(S, w, k):
 
 
 @kernel("void(S, F, I, f8, f8, i8)")
-def _guards_within(S, w, k, h, theta, forces):
+def _guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
 
 
 @kernel("f8(S, F, I, f8, f8, f8, i8)")
-def _least_gap(S, w, k, h, low, high, c):
+def _least_gap(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, c: int) -> float:
     """Return a fraction of the step between ``low`` and ``high`` where the gap of ``c`` is negative, or 0."""
     for _iteration in range(40):
         middle = 0.5 * (low + high)
@@ -50,7 +50,7 @@ def _least_gap(S, w, k, h, low, high, c):
 
 
 @kernel("f8(S, F, I, f8, f8, f8, i8)")
-def _dip(S, w, k, h, low, high, middle):
+def _dip(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, middle: int) -> float:
     """Look for a dip of an open gap between two samples; ``middle`` 1 if the later one is the middle of the step."""
     for c in range(S.n_contacts):
         before = w[S.gap_rate_middle + c] if middle == 0 else w[S.gap_rate_first + c]
@@ -64,7 +64,7 @@ def _dip(S, w, k, h, low, high, middle):
 
 
 @kernel("f8(S, F, I, f8)")
-def first_crossing(S, w, k, h):
+def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
 
     Called right after the step, when bodies and forces stand at its end.
@@ -101,13 +101,13 @@ def first_crossing(S, w, k, h):
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
-def _guard_at(S, w, k, h, theta, i, forces):
+def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
     _guards_within(S, w, k, h, theta, forces)
     return w[S.guard + i]
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
-def _root(S, w, k, h, high, i, forces):
+def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
     """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
 
     Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.  The guards are left
@@ -151,7 +151,7 @@ def _root(S, w, k, h, high, i, forces):
 
 
 @kernel("f8(S, F, I, f8, f8)")
-def locate(S, w, k, h, high):
+def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 
     The root on the interpolant is corrected on the step itself, whose order is higher.
