@@ -23,6 +23,8 @@ from nonsmooth.engine.impact_rates import (
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.runge_kutta import dense_state
 
+TOGETHER = 1e-13
+"""Guards within this of zero fire together."""
 _WRONG = -1e-7
 """A guard that is not armed fires below this all the same."""
 _SHORT = 1e-7
@@ -149,6 +151,8 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         S.trigger = first
         theta = _root(S, w, k, h, theta, w[S.impact_guard + first], first)
         first = fired_guard(S, w, k, first)
+        if first >= 0 and w[S.impact_guard + first] >= -TOGETHER:
+            break
     i = S.trigger
     step = theta * h
     for _iteration in range(4):

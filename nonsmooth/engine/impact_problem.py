@@ -11,6 +11,7 @@ import math
 
 from nonsmooth.engine.impact_friction import break_away, choose_friction
 from nonsmooth.engine.impact_guards import (
+    TOGETHER,
     aim,
     arm_impact_guards,
     evaluate_impact_guards,
@@ -32,6 +33,7 @@ from nonsmooth.engine.impact_rates import (
     evaluate_impact_rates,
     impact_slope,
     try_impact_step,
+    try_linear_step,
 )
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.runge_kutta import step_factor
@@ -41,12 +43,12 @@ FINISHED, ENDLESS, INVALID = 1, 2, 3
 
 _MOST_STEPS = 100000
 _UNUSED = 1e300
-_TOGETHER = 1e-13
-"""Guards below this switch together with the one that fired."""
 _AT_EVENT = 4.0 * NOISE
 """A guard this near zero at the end of a step that was aimed at it has fired."""
-_NO_RETURN = 1e-20
-"""Efficiencies below this, the square of a restitution, count as none."""
+_FAR = 4.0
+"""A lone contact's first step, in units of the impulse that stops it: beyond all of its events."""
+_NO_RETURN = 2e-16
+"""Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
 
 
 @kernel("f8(S, F, I)")
@@ -97,16 +99,16 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     for a in range(S.n_active):
         guard = S.impact_guard + 3 * a
         phase = k[S.phase + a]
-        if phase == EXPANSION and (S.trigger == 3 * a + 1 or w[guard + 1] < _TOGETHER):
+        if phase == EXPANSION and (S.trigger == 3 * a + 1 or w[guard + 1] < TOGETHER):
             _account(S, w, k, a)
             k[S.phase + a] = IDLE
             w[S.impact_y + STRIDE * a + 3] = w[S.impact_y + STRIDE * a + 6] = 0.0
             k[S.tangent_held + a] = 0
             S.phases += 1
-        elif S.trigger == 3 * a or w[guard] < _TOGETHER:
+        elif S.trigger == 3 * a or w[guard] < TOGETHER:
             friction += _turn(S, w, k, a)
             S.phases += 1
-        elif S.trigger == 3 * a + 2 or w[guard + 2] < _TOGETHER:
+        elif S.trigger == 3 * a + 2 or w[guard + 2] < TOGETHER:
             S.phases += 1
             if k[S.tangent_held + a] == 1:
                 break_away(S, w, k, a)
@@ -271,14 +273,19 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
     _start(S, w, k, 1e-2 * shortest)
     prepare_guards(S, w, k)
     impact_slope(S, w, k, S.impact_y, S.impact_slopes)
-    h = shortest * (0.25 if m == 1 else S.impact_rtol**0.4)
+    h = shortest * (_FAR if m == 1 else S.impact_rtol**0.4)
     for _step in range(_MOST_STEPS):
         if _finished(S, w, k) == 1:
             _finish(S, w, k)
             return FINISHED
         if S.lone >= 0:
             h = aim(S, w, k, h)
-        error = try_impact_step(S, w, k, h)
+        linear = 0
+        error = 0.0
+        if S.aimed >= 0:
+            linear = try_linear_step(S, w, k, h)
+        if linear == 0:
+            error = try_impact_step(S, w, k, h)
         S.impact_steps += 1
         if not error <= 1.0:
             if not error < _UNUSED and h < 1e-12 * shortest:
@@ -294,15 +301,21 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
         if aimed and (S.trigger < 0 or S.trigger == S.aimed):
             S.trigger = S.aimed
         elif fired == 1:
+            if linear == 1:
+                # locating takes the interpolant of the full step
+                try_impact_step(S, w, k, h)
+                write_impact_guards(S, w, k, S.impact_new)
             locate_switch(S, w, k, h)
         if fired == 1:
             grown = max(h, shortest * S.impact_rtol**0.4)
+            if S.lone >= 0:
+                grown = _FAR * _impulse_scale(S, w, S.lone)
         for i in range(n):
             w[S.impact_y + i] = w[S.impact_new + i]
         if fired == 1:
             _switch(S, w, k, 1e-2 * shortest)
             if m > 1 and _change_clock(S, w, k) == 1:
-                grown = shortest if S.lone < 0 else 0.25 * _impulse_scale(S, w, S.lone)
+                grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)
             impact_slope(S, w, k, S.impact_y, S.impact_slopes)
         else:
             arm_impact_guards(S, w, k)

@@ -25,6 +25,9 @@ STRIDE = 7
 NOISE = 1e-12
 """Rates below this, relative to the impact speed, do not switch a phase."""
 
+_STRAIGHT = 1e-13
+"""Second differences of slopes below this, relative to the slopes, count as zero."""
+
 REST = 1e-8
 """Slip velocities below this, relative to the impact speed, count as none."""
 
@@ -143,3 +146,24 @@ def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             if not error <= worst:
                 worst = error
     return worst / float(S.impact_rtol)
+
+
+@kernel("i8(S, F, I, f8)")
+def try_linear_step(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Take one step of ``h`` to ``impact_new`` by the midpoint rule; return 1 if the slope is linear and it is exact.
+
+    A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
+    """
+    n = STRIDE * S.n_active
+    middle, end = S.impact_slopes + n, S.impact_slopes + 6 * n
+    for i in range(n):
+        w[S.impact_stage + i] = w[S.impact_y + i] + 0.5 * h * w[S.impact_slopes + i]
+    impact_slope(S, w, k, S.impact_stage, middle)
+    for i in range(n):
+        w[S.impact_new + i] = w[S.impact_y + i] + h * w[middle + i]
+    impact_slope(S, w, k, S.impact_new, end)
+    for i in range(n):
+        first, half, last = w[S.impact_slopes + i], w[middle + i], w[end + i]
+        if not abs(first + last - 2.0 * half) <= _STRAIGHT * (abs(first) + abs(last) + abs(half)):
+            return 0
+    return 1
