@@ -278,6 +278,7 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
         if _finished(S, w, k) == 1:
             _finish(S, w, k)
             return FINISHED
+        S.aimed = -1
         if S.lone >= 0:
             h = aim(S, w, k, h)
         linear = 0
