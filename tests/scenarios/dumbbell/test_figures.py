@@ -77,5 +77,5 @@ def test_trace_jumps_at_events_and_nowhere_else(dumbbell: Runner) -> None:
     trace = Trace.of(run.scenario, run.solution, 10.0)
     jumps = np.abs(np.diff(trace.u[:, 4])) > 1.0
     assert jumps.sum() == pytest.approx(10, abs=1)
-    assert np.array_equal(jumps, trace.struck.any(axis=1)[:-1])
+    assert np.array_equal(jumps, np.asarray(trace.struck.any(axis=1))[:-1])
     np.testing.assert_allclose(trace.slip[0, 0], 0.0, atol=1e-12)
