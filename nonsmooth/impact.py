@@ -38,6 +38,8 @@ class ImpactResult:
         Number of phases: compressions begun, turns, ends, changes between stick and slip.
     steps : int
         Integration steps.
+    truncated : bool
+        Whether a cascade of ever smaller compressions was cut short, below the tolerance.
     """
 
     velocity: Floats
@@ -48,6 +50,7 @@ class ImpactResult:
     friction_loss: Floats
     phases: int
     steps: int
+    truncated: bool
 
     @property
     def restitution_loss(self) -> Floats:
@@ -138,6 +141,7 @@ def solve_impact(
         friction_loss=memory.array("rubbed", n).copy(),
         phases=int(memory.scalars["phases"][0]),
         steps=int(memory.scalars["impact_steps"][0]),
+        truncated=bool(memory.scalars["truncated"][0]),
     )
 
 

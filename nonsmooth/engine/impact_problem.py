@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.impact_friction import break_away, choose_friction
 from nonsmooth.engine.impact_guards import (
     TOGETHER,
@@ -42,6 +43,9 @@ FINISHED, ENDLESS, INVALID = 1, 2, 3
 """How an impact ended."""
 
 _MOST_STEPS = 100000
+_LARGEST = 1e6
+_LONG = 6
+"""Phases per contact after which an impact may be a cascade that never ends."""
 _UNUSED = 1e300
 _AT_EVENT = 4.0 * NOISE
 """A guard this near zero at the end of a step that was aimed at it has fired."""
@@ -254,6 +258,37 @@ def _start(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         choose_friction(S, w, k, probe)
 
 
+@kernel("i8(S, F, I)")
+def _faded(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if what is left of the impact, stored or about to be, is below the tolerance."""
+    small = max(S.impact_rtol, 1e-11)
+    for a in range(S.n_active):
+        stored = w[S.impact_y + STRIDE * a + 6]
+        if k[S.phase + a] == IDLE:
+            stored = 0.0
+        if w[S.impact_z + 3 * a] < -small * S.speed_scale or stored > small * small * w[S.impact_energy_scale + a]:
+            return 0
+        if w[S.impact_z + 3 * a] > small * S.speed_scale and stored > 0.0 and k[S.phase + a] == EXPANSION:
+            return 0
+    return 1
+
+
+@kernel()
+def _cut_short(S: Scalars, w: Floats, k: Integers) -> None:
+    """End a cascade of ever smaller compressions: stop the approach that is left, by the impulses that do so."""
+    for a in range(S.n_active):
+        k[S.normal_held + a] = 1 if w[S.impact_z + 3 * a] < 0.0 else 0
+        k[S.tangent_held + a] = 0
+        w[S.f + 3 * a] = w[S.mu + a] = 0.0
+        for r in range(3):
+            w[S.b + 3 * a + r] = w[S.impact_z + 3 * a + r]
+        k[S.phase + a] = IDLE
+    resolve(S, w, k)
+    for a in range(S.n_active):
+        w[S.impact_y + STRIDE * a] += w[S.f + 3 * a]
+    S.truncated = 1
+
+
 @room("i8(S, F, I)")
 def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
     """Carry the active contacts from the rates ``impact_z0`` through the impact; return how it ended.
@@ -267,6 +302,7 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
     S.aimed = -1
     S.lone = 0 if m == 1 else -1
     S.may_be_lone = 1
+    S.truncated = 0
     shortest = _scale(S, w, k)
     if not shortest > 0.0:
         return INVALID
@@ -317,12 +353,14 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
             _switch(S, w, k, 1e-2 * shortest)
             if m > 1 and _change_clock(S, w, k) == 1:
                 grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)
+            if S.phases > _LONG * m and _faded(S, w, k) == 1:
+                _cut_short(S, w, k)
             impact_slope(S, w, k, S.impact_y, S.impact_slopes)
         else:
             arm_impact_guards(S, w, k)
             for i in range(n):
                 w[S.impact_slopes + i] = w[S.impact_slopes + 6 * n + i]
-        h = grown
+        h = min(grown, _LARGEST * shortest)
     return ENDLESS
 
 

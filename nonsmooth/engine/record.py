@@ -10,8 +10,8 @@ from nonsmooth.engine.runge_kutta import dense_state
 
 EVENT_HEAD = 5
 """Floats at the head of an event: time, driven work, restitution loss, friction loss, closing loss."""
-CODE_HEAD = 3
-"""Integers at the head of an event: cause, contact, phases; then one code per contact."""
+CODE_HEAD = 4
+"""Integers at the head of an event: cause, contact, phases, whether cut short; then one code per contact."""
 
 
 @kernel("i8(S, F, I, i8)")
@@ -74,6 +74,7 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
         w[row + S.n_u + i] = w[S.y + S.n_q + i]
     codes = S.event_codes + S.n_events * (CODE_HEAD + n)
     k[codes], k[codes + 1], k[codes + 2] = cause, contact, phases
+    k[codes + 3] = S.truncated if phases > 0 else 0
     for c in range(n):
         k[codes + CODE_HEAD + c] = k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
     S.n_events += 1

@@ -112,7 +112,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
             contact = c
         for r in range(3):
             w[S.impact_z0 + 3 * a + r] = w[S.rate + 3 * c + r]
-    S.phases = 1
+    S.phases, S.truncated = 1, 0
     if S.impact_map != 0:
         _map_impact(S, w, k)
     else:

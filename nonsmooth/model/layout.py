@@ -98,6 +98,7 @@ INTEGER_SCALARS = (
     "lone",
     "may_be_lone",
     "phases_kept",
+    "truncated",
     "fresh",
     "suspect",
     "repeated",
@@ -249,7 +250,7 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "armed": _per(3, "n_contacts"),
     "guard_armed": _per(2, "n_contacts"),
     "guard_deflated": _per(2, "n_contacts"),
-    "event_codes": lambda n: n["event_capacity"] * (3 + n["n_contacts"]),
+    "event_codes": lambda n: n["event_capacity"] * (4 + n["n_contacts"]),
 }
 
 SCALARS = np.dtype(
