@@ -134,6 +134,7 @@ def _solution(
         restitution_loss=float(scalars["restitution_loss"][0]),
         friction_loss=float(scalars["friction_loss"][0]) + float(y[n_q + n_u + 1]),
         closing_loss=float(scalars["closing_loss"][0]),
+        exchanged_in_flow=float(y[n_q + n_u + 2]),
     )
     counters = Counters(
         steps=int(scalars["steps"][0]),

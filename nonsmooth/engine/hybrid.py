@@ -111,7 +111,10 @@ def _cause(S: Scalars, w: Floats, k: Integers) -> int:
     c = S.trigger // 2
     if S.trigger % 2 == 0:
         return IMPACT if k[S.mode + c] == OPEN else LIFT_OFF
-    return STICK_TO_SLIP if k[S.mode + c] == STICK else SLIP_TO_STICK
+    if k[S.mode + c] != STICK:
+        return SLIP_TO_STICK
+    # the static bound vanishes with the normal force
+    return LIFT_OFF if w[S.guard + 2 * c] <= 1e-9 * w[S.guard_first + 2 * c] else STICK_TO_SLIP
 
 
 @kernel("i8(S, F, I)")

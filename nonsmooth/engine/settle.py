@@ -156,6 +156,16 @@ def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
             w[S.direction + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
 
 
+@kernel("i8(S, F, I, i8)")
+def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if the normal force of a closed contact has gone together with that which fired."""
+    largest = 0.0
+    for other in range(S.n_contacts):
+        if k[S.mode + other] != OPEN:
+            largest = max(largest, w[S.guard_first + 2 * other])
+    return 1 if k[S.mode + c] != OPEN and w[S.guard + 2 * c] <= 1e-9 * largest else 0
+
+
 @kernel("void(S, F, I, i8, i8)")
 def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
     """Activate the contacts at rest in the normal direction and guess their modes: the past ones, and the event's."""
@@ -168,7 +178,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
                 mode = SLIDE
             elif mode == OPEN or (c == contact and cause == SLIP_TO_STICK):
                 mode = STICK
-            if c == contact and cause == LIFT_OFF:
+            if cause == LIFT_OFF and (c == contact or _force_gone(S, w, k, c) == 1):
                 mode = OPEN
             if c == contact and cause == STICK_TO_SLIP:
                 mode = SLIDE

@@ -156,6 +156,8 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "bias": _per(3, "n_contacts"),
     "direction": _per(2, "n_contacts"),
     "guard": _per(2, "n_contacts"),
+    "least_force": _per(1, "n_contacts"),
+    "guard_middle": _per(2, "n_contacts"),
     "guard_first": _per(2, "n_contacts"),
     "gap_rate": _per(1, "n_contacts"),
     "gap_rate_first": _per(1, "n_contacts"),
