@@ -78,9 +78,9 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
         w[out + S.n_q + i] = w[S.du + i]
     driven = lost = own = 0.0
     for body in range(S.n_bodies):
-        force = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body] + k[S.body_nq + body]
+        h = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body] + k[S.body_nq + body]
         for i in range(k[S.body_nu + body]):
-            own += w[force + i] * w[y + S.n_q + k[S.body_u + body] + i]
+            own += w[h + i] * w[y + S.n_q + k[S.body_u + body] + i]
     for a in range(S.n_active):
         c = k[S.active + a]
         for r in range(3):
