@@ -31,7 +31,7 @@ from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
 
 _EVENTS_AT_ONCE = 1000
-_DRIFT = 0.01
+_DRIFT = 0.3
 _ROOM = 64
 """Free rows that an instant may need in the event buffer."""
 

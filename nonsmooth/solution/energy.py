@@ -48,6 +48,10 @@ class EnergyAccount:
 
     @property
     def residual(self) -> float:
-        """What the account does not explain, relative to the energy exchanged."""
+        """What the account does not explain, relative to the energy exchanged.
+
+        Where next to none is, as in free tumbling, a millionth of the kinetic energy takes its place.
+        """
         unexplained = abs(self.change - self.driven_work + self.loss)
-        return unexplained / self.exchanged if self.exchanged > 0.0 else unexplained
+        scale = max(self.exchanged, 1e-6 * (self.kinetic_start + self.kinetic_end))
+        return unexplained / scale if scale > 0.0 else unexplained
