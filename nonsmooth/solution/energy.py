@@ -50,8 +50,9 @@ class EnergyAccount:
     def residual(self) -> float:
         """What the account does not explain, relative to the energy exchanged.
 
-        Where next to none is, as in free tumbling, a millionth of the kinetic energy takes its place.
+        Where next to none is, as in free tumbling or at rest, a millionth of the energy present takes its place.
         """
         unexplained = abs(self.change - self.driven_work + self.loss)
-        scale = max(self.exchanged, 1e-6 * (self.kinetic_start + self.kinetic_end))
+        present = self.kinetic_start + self.kinetic_end + abs(self.potential_start) + abs(self.potential_end)
+        scale = max(self.exchanged, 1e-6 * present)
         return unexplained / scale if scale > 0.0 else unexplained
