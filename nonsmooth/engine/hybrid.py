@@ -56,6 +56,8 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.mode + c] != OPEN:
             closed = 1
     h = min(S.h_closed if closed == 1 else S.h_free, S.h_max, S.t_end - S.t)
+    if S.fresh == 0:
+        h = min(h, S.h_first)
     if S.sample_interval > 0.0:
         h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
     for _attempt in range(200):

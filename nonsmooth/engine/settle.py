@@ -21,7 +21,6 @@ from nonsmooth.engine.modes import (
     RUNNING,
     SETTLE_ENDLESS,
     SLIDE,
-    SLIP_TO_STICK,
     STICK,
     STICK_TO_SLIP,
 )
@@ -173,11 +172,8 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
     for c in range(S.n_contacts):
         if k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
             k[S.active + m] = c
-            mode = k[S.mode + c]
-            if _speed(S, w, k, c) > S.velocity_tolerance:
-                mode = SLIDE
-            elif mode == OPEN or (c == contact and cause == SLIP_TO_STICK):
-                mode = STICK
+            # a slip about to start from rest is found anew, not remembered
+            mode = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
             if cause == LIFT_OFF and (c == contact or _force_gone(S, w, k, c) == 1):
                 mode = OPEN
             if c == contact and cause == STICK_TO_SLIP:
@@ -211,11 +207,15 @@ def _close(S: Scalars, w: Floats, k: Integers) -> int:
     """Close the contacts whose bounces have become shorter than their contact time, Eq. (33); return how many."""
     closing = 0
     contact = -1
+    S.h_first = 1e300
     for c in range(S.n_contacts):
         rate = w[S.rate + 3 * c]
         if k[S.touching + c] == 0 or rate <= S.velocity_tolerance:
             continue
         approach = -(w[S.bias + 3 * c] + row(S, w, k, c, 0, S.du))
+        if approach > 0.0:
+            # the next step shall not fly over the touch-down that is due after 2 rate / approach
+            S.h_first = min(S.h_first, 3.0 * rate / approach)
         if approach > 0.0 and rate <= approach * w[S.contact_time + c]:
             if closing == 0:
                 remember(S, w, k)

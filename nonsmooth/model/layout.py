@@ -112,6 +112,7 @@ FLOAT_SCALARS = (
     "h",
     "h_max",
     "h_free",
+    "h_first",
     "h_closed",
     "rtol",
     "impact_rtol",
