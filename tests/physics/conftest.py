@@ -105,6 +105,14 @@ class Compliant:
             t[held] = -np.linalg.lstsq(n.T @ self.inverse @ n, drive, rcond=1e-10)[0]
         return t
 
+    def _margin(self, i: int, f: Floats, friction: Floats, slip: list[float]) -> float:
+        """Return how far contact ``i`` is from its static bound; of a rank-deficient group, Eqs. (38), (39)."""
+        held = [j for j in range(self.count) if slip[j] == STICK]
+        if np.linalg.matrix_rank(self.n[:, held]) == len(held):
+            held = [i]
+        bound = min(self.laws[j].static for j in held) * f[held].sum()
+        return float(bound - abs(friction[held].sum()))
+
     def _slope(self, t: float, y: Floats) -> Floats:
         f, friction = self.forces(y)
         rates = self.w.T @ y[: self.n_u]
@@ -125,7 +133,7 @@ class Compliant:
                 guards[3 * i + 1] = x[i] / self.speed
             if phase != IDLE and law.friction > 0.0:
                 if self.slip[i] == STICK:
-                    guards[3 * i + 2] = (law.static * f[i] - abs(friction[i])) / self.force_scale + 1e-13
+                    guards[3 * i + 2] = self._margin(i, f, friction, self.slip) / self.force_scale + 1e-13
                 else:
                     guards[3 * i + 2] = slips[i] * self.slip[i]
         return guards
@@ -171,7 +179,7 @@ class Compliant:
             friction = self._friction(f, list(trial))
             push = self.n.T @ self.inverse @ (self.w @ f + self.n @ friction)
             if all(
-                abs(friction[i]) <= self.laws[i].static * f[i] * (1 + 1e-12) if trial[i] == STICK
+                self._margin(i, f, friction, list(trial)) >= -1e-12 * f[i] if trial[i] == STICK
                 else i not in resting or push[i] * trial[i] >= -1e-12 * abs(push).max()
                 for i in range(self.count)
             ):  # fmt: skip
@@ -210,33 +218,26 @@ def chain() -> Chain:
     return Chain()
 
 
-class PlanarDumbbell:
-    """A dumbbell of unit mass and ball radius over a plate, in the plane of its rod: u = (x', z', beta')."""
+class DumbbellImpact:
+    """A dumbbell of unit mass and ball radius over a plate: u = (v, angular velocity about x and -y, z), rod along x."""
 
     def __init__(self, aspect_ratio: float = 3.9, rod_mass_fraction: float = 0.0) -> None:
         x = rod_mass_fraction
         self.l = 2.0 * (aspect_ratio - 1.0)
-        self.inertia = (1.0 - x) * (self.l**2 / 4.0 + 0.4) + x * (self.l - 2.0) ** 2 / 12.0
+        self.across = (1.0 - x) * (self.l**2 / 4.0 + 0.4) + x * (self.l - 2.0) ** 2 / 12.0
+        self.along = (1.0 - x) * 0.4
 
-    def __call__(self, beta: float = 0.0) -> tuple[Floats, Floats, Floats]:
-        """Return M, W and the in-plane N of balls A (lower left) and B at the tilt beta [rad]."""
-        half, c, s = self.l / 2.0, math.cos(beta), math.sin(beta)
-        normal = np.array([[0.0, 0.0], [1.0, 1.0], [-half * c, half * c]])
-        tangential = np.array([[1.0, 1.0], [0.0, 0.0], [1.0 + half * s, 1.0 - half * s]])
-        return np.diag([1.0, 1.0, self.inertia]), normal, tangential
-
-
-@pytest.fixture(scope="session")
-def planar_dumbbell() -> type[PlanarDumbbell]:
-    """Return the builder of planar dumbbells."""
-    return PlanarDumbbell
+    def __call__(self, shift: float = 0.0) -> tuple[Floats, Floats, Floats]:
+        """Return M, W and N of balls A and B, the contact points at -l/2 + shift and l/2 + shift."""
+        a, b = shift - self.l / 2.0, shift + self.l / 2.0
+        normal = np.array([[0.0, 0.0, 1.0, 0.0, x, 0.0] for x in (a, b)]).T
+        first = np.array([[1.0, 0.0, 0.0, 0.0, 1.0, 0.0]] * 2).T
+        second = np.array([[0.0, 1.0, 0.0, 1.0, 0.0, x] for x in (a, b)]).T
+        mass = np.diag([1.0, 1.0, 1.0, self.along, self.across, self.across])
+        return mass, normal, np.stack([first, second], axis=2)
 
 
 @pytest.fixture(scope="session")
-def in_plane() -> Callable[[Floats], Floats]:
-    """Return a function that gives a planar N, shape [n_u, n], its vanishing second direction."""
-
-    def extend(tangential: Floats) -> Floats:
-        return np.stack([tangential, np.zeros_like(tangential)], axis=2)
-
-    return extend
+def dumbbell_impact() -> type[DumbbellImpact]:
+    """Return the builder of dumbbells in impact."""
+    return DumbbellImpact
