@@ -36,7 +36,8 @@ class Compliant:
         self.w, self.n = np.asarray(normal, dtype=float), np.asarray(tangential, dtype=float)
         self.laws, self.count = laws, len(laws)
         self.n_u = len(self.inverse)
-        self.phases = self.compressions = 0
+        self.phases = self.compressions = self.changes = 0
+        self._pull = np.zeros(self.count)
 
     def run(self, velocity: ArrayLike) -> Floats:
         """Return u after the impact."""
@@ -56,7 +57,7 @@ class Compliant:
         self.compressions = self.phases = sum(p == COMPRESSION for p in self.phase)
         self.probe = 1e-6 * min(times)
         self.slip = [1.0] * self.count
-        self._choose_friction(y, range(self.count))
+        self._choose_friction(y)
         t = 0.0
         for _round in range(1000):
             if all(p == IDLE for p in self.phase):
@@ -74,8 +75,9 @@ class Compliant:
                 i for i in range(3 * self.count)
                 if i not in fired and values[i] < 1e-12 and later[i] < values[i] - 1e-14
             ]  # fmt: skip
+            before, self._pull = list(self.slip), self.forces(y)[1]
             for i in [*fired, *also]:
-                y = self._switch(y, i)
+                y = self._switch(y, i, before)
         raise AssertionError("the impact does not end")
 
     def _event(self, i: int) -> Callable[[float, Floats], float]:
@@ -138,7 +140,7 @@ class Compliant:
                     guards[3 * i + 2] = slips[i] * self.slip[i]
         return guards
 
-    def _switch(self, y: Floats, guard: int) -> Floats:
+    def _switch(self, y: Floats, guard: int, before: list[float]) -> Floats:
         i, kind = divmod(guard, 3)
         y = y.copy()
         self.phases += 1
@@ -150,15 +152,16 @@ class Compliant:
             self.phase[i] = EXPANSION if self.phase[i] == COMPRESSION else COMPRESSION
             self.compressions += self.phase[i] == COMPRESSION
             if fresh:
-                self._choose_friction(y, [i])
+                self._choose_friction(y)
+        elif self.phase[i] != IDLE and before[i] == STICK:
+            self.slip[i] = -math.copysign(1.0, self._pull[i])
+            self.changes += 1
         elif self.phase[i] != IDLE:
-            if self.slip[i] == STICK:
-                self.slip[i] = -math.copysign(1.0, self.forces(y)[1][i])
-            else:
-                self._choose_friction(y, [i])
+            self._choose_friction(y)
+            self.changes += 1
         return y
 
-    def _choose_friction(self, y: Floats, which: Any) -> None:
+    def _choose_friction(self, y: Floats) -> None:
         """Find, by trial of all combinations, who sticks and which way the others slide."""
         u = y[: self.n_u]
         slips, rates = self.n.T @ u, self.w.T @ u
@@ -180,7 +183,7 @@ class Compliant:
             push = self.n.T @ self.inverse @ (self.w @ f + self.n @ friction)
             if all(
                 self._margin(i, f, friction, list(trial)) >= -1e-12 * f[i] if trial[i] == STICK
-                else i not in resting or push[i] * trial[i] >= -1e-12 * abs(push).max()
+                else i not in resting or f[i] == 0.0 or push[i] * trial[i] >= -1e-12 * abs(push).max()
                 for i in range(self.count)
             ):  # fmt: skip
                 self.slip = list(trial)
