@@ -41,6 +41,10 @@ class Builders:
         system.contact(plate, body, **self.laws(**laws))
         return system
 
+    def lived(self, solution: ns.Solution) -> list[str]:
+        """Return the mode words that took time, the longest first."""
+        return [word for word, share in solution.modes.items() if share > 0.0]
+
     def axes(self, theta: float, beta: float, gamma: float) -> NDArray[np.float64]:
         """Return the rotation matrix of Eq. (2), body axes as columns."""
         from scipy.spatial.transform import Rotation
