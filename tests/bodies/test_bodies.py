@@ -19,14 +19,14 @@ from nonsmooth.parameters import UnusualValue
 def test_dumbbell_inertia_from_its_parts(fraction: float) -> None:
     """Solid balls with Steiner terms and a thin rod between their surfaces, summed over slices."""
     body = Dumbbell(0.01, 3.9, 7800.0, fraction)
-    r, l, m = 0.01, body.centre_distance, body.total_mass
-    assert l == pytest.approx(2.9 * 2 * r)
-    assert (l + 2 * r) / (2 * r) == pytest.approx(3.9)
+    r, distance, m = 0.01, body.centre_distance, body.total_mass
+    assert distance == pytest.approx(2.9 * 2 * r)
+    assert (distance + 2 * r) / (2 * r) == pytest.approx(3.9)
     ball = 7800.0 * 4.0 / 3.0 * math.pi * r**3
     rod = m - 2.0 * ball
     assert rod / m == pytest.approx(fraction, abs=1e-15)
-    points = (np.arange(2000) + 0.5) / 2000.0 * (l - 2 * r) - (l / 2 - r)
-    across = 2.0 * ball * (0.4 * r * r + l * l / 4.0) + rod * np.mean(points**2)
+    points = (np.arange(2000) + 0.5) / 2000.0 * (distance - 2 * r) - (distance / 2 - r)
+    across = 2.0 * ball * (0.4 * r * r + distance**2 / 4.0) + rod * np.mean(points**2)
     along, one, other = body.inertia
     assert along == pytest.approx(2.0 * ball * 0.4 * r * r)
     assert one == other
@@ -130,7 +130,11 @@ def test_bad_parameters(kind: Any, arguments: dict[str, Any], words: tuple[str, 
 
 @pytest.mark.parametrize(
     ("kind", "arguments"),
-    [(Ball, {"radius": 10.0}), (Ball, {"radius": 0.01, "density": 7.8}), (Harmonic, {"amplitude": 30.0, "frequency": 25.0})],
+    [
+        (Ball, {"radius": 10.0}),
+        (Ball, {"radius": 0.01, "density": 7.8}),
+        (Harmonic, {"amplitude": 30.0, "frequency": 25.0}),
+    ],
 )
 def test_unusual_parameters_warn(kind: Any, arguments: dict[str, Any]) -> None:
     """A ball of 10 m is a warning, not an error."""

@@ -49,7 +49,9 @@ def _delassus(seed: int, n: int, freedoms: int) -> tuple[Any, Any]:
     return jacobian @ jacobian.T, random.normal(size=(n, 3)) * [3.0, 1.0, 1.0]
 
 
-def _assert_lawful(delassus: Any, bias: Any, forces: Any, modes: Any, mu: Any, static: Any, slip: Any, exact: bool) -> None:
+def _assert_lawful(
+    delassus: Any, bias: Any, forces: Any, modes: Any, mu: Any, static: Any, slip: Any, exact: bool
+) -> None:
     acceleration = (delassus @ forces.ravel()).reshape(-1, 3) + bias
     size = max(1.0, float(np.max(np.abs(forces))), float(np.max(np.abs(delassus))) * float(np.max(np.abs(forces))))
     small = 1e-8 * size
@@ -76,7 +78,7 @@ coefficients = st.lists(st.floats(0.05, 0.7), min_size=4, max_size=4)
 @settings(max_examples=150)
 @given(seed=st.integers(0, 10**6), n=st.integers(1, 4), mu=coefficients, extra=st.sampled_from([1.0, 1.3]))
 def test_contacts_at_rest(seed: int, n: int, mu: Any, extra: float) -> None:
-    """Incipient slip in 3D: a solution exists for every positive definite G and is found, on the cone, not a pyramid."""
+    """Incipient slip: every positive definite G has a solution, and it is found, on the cone, not a pyramid."""
     delassus, bias = _delassus(seed, n, 3 * n + 2)
     mu, slip = np.array(mu[:n]), np.zeros((n, 2))
     static = mu * extra
@@ -88,7 +90,12 @@ def test_contacts_at_rest(seed: int, n: int, mu: Any, extra: float) -> None:
 
 
 @settings(max_examples=100)
-@given(seed=st.integers(0, 10**6), n=st.integers(1, 4), mu=coefficients, sliding=st.lists(st.booleans(), min_size=4, max_size=4))
+@given(
+    seed=st.integers(0, 10**6),
+    n=st.integers(1, 4),
+    mu=coefficients,
+    sliding=st.lists(st.booleans(), min_size=4, max_size=4),
+)
 def test_some_slide(seed: int, n: int, mu: Any, sliding: Any) -> None:
     """Whatever is accepted among sliding and resting contacts obeys Eqs. (16) and (17)."""
     delassus, bias = _delassus(seed, n, 3 * n + 2)
@@ -100,9 +107,7 @@ def test_some_slide(seed: int, n: int, mu: Any, sliding: Any) -> None:
     if found:
         _assert_lawful(delassus, bias, forces, modes, mu, mu, slip, exact=True)
     else:
-        reduced = [
-            delassus[3 * i, 3 * i] - mu[i] * slip[i] @ delassus[3 * i, 3 * i + 1 : 3 * i + 3] for i in range(n)
-        ]
+        reduced = [delassus[3 * i, 3 * i] - mu[i] * slip[i] @ delassus[3 * i, 3 * i + 1 : 3 * i + 3] for i in range(n)]
         assert n > 1 or min(reduced) <= 0.0
 
 

@@ -24,7 +24,11 @@ from nonsmooth.parameters import parameter
 def _swing(t, q, u, out, size, rate, shift):  # type: ignore[no-untyped-def]
     """Swing about an oblique axis through a moving point."""
     ax, ay, az = 0.48, 0.6, 0.64
-    angle, speed, push = size * math.sin(rate * t), size * rate * math.cos(rate * t), -size * rate * rate * math.sin(rate * t)
+    angle, speed, push = (
+        size * math.sin(rate * t),
+        size * rate * math.cos(rate * t),
+        -size * rate * rate * math.sin(rate * t),
+    )
     s, c = math.sin(angle), math.cos(angle)
     out[0], out[1], out[2] = shift * math.sin(2.0 * t), shift * t * t, shift * math.cos(t)
     out[3], out[4], out[5] = c + ax * ax * (1 - c), ax * ay * (1 - c) - az * s, ax * az * (1 - c) + ay * s
@@ -80,7 +84,7 @@ vectors = st.tuples(*[st.floats(-1.0, 1.0)] * 3)
 def test_rates_and_bias_are_derivatives(
     build: Any, time: float, position: Any, rotation: Any, velocity: Any, omega: Any, name: str, flip: bool
 ) -> None:
-    """g' is dg/dt, the bias is d(g', v)/dt with u' = 0, W and N are the gradients by u; whichever body is named first."""
+    """The rate is dg/dt, the bias is d(g', v)/dt with u' = 0, W and N are the gradients, whichever body is named first."""
     body: Any = {"ball": Ball(0.05), "dumbbell": Dumbbell(0.05)}[name]
     plate = Plate(Swing())
     system = ns.System([body, plate] if flip else [plate, body])
@@ -127,12 +131,12 @@ def test_a_ball_rests_on_a_swinging_plate(build: Any) -> None:
     assert solution.energy.residual <= 1e-8
     for t, q in zip(solution.t[::400], solution.q[::400], strict=True):
         out = np.zeros(24)
-        _swing(t, None, None, out, motion.size, motion.rate, motion.shift)
+        motion.evaluator(t, None, None, out, **motion.parameters())
         normal = out[3:12].reshape(3, 3)[:, 2]
         assert normal @ (q[:3] - out[:3]) - 0.01 == pytest.approx(0.0, abs=1e-12)
 
 
 def _carried(motion: Swing, point: Any) -> Any:
     out = np.zeros(24)
-    _swing(0.0, None, None, out, motion.size, motion.rate, motion.shift)
+    motion.evaluator(0.0, None, None, out, **motion.parameters())
     return out[12:15] + np.cross(out[15:18], np.asarray(point))

@@ -13,7 +13,7 @@ import pytest
 
 from nonsmooth.engine.kernel import PLAIN
 
-SCRIPT = '''
+SCRIPT = """
 import math, sys
 import numpy as np
 import nonsmooth as ns
@@ -45,7 +45,7 @@ for name, impact, periods, skew in (
     out |= {f"{name}_q": s.q, f"{name}_u": s.u, f"{name}_time": s.events.time, f"{name}_cause": s.events.cause,
             f"{name}_after": s.events.after, f"{name}_impulse": s.events.impulse, f"{name}_residual": s.energy.residual}
 np.savez(sys.argv[1], **out)
-'''
+"""
 
 
 @pytest.fixture(scope="module")

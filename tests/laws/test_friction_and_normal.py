@@ -15,7 +15,7 @@ from nonsmooth.parameters import UnusualValue
 
 
 def test_coulomb_coefficient() -> None:
-    """mu for any slip, mu_s at rest; one number serves for both."""
+    """Mu for any slip, mu_s at rest; one number serves for both."""
     law = Coulomb(0.2, 0.3)
     assert law.coefficient(0.0, 0.2, 0.3) == 0.3
     assert law.coefficient(1e-300, 0.2, 0.3) == 0.2

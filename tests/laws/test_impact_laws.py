@@ -19,7 +19,7 @@ RNG = st.integers(0, 10**6)
 
 
 def _problem(seed: int, n: int = 2) -> tuple[Any, Any]:
-    """A random positive definite Delassus matrix and rates with at least one approach."""
+    """Return a random positive definite Delassus matrix and rates with at least one approach."""
     random = np.random.default_rng(seed)
     jacobian = random.normal(size=(3 * n, 3 * n + 1))
     rates = random.normal(size=(n, 3))
@@ -74,9 +74,7 @@ def _energetic(seed: int, e: Any, mu: Any, order: Any = (0, 1), n_u: int = 6) ->
     order = list(order)
     impact = [EnergeticImpact(e[i]) for i in order]
     friction = [Coulomb(mu[i]) for i in order]
-    return mass, u, ns.solve_impact(
-        mass, normal[:, order], tangential[:, order], u, impact, friction, tolerance=1e-10
-    )
+    return mass, u, ns.solve_impact(mass, normal[:, order], tangential[:, order], u, impact, friction, tolerance=1e-10)
 
 
 coefficients = st.tuples(st.floats(0.02, 0.6), st.floats(0.02, 0.6))

@@ -222,7 +222,7 @@ def chain() -> Chain:
 
 
 class DumbbellImpact:
-    """A dumbbell of unit mass and ball radius over a plate: u = (v, angular velocity about x and -y, z), rod along x."""
+    """A dumbbell of unit mass and ball radius: u = (v, angular velocity about x and -y, z), rod along x."""
 
     def __init__(self, aspect_ratio: float = 3.9, rod_mass_fraction: float = 0.0) -> None:
         x = rod_mass_fraction

@@ -71,7 +71,7 @@ def test_the_rule_uses_the_actual_relative_acceleration(build: Any) -> None:
 
 @pytest.mark.parametrize("cut_off", [2e-5, 1e-7])
 def test_plastic_ball_lands_once(build: Any, cut_off: float) -> None:
-    """e = 0: one impact, then contact."""
+    """E = 0: one impact, then contact."""
     ball = Ball(RADIUS)
     system = build.over(ball, friction=0.0, restitution=0.0, duration=cut_off)
     system.place(ball, position=(0, 0, RADIUS + 0.05))
@@ -90,9 +90,7 @@ def _orbit(build: Any, gamma: float, e: float, periods: int, perturb: float = 1e
     ball = Ball(RADIUS)
     system = build.over(ball, motion, friction=0.0, restitution=e)
     height = motion.amplitude * math.sin(motion.phase)
-    system.place(
-        ball, position=(0, 0, RADIUS + height), velocity=(0, 0, G / (2.0 * frequency) * (1.0 + perturb))
-    )
+    system.place(ball, position=(0, 0, RADIUS + height), velocity=(0, 0, G / (2.0 * frequency) * (1.0 + perturb)))
     solution = ns.simulate(system, periods / frequency, sample_interval=1.0)
     impacts = solution.events.time[solution.events.cause == IMPACT]
     return np.diff(impacts) * frequency, solution.energy.residual
@@ -105,7 +103,7 @@ def _bounds(e: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize("restitution", [0.6, 0.8])
 def test_period_one_orbit_is_stable_between_its_bounds(build: Any, restitution: float) -> None:
-    """pi (1-e)/(1+e) < Gamma < sqrt([pi (1-e)/(1+e)]^2 + 4 (1+e^2)^2/(1+e)^4): inside, a disturbance dies out."""
+    """Pi (1-e)/(1+e) < Gamma < sqrt([pi (1-e)/(1+e)]^2 + 4 (1+e^2)^2/(1+e)^4): inside, a disturbance dies out."""
     low, high = _bounds(restitution)
     for gamma in (1.02 * low, 0.5 * (low + high), 0.98 * high):
         intervals, residual = _orbit(build, gamma, restitution, 400)

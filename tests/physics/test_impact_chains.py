@@ -17,9 +17,9 @@ HERTZ_5 = (-0.07108502, -0.03027376, -0.01446363, 0.12704499, 0.98877742)
 
 def _collide(chain: Any, masses: Any, velocity: Any, laws: Any, tolerance: float = 1e-12) -> ns.ImpactResult:
     impact = [EnergeticImpact(e, stiffness=k, exponent=eta) for e, k, eta in laws]
-    return ns.solve_impact(
-        *chain(masses), velocity, impact, [Frictionless()] * len(laws), tolerance=tolerance
-    )
+    mass, normal, tangential = chain(masses)
+    friction = [Frictionless()] * len(laws)
+    return ns.solve_impact(mass, normal, tangential, velocity, impact, friction, tolerance=tolerance)
 
 
 @pytest.mark.parametrize(("exponent", "expected"), [(1.5, HERTZ_3), (1.0, LINEAR_3), (1.5, HERTZ_5)])
@@ -86,7 +86,7 @@ def test_two_balls_alone(chain: Any, restitution: float) -> None:
 
 
 def test_without_restitution_the_chain_stays_together_where_it_is_pushed(chain: Any) -> None:
-    """e = 0 twice: the first pair ends with one velocity at most that of the next ball."""
+    """E = 0 twice: the first pair ends with one velocity at most that of the next ball."""
     result = _collide(chain, (1.0, 1.0, 1.0), (1.0, 0.0, 0.0), [(0.0, 1.0, 1.5)] * 2)
     rates = np.diff(result.velocity)
     assert np.all(rates >= -1e-12)
@@ -101,8 +101,6 @@ def test_order_of_a_chain_does_not_matter(chain: Any) -> None:
     impact = [EnergeticImpact(e, stiffness=k, exponent=eta) for e, k, eta in laws]
     friction = [Frictionless()] * 2
     one = ns.solve_impact(mass, normal, tangential, (1.0, 0.0, 0.0), impact, friction, tolerance=1e-12)
-    other = ns.solve_impact(
-        mass, normal[:, ::-1], tangential, (1.0, 0.0, 0.0), impact[::-1], friction, tolerance=1e-12
-    )
+    other = ns.solve_impact(mass, normal[:, ::-1], tangential, (1.0, 0.0, 0.0), impact[::-1], friction, tolerance=1e-12)
     np.testing.assert_allclose(other.velocity, one.velocity, rtol=0, atol=1e-11)
     np.testing.assert_allclose(other.stored[::-1], one.stored, rtol=0, atol=1e-11)

@@ -41,7 +41,11 @@ slopes = st.floats(0.01, 20.0)
 
 @settings(max_examples=80)
 @given(
-    mu=st.floats(0.01, 1.5), e=st.floats(0.0, 1.0), ratio=slopes, heading=st.floats(0.0, 2 * math.pi), vn=st.floats(0.01, 9.0)
+    mu=st.floats(0.01, 1.5),
+    e=st.floats(0.0, 1.0),
+    ratio=slopes,
+    heading=st.floats(0.0, 2 * math.pi),
+    vn=st.floats(0.01, 9.0),
 )
 def test_oblique_sphere(mu: float, e: float, ratio: float, heading: float, vn: float) -> None:
     """Sticks at the end iff |v_t| <= 3.5 mu (1 + e) |v_n|, else keeps the rest; to 1e-10."""
@@ -108,9 +112,7 @@ def test_a_rod_with_mass_lowers_that_threshold(dumbbell_impact: Any) -> None:
 
 @pytest.mark.parametrize(("aspect_ratio", "printed"), [(3.9, 0.296), (5.7, 0.200)])
 @pytest.mark.parametrize("side", [-1e-6, 1e-6])
-def test_flat_single_impact_sticks(
-    dumbbell_impact: Any, aspect_ratio: float, printed: float, side: float
-) -> None:
+def test_flat_single_impact_sticks(dumbbell_impact: Any, aspect_ratio: float, printed: float, side: float) -> None:
     """A flat ball B that hits without slip sticks iff mu_s >= a / (a^2 + 1.4), a = A_r - 1."""
     a = aspect_ratio - 1.0
     critical = a / (a * a + 1.4)
@@ -154,7 +156,9 @@ DOUBLE = {
     "both stick at once": (3.9, 0.15, 0.0, (-1.0, -0.6), 0.0, [(0.6, 1.0, 1.5, 0.6, 0.6)] * 2),
     "linear springs": (3.9, 0.15, 0.0, (-0.3, -1.0), -0.2, [(0.7, 1.0, 1.0, 0.2, 0.25)] * 2),
 }
-TURNING = [case for case in DOUBLE if case not in ("both slide", "pressed in", "both stick at once") and "drift" not in case]
+TURNING = [
+    case for case in DOUBLE if case not in ("both slide", "pressed in", "both stick at once") and "drift" not in case
+]
 
 
 def _double(dumbbell_impact: Any, case: str) -> tuple[Any, Any, Any, Any, Any]:
@@ -182,7 +186,14 @@ def test_double_impact_of_a_dumbbell(dumbbell_impact: Any, compliant: Any, case:
     assert np.all(result.friction_loss >= -1e-12)
 
 
-CONVERGENT = ("both slide", "pressed in", "slip reverses", "slip, stick, slip back", "slip, stick, slip on", "linear springs")
+CONVERGENT = (
+    "both slide",
+    "pressed in",
+    "slip reverses",
+    "slip, stick, slip back",
+    "slip, stick, slip on",
+    "linear springs",
+)
 
 
 @pytest.mark.parametrize("case", CONVERGENT)
@@ -232,7 +243,14 @@ def _turning_slip(mass: Any, normal: Any, tangential: Any, u: Any, laws: Any) ->
     y, t = np.concatenate([u, np.zeros(n)]), 0.0
     while any(phase):
         found = solve_ivp(
-            slope, (t, t + 100.0), y, "DOP853", events=[guard(i) for i in range(n)], rtol=1e-13, atol=1e-15, max_step=0.05
+            slope,
+            (t, t + 100.0),
+            y,
+            "DOP853",
+            events=[guard(i) for i in range(n)],
+            rtol=1e-13,
+            atol=1e-15,
+            max_step=0.05,
         )
         t, y = found.t[-1], found.y[:, -1]
         for i in range(n):
@@ -268,7 +286,13 @@ frictions = st.floats(0.0, 0.8)
 
 
 @settings(max_examples=60)
-@given(seed=st.integers(0, 10**6), u=velocities, e=st.tuples(restitutions, restitutions), mu=st.tuples(frictions, frictions), k=st.floats(0.1, 10.0))
+@given(
+    seed=st.integers(0, 10**6),
+    u=velocities,
+    e=st.tuples(restitutions, restitutions),
+    mu=st.tuples(frictions, frictions),
+    k=st.floats(0.1, 10.0),
+)
 def test_energy_account_closes(seed: int, u: Any, e: Any, mu: Any, k: float) -> None:
     """Skew slip with spin at two contacts: the account explains the kinetic energy to 1e-9, impulses the velocity."""
     mass, normal, tangential = _rigid(seed, 2)
@@ -332,9 +356,7 @@ def test_driven_side_counts() -> None:
     mass, normal, tangential = _sphere()
     laws = [EnergeticImpact(0.6)], [Coulomb(0.2)]
     falling = ns.solve_impact(mass, normal, tangential, (0.5, 0.2, -1.0, 0, 0, 0), *laws)
-    rising = ns.solve_impact(
-        mass, normal, tangential, np.zeros(6), *laws, prescribed=[(-1.0, 0.5, 0.2)]
-    )
+    rising = ns.solve_impact(mass, normal, tangential, np.zeros(6), *laws, prescribed=[(-1.0, 0.5, 0.2)])
     np.testing.assert_allclose(rising.velocity, falling.velocity - (0.5, 0.2, -1.0, 0, 0, 0), rtol=0, atol=1e-12)
 
 
@@ -348,7 +370,9 @@ def test_friction_to_zero_is_frictionless(contacts: int) -> None:
     with pytest.warns(UserWarning, match="usual range"):
         friction = [[Coulomb(mu)] * contacts for mu in (1e-4, 1e-6)]
     gaps = [
-        np.max(np.abs(ns.solve_impact(mass, normal, tangential, u, impact, f, tolerance=1e-12).velocity - smooth.velocity))
+        np.max(
+            np.abs(ns.solve_impact(mass, normal, tangential, u, impact, f, tolerance=1e-12).velocity - smooth.velocity)
+        )
         for f in friction
     ]
     assert gaps[0] <= 1e-3

@@ -26,7 +26,7 @@ class Derivation:
 
     def __init__(self) -> None:
         self.time = sp.Symbol("t")
-        self.m, self.l, self.r, self.j1, self.j2, self.g = sp.symbols("m l r J1 J2 g", positive=True)
+        self.m, self.length, self.r, self.j1, self.j2, self.g = sp.symbols("m l r J1 J2 g", positive=True)
         self.q = sp.Matrix(sp.symbols(" ".join(NAMES)))
         self.v = sp.Matrix(sp.symbols(" ".join(f"d{n}" for n in NAMES)))
         theta, beta, gamma = self.q[3:]
@@ -36,7 +36,7 @@ class Derivation:
         # the body components of the angular velocity, from R^T R'
         self.omega = sp.simplify(sp.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]]))
         first = sp.Matrix(self.q[:3])
-        self.centre = first + self.l / 2 * self.axes[:, 0]
+        self.centre = first + self.length / 2 * self.axes[:, 0]
         self.centre_velocity = self.rate(self.centre)
         inertia = sp.diag(self.j2, self.j1, self.j1)
         self.kinetic = (
@@ -45,7 +45,7 @@ class Derivation:
         self.potential = self.m * self.g * self.centre[2]
         self.mass = sp.simplify(sp.hessian(self.kinetic, list(self.v)))
         down = sp.Matrix([0, 0, -self.r])
-        arms = (down, self.l * self.axes[:, 0] + down)
+        arms = (down, self.length * self.axes[:, 0] + down)
         world = self.axes * self.omega
         points = [sp.simplify(self.rate(first) + world.cross(arm)) for arm in arms]
         gaps = sp.Matrix([(first + arm)[2] for arm in arms])
@@ -62,11 +62,13 @@ class Derivation:
 
     def rate(self, expression: Any) -> Any:
         """Return the part of the time derivative that needs no acceleration."""
-        return expression.applyfunc(lambda entry: sum(sp.diff(entry, a) * b for a, b in zip(self.q, self.v, strict=True)))
+        return expression.applyfunc(
+            lambda entry: sum(sp.diff(entry, a) * b for a, b in zip(self.q, self.v, strict=True))
+        )
 
     def function(self) -> Any:
         """Return everything as one function of (q, q', m, l, r, J1, J2, g)."""
-        arguments = [*self.q, *self.v, self.m, self.l, self.r, self.j1, self.j2, self.g]
+        arguments = [*self.q, *self.v, self.m, self.length, self.r, self.j1, self.j2, self.g]
         outputs = [
             self.mass,
             self.normal,
@@ -95,7 +97,7 @@ def numbers(paper: Derivation) -> Any:
 
 
 def _zero(matrix: Any) -> bool:
-    return sp.simplify(matrix) == sp.zeros(*matrix.shape)
+    return bool(sp.simplify(matrix) == sp.zeros(*matrix.shape))
 
 
 def test_rotation_is_equation_2_and_angular_velocity_equation_3(paper: Derivation) -> None:
@@ -117,43 +119,43 @@ def test_rotation_is_equation_2_and_angular_velocity_equation_3(paper: Derivatio
 
 def test_kinetic_energy_is_equation_5(paper: Derivation) -> None:
     """The long form of the kinetic energy as printed."""
-    m, l, j1, j2 = paper.m, paper.l, paper.j1, paper.j2
+    m, length, j1, j2 = paper.m, paper.length, paper.j1, paper.j2
     theta, beta = paper.q[3], paper.q[4]
     s, c = sp.sin, sp.cos
     dx, dy, dz, dt, db, dg = paper.v
     printed = m * (
-        dx**2 + dy**2 + dz**2 + l**2 * db**2 / 4 + l**2 * c(beta) ** 2 * dt**2 / 4
-        + l * s(theta) * s(beta) * dx * db - l * c(theta) * c(beta) * dx * dt
-        - l * c(theta) * s(beta) * dy * db - l * s(theta) * c(beta) * dy * dt + l * c(beta) * dz * db
+        dx**2 + dy**2 + dz**2 + length**2 * db**2 / 4 + length**2 * c(beta) ** 2 * dt**2 / 4
+        + length * s(theta) * s(beta) * dx * db - length * c(theta) * c(beta) * dx * dt
+        - length * c(theta) * s(beta) * dy * db - length * s(theta) * c(beta) * dy * dt + length * c(beta) * dz * db
     ) / 2 + j1 * (c(beta) ** 2 * dt**2 + db**2) / 2 + j2 * (s(beta) * dt + dg) ** 2 / 2  # fmt: skip
     assert sp.simplify(sp.expand(paper.kinetic - printed)) == 0
 
 
 def test_lost_appendix(paper: Derivation) -> None:
     """M, W, N, S_N and Q as they were re-derived for the notes."""
-    m, l, r, j1, j2, g = paper.m, paper.l, paper.r, paper.j1, paper.j2, paper.g
+    m, length, r, j1, j2, g = paper.m, paper.length, paper.r, paper.j1, paper.j2, paper.g
     theta, beta = paper.q[3], paper.q[4]
     st_, ct, sb, cb = sp.sin(theta), sp.cos(theta), sp.sin(beta), sp.cos(beta)
     mass = sp.zeros(6)
     mass[0, 0] = mass[1, 1] = mass[2, 2] = m
-    mass[0, 3], mass[0, 4] = -m * l / 2 * cb * ct, m * l / 2 * sb * st_
-    mass[1, 3], mass[1, 4] = -m * l / 2 * cb * st_, -m * l / 2 * sb * ct
-    mass[2, 4] = m * l / 2 * cb
-    mass[3, 3] = (j1 + m * l**2 / 4) * cb**2 + j2 * sb**2
-    mass[3, 5], mass[4, 4], mass[5, 5] = j2 * sb, j1 + m * l**2 / 4, j2
+    mass[0, 3], mass[0, 4] = -m * length / 2 * cb * ct, m * length / 2 * sb * st_
+    mass[1, 3], mass[1, 4] = -m * length / 2 * cb * st_, -m * length / 2 * sb * ct
+    mass[2, 4] = m * length / 2 * cb
+    mass[3, 3] = (j1 + m * length**2 / 4) * cb**2 + j2 * sb**2
+    mass[3, 5], mass[4, 4], mass[5, 5] = j2 * sb, j1 + m * length**2 / 4, j2
     for i in range(6):
         for j in range(i):
             mass[i, j] = mass[j, i]
     assert _zero(paper.mass - mass)
-    assert _zero(paper.normal - sp.Matrix([[0, 0, 1, 0, 0, 0], [0, 0, 1, 0, l * cb, 0]]).T)
+    assert _zero(paper.normal - sp.Matrix([[0, 0, 1, 0, 0, 0], [0, 0, 1, 0, length * cb, 0]]).T)
     ax = [1, 0, 0, 0, -r * st_, -r * cb * ct]
-    bx = [1, 0, 0, -l * cb * ct, (l * sb - r) * st_, -r * cb * ct]
+    bx = [1, 0, 0, -length * cb * ct, (length * sb - r) * st_, -r * cb * ct]
     ay = [0, 1, 0, 0, r * ct, -r * cb * st_]
-    by = [0, 1, 0, -l * cb * st_, (r - l * sb) * ct, -r * cb * st_]
+    by = [0, 1, 0, -length * cb * st_, (r - length * sb) * ct, -r * cb * st_]
     assert _zero(paper.slip[0] - sp.Matrix([ax, ay]).T)
     assert _zero(paper.slip[1] - sp.Matrix([bx, by]).T)
-    assert _zero(paper.normal_bias - sp.Matrix([0, -l * sb * paper.v[4] ** 2]))
-    assert _zero(paper.force - sp.Matrix([0, 0, -m * g, 0, -m * g * l / 2 * cb, 0]))
+    assert _zero(paper.normal_bias - sp.Matrix([0, -length * sb * paper.v[4] ** 2]))
+    assert _zero(paper.force - sp.Matrix([0, 0, -m * g, 0, -m * g * length / 2 * cb, 0]))
 
 
 angle = st.floats(-3.0, 3.0)
@@ -190,9 +192,7 @@ def test_engine_equals_the_derivation(build: Any, numbers: Any, state: Any) -> N
     bias = to_u_rate.ravel()
     engine_force = floats[tail : tail + 6]
     _close(to_u.T @ (engine_force - engine_mass @ bias), force.ravel(), scale=_size(engine_mass @ bias))
-    jacobian = np.stack(
-        [floats[int(j) : int(j) + 18].reshape(3, 6) for j in model.memory.array("jacobian_b", 2)]
-    )
+    jacobian = np.stack([floats[int(j) : int(j) + 18].reshape(3, 6) for j in model.memory.array("jacobian_b", 2)])
     w_engine, n_engine = jacobian[:, 0].T, jacobian[:, 1:].reshape(4, 6).T
     _close(to_u.T @ w_engine, normal)
     _close(to_u.T @ n_engine, slip)

@@ -50,7 +50,9 @@ def _place(build: Any, system: ns.System, body: Dumbbell, start: Any) -> None:
 
 def _system(build: Any, body: Dumbbell, motion: Any, laws: Any, start: Any) -> ns.System:
     static = laws["friction"] * laws["extra"]
-    system = build.over(body, motion, restitution=laws["restitution"], friction=laws["friction"], static=static)
+    system: ns.System = build.over(
+        body, motion, restitution=laws["restitution"], friction=laws["friction"], static=static
+    )
     _place(build, system, body, start)
     return system
 
@@ -110,7 +112,9 @@ def test_energy_never_rises_on_a_still_plate(build: Any, start: Any, laws: Any) 
 
 @settings(max_examples=20)
 @given(start=starts, restitution=st.floats(0.0, 1.0), gamma=gammas)
-def test_without_friction_the_horizontal_momentum_stays(build: Any, start: Any, restitution: float, gamma: float) -> None:
+def test_without_friction_the_horizontal_momentum_stays(
+    build: Any, start: Any, restitution: float, gamma: float
+) -> None:
     """Frictionless: horizontal velocity and the vertical angular momentum of the axis stay as they are."""
     body = Dumbbell()
     laws = {"restitution": restitution, "friction": 0.0, "extra": 1.0}
@@ -130,7 +134,9 @@ def _vertical_moment(body: Dumbbell, solution: ns.Solution) -> Any:
 
 @settings(max_examples=15)
 @given(start=starts, laws=contacts, gamma=gammas, turn=st.floats(-3.0, 3.0))
-def test_rotation_about_the_vertical_maps_the_path(build: Any, start: Any, laws: Any, gamma: float, turn: float) -> None:
+def test_rotation_about_the_vertical_maps_the_path(
+    build: Any, start: Any, laws: Any, gamma: float, turn: float
+) -> None:
     """Turning the start about z turns the path: the tangents of the contact are arbitrary."""
     c, s = math.cos(turn), math.sin(turn)
     spin = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -1,4 +1,4 @@
-"""Sustained contact: rolling, sliding, sticking, lifting, each against a closed form or scipy, thresholds from both sides."""
+"""Sustained contact against closed forms and scipy, thresholds from both sides."""
 
 from __future__ import annotations
 
@@ -17,9 +17,11 @@ TIGHT = ns.Options(tolerance=1e-12)
 SIDES = pytest.mark.parametrize("side", [-1e-6, 1e-6])
 
 
-def _on_slope(build: Any, body: Any, radius: float, angle: float, friction: float, static: float | None = None) -> ns.System:
-    """A body with its first axis down the fall line, touching."""
-    system = build.over(body, Rest(angle), friction=friction, static=static)
+def _on_slope(
+    build: Any, body: Any, radius: float, angle: float, friction: float, static: float | None = None
+) -> ns.System:
+    """Place a body with its first axis down the fall line, touching."""
+    system: ns.System = build.over(body, Rest(angle), friction=friction, static=static)
     normal = np.array([math.sin(angle), 0.0, math.cos(angle)])
     turn = (math.cos(angle / 2), 0.0, math.sin(angle / 2), 0.0)
     system.place(body, position=radius * normal, orientation=turn)
@@ -225,30 +227,31 @@ def test_slip_that_turns_on_a_slope(build: Any) -> None:
 
 
 def test_flat_dumbbell_slides_and_turns(build: Any) -> None:
-    """Two sliding contacts, yaw and roll with their gyroscopic moment: equal to a vector derivation in scipy to 1e-8."""
+    """Two sliding contacts, yaw and roll with their gyroscopic moment: as derived with vectors to 1e-8."""
     from scipy.integrate import solve_ivp
 
     body, mu, t_end = Dumbbell(), 0.2, 0.03
     along_j, across_j, _ = body.inertia
-    m, l, r = body.total_mass, body.centre_distance, body.radius
+    m, half, r = body.total_mass, body.centre_distance / 2, body.radius
     v0, yaw0, roll0 = np.array([0.3, 0.2]), 15.0, 60.0
     up = np.array([0.0, 0.0, 1.0])
 
     def slope(t: float, y: Any) -> Any:
-        x, yaw, v, yaw_rate, roll = y[:2], y[2], np.append(y[3:5], 0.0), y[5], y[6]
+        yaw, v, yaw_rate, roll = y[2], np.append(y[3:5], 0.0), y[5], y[6]
         e = np.array([math.cos(yaw), math.sin(yaw), 0.0])
         side = np.cross(up, e)
         omega = yaw_rate * up + roll * e
-        arms = [sign * l / 2 * e - r * up for sign in (-1.0, 1.0)]
+        arms = [sign * half * e - r * up for sign in (-1.0, 1.0)]
         slips = [v + np.cross(omega, arm) for arm in arms]
         # force per unit normal force, and the pitch balance that shares the weight
         pulls = [up - mu * s / np.linalg.norm(s) for s in slips]
         pitch = [np.cross(arm, pull) @ side for arm, pull in zip(arms, pulls, strict=True)]
-        weights = np.linalg.solve([[1.0, 1.0], pitch], [m * G, along_j * roll * yaw_rate])
+        balance = np.array([[1.0, 1.0], pitch], dtype=float)
+        weights = np.linalg.solve(balance, [m * G, along_j * roll * yaw_rate])
         force = sum(w * p for w, p in zip(weights, pulls, strict=True))
         torque = sum(w * np.cross(arm, p) for w, arm, p in zip(weights, arms, pulls, strict=True))
         assert min(weights) > 0.0
-        return np.concatenate([y[3:5], [yaw_rate], force[:2] / m, [torque @ up / across_j, torque @ e / along_j]]) + 0 * x[0]
+        return np.concatenate([y[3:5], [yaw_rate], force[:2] / m, [torque @ up / across_j, torque @ e / along_j]])
 
     y0 = [0, 0, 0, *v0, yaw0, roll0]
     found = solve_ivp(slope, (0.0, t_end), y0, "DOP853", rtol=1e-13, atol=1e-15).y[:, -1]

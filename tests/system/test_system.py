@@ -71,7 +71,10 @@ def test_impact_laws_must_be_of_one_kind(build: Any) -> None:
     system = ns.System([plate, ball, other])
     system.contact(plate, ball, **build.laws())
     mixed = build.laws() | {"impact": NewtonImpact(0.5)}
-    _raises(("kind of EnergeticImpact", "NewtonImpact", "whole colliding set"), lambda: system.contact(plate, other, **mixed))
+    _raises(
+        ("kind of EnergeticImpact", "NewtonImpact", "whole colliding set"),
+        lambda: system.contact(plate, other, **mixed),
+    )
     system.contact(plate, other, **build.laws(restitution=0.9))
     assert len(system.contacts) == 2
 
@@ -108,7 +111,8 @@ def test_end_time_must_be_positive(build: Any, t_end: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("option", "value"), [("tolerance", 0.0), ("tolerance", math.nan), ("impact_tolerance", 1.0), ("steps_per_period", 0.5)]
+    ("option", "value"),
+    [("tolerance", 0.0), ("tolerance", math.nan), ("impact_tolerance", 1.0), ("steps_per_period", 0.5)],
 )
 def test_options_are_checked(option: str, value: float) -> None:
     """A tolerance that no step can meet is refused."""
@@ -236,7 +240,7 @@ def test_a_parameter_nobody_gives_is_named(build: Any) -> None:
         ns.simulate(system, 0.1)
 
 
-MATRICES = {
+MATRICES: dict[str, Any] = {
     "mass": np.eye(2),
     "normal": np.array([[1.0], [0.0]]),
     "tangential": np.array([[[0.0, 0.0]], [[1.0, 0.0]]]),
@@ -257,14 +261,17 @@ MATRICES = {
 )
 def test_one_impact_checks_its_matrices(name: str, value: Any) -> None:
     """Shape, symmetry, definiteness, finiteness."""
-    laws: Any = ([EnergeticImpact(0.5)], [Coulomb(0.2)])
-    _raises((f"solve_impact: {name}", "must be"), lambda: ns.solve_impact(**(MATRICES | {name: value}), impact=laws[0], friction=laws[1]))
-    _raises(("solve_impact: friction", "one law for each"), lambda: ns.solve_impact(**MATRICES, impact=laws[0], friction=[]))
-    assert ns.solve_impact(**MATRICES, impact=laws[0], friction=laws[1]).velocity[0] == pytest.approx(0.5)
+    laws: dict[str, Any] = {"impact": [EnergeticImpact(0.5)], "friction": [Coulomb(0.2)]}
+    good, none = MATRICES | laws, MATRICES | laws | {"friction": []}
+    _raises((f"solve_impact: {name}", "must be"), lambda: ns.solve_impact(**(good | {name: value})))
+    _raises(("solve_impact: friction", "one law for each"), lambda: ns.solve_impact(**none))
+    assert ns.solve_impact(**good).velocity[0] == pytest.approx(0.5)
 
 
 def test_a_fast_plate_is_resolved(build: Any) -> None:
     """The shortest time scale of all bodies limits the step."""
-    system = ns.System([Plate(Harmonic(amplitude=1e-4, frequency=50.0)), Plate(Harmonic(amplitude=1e-4, frequency=20.0))])
+    system = ns.System(
+        [Plate(Harmonic(amplitude=1e-4, frequency=50.0)), Plate(Harmonic(amplitude=1e-4, frequency=20.0))]
+    )
     assert system.time_scale == pytest.approx(0.02)
     assert system.n_degrees == 0
