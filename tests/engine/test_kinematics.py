@@ -84,7 +84,7 @@ vectors = st.tuples(*[st.floats(-1.0, 1.0)] * 3)
 def test_rates_and_bias_are_derivatives(
     build: Any, time: float, position: Any, rotation: Any, velocity: Any, omega: Any, name: str, flip: bool
 ) -> None:
-    """The rate is dg/dt, the bias is d(g', v)/dt with u' = 0, W and N are the gradients, whichever body is named first."""
+    """The rate is dg/dt, the bias is d(g', v)/dt with u' = 0, W and N are the gradients; in any order."""
     body: Any = {"ball": Ball(0.05), "dumbbell": Dumbbell(0.05)}[name]
     plate = Plate(Swing())
     system = ns.System([body, plate] if flip else [plate, body])
