@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 import nonsmooth as ns
@@ -16,6 +16,8 @@ from nonsmooth.engine.modes import IMPACT
 
 G = 9.81
 OMEGA = 2.0 * math.pi * 25.0
+PHASES = (Phase.explicit, Phase.generate)
+TIGHT = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
 
 starts = st.fixed_dictionaries(
     {
@@ -35,6 +37,26 @@ contacts = st.fixed_dictionaries(
     }
 )
 gammas = st.floats(0.0, 1.6)
+SEEDS = st.integers(0, 10**6)
+
+
+def _generic(seed: int) -> tuple[Any, Any, float]:
+    """Return a start, laws and Gamma; generic, because at a branching point rounding decides which way a run goes."""
+    random = np.random.default_rng(seed)
+    start = {
+        "tilt": random.uniform(0.02, 0.6) * random.choice([-1.0, 1.0]),
+        "yaw": random.uniform(-3.0, 3.0),
+        "roll": random.uniform(-3.0, 3.0),
+        "height": random.choice([0.0, 5e-4]),
+        "velocity": tuple(random.uniform(-0.5, 0.5, 3) * [1.0, 1.0, 0.4]),
+        "rate": tuple(random.uniform(-1.0, 1.0, 3) * [15.0, 15.0, 60.0]),
+    }
+    laws = {
+        "restitution": float(random.choice([0.3, 0.6, 0.9])),
+        "friction": float(random.choice([0.0, 0.05, 0.2, 0.5])),
+        "extra": float(random.choice([1.0, 1.5])),
+    }
+    return start, laws, float(random.choice([0.0, 0.5, 0.9, 1.3]))
 
 
 def _motion(gamma: float) -> Any:
@@ -63,7 +85,7 @@ def _energy(body: Any, q: Any, u: Any) -> Any:
     return kinetic + body.total_mass * G * q[:, 2]
 
 
-@settings(max_examples=40)
+@settings(max_examples=40, phases=PHASES)
 @given(start=starts, laws=contacts, gamma=gammas)
 def test_energy_gaps_and_impulses(build: Any, start: Any, laws: Any, gamma: float) -> None:
     """Residual <= 1e-8; nothing penetrates; impulses push and lie in the friction disc; losses are losses."""
@@ -96,7 +118,7 @@ def _heights(body: Dumbbell, q: Any) -> Any:
     return np.column_stack([q[:, 2] - rise, q[:, 2] + rise])
 
 
-@settings(max_examples=25)
+@settings(max_examples=25, phases=PHASES)
 @given(start=starts, laws=contacts)
 def test_energy_never_rises_on_a_still_plate(build: Any, start: Any, laws: Any) -> None:
     """Kinetic plus potential energy decreases from sample to sample and over every event."""
@@ -110,7 +132,7 @@ def test_energy_never_rises_on_a_still_plate(build: Any, start: Any, laws: Any) 
     assert abs(solution.energy.driven_work) <= 1e-14
 
 
-@settings(max_examples=20)
+@settings(max_examples=20, phases=PHASES)
 @given(start=starts, restitution=st.floats(0.0, 1.0), gamma=gammas)
 def test_without_friction_the_horizontal_momentum_stays(
     build: Any, start: Any, restitution: float, gamma: float
@@ -121,7 +143,8 @@ def test_without_friction_the_horizontal_momentum_stays(
     solution = ns.simulate(_system(build, body, _motion(gamma), laws, start), 0.1)
     np.testing.assert_allclose(solution.u[:, :2], np.tile(solution.u[0, :2], (len(solution.u), 1)), rtol=0, atol=1e-11)
     moment = _vertical_moment(body, solution)
-    np.testing.assert_allclose(moment, moment[0], rtol=0, atol=1e-8 * (1e-9 + np.max(np.abs(moment))))
+    size = body.inertia[1] * (1.0 + float(np.max(np.abs(solution.u[:, 3:]))))
+    np.testing.assert_allclose(moment, moment[0], rtol=0, atol=1e-7 * size)
     assert solution.energy.friction_loss == 0.0
 
 
@@ -132,12 +155,11 @@ def _vertical_moment(body: Dumbbell, solution: ns.Solution) -> Any:
     return np.einsum("nj,nj->n", axes[:, 2, :], np.array(body.inertia) * solution.u[:, 3:])
 
 
-@settings(max_examples=15)
-@given(start=starts, laws=contacts, gamma=gammas, turn=st.floats(-3.0, 3.0))
-def test_rotation_about_the_vertical_maps_the_path(
-    build: Any, start: Any, laws: Any, gamma: float, turn: float
-) -> None:
+@settings(max_examples=15, phases=PHASES)
+@given(seed=SEEDS, turn=st.floats(-3.0, 3.0))
+def test_rotation_about_the_vertical_maps_the_path(build: Any, seed: int, turn: float) -> None:
     """Turning the start about z turns the path: the tangents of the contact are arbitrary."""
+    start, laws, gamma = _generic(seed)
     c, s = math.cos(turn), math.sin(turn)
     spin = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     moved = start | {"yaw": start["yaw"] + turn, "velocity": tuple(spin @ start["velocity"])}
@@ -148,10 +170,11 @@ def test_rotation_about_the_vertical_maps_the_path(
     np.testing.assert_allclose(other.u[-1, 3:], one.u[-1, 3:], rtol=0, atol=1e-7)
 
 
-@settings(max_examples=15)
-@given(start=starts, laws=contacts, gamma=gammas)
-def test_reflection_maps_the_path(build: Any, start: Any, laws: Any, gamma: float) -> None:
+@settings(max_examples=15, phases=PHASES)
+@given(seed=SEEDS)
+def test_reflection_maps_the_path(build: Any, seed: int) -> None:
     """Reflecting the start at the plane y = 0 reflects the path."""
+    start, laws, gamma = _generic(seed)
     mirror = np.array([1.0, -1.0, 1.0])
     # the axis (-sin, cos) of the paper's angles reflects to theta -> pi - theta; a spin about it changes sign
     rate = start["rate"]
@@ -171,7 +194,9 @@ def _pair(build: Any, laws: Any, gamma: float, start: Any, moved: Any) -> tuple[
     runs = []
     for which in (start, moved):
         body = Dumbbell()
-        runs.append(ns.simulate(_system(build, body, _motion(gamma), laws, which), 0.04, sample_interval=2e-3))
+        runs.append(
+            ns.simulate(_system(build, body, _motion(gamma), laws, which), 0.04, sample_interval=2e-3, options=TIGHT)
+        )
     return runs[0], runs[1]
 
 
@@ -200,7 +225,12 @@ def test_units_do_not_matter(build: Any) -> None:
         rate = (0.2 * a / b, 0.0, 0.0, 0.0, 0.0, 5.0 / b)
         system.place(body, **build.paper_start(body, q, rate))
         options = ns.Options(
-            time_tolerance=1e-12 * b, gap_tolerance=1e-12 * a, velocity_tolerance=1e-9 * a / b, largest_step=0.1 * b
+            tolerance=1e-12,
+            impact_tolerance=1e-12,
+            time_tolerance=1e-12 * b,
+            gap_tolerance=1e-12 * a,
+            velocity_tolerance=1e-9 * a / b,
+            largest_step=0.1 * b,
         )
         runs.append(ns.simulate(system, 0.2 * b, options=options))
     one, other = runs
