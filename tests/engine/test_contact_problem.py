@@ -1,0 +1,192 @@
+"""The contact problem on random matrices: every answer fulfils the laws themselves."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from laws import Coulomb, Unilateral
+from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.engine.modes import OPEN, SLIDE, STICK
+from nonsmooth.model.layout import Memory, allocate
+
+
+def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:
+    """Lay out one contact problem; ``slip`` holds unit vectors of sliding contacts, zeros at rest."""
+    n = len(mu)
+    counts = dict.fromkeys(
+        ("n_bodies", "n_q", "n_u", "n_y", "map_width", "event_capacity", "event_width", "sample_capacity"), 0
+    )
+    memory = allocate(counts | {"n_contacts": n}, 0)
+    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.scalars["n_active"] = n
+    memory.array("active", n)[:] = np.arange(n)
+    memory.array("delassus", 9 * n * n)[:] = np.ravel(delassus)
+    memory.array("b", 3 * n)[:] = np.ravel(bias)
+    memory.array("mu", n)[:], memory.array("mu_static", n)[:] = mu, static
+    rest = np.all(np.asarray(slip) == 0.0, axis=1)
+    memory.array("at_rest", n)[:] = rest
+    memory.array("d", 2 * n)[:] = np.where(rest[:, None], [1.0, 0.0], slip).ravel()
+    memory.array("direction", 2 * n)[:] = memory.array("d", 2 * n)
+    memory.array("mode_tried", n)[:] = np.where(rest, STICK, SLIDE)
+    return memory
+
+
+def _solve(memory: Memory, n: int) -> tuple[bool, Any, Any]:
+    """Return whether it was solved, forces and modes."""
+    found = call_room("solve_contact", memory) == 1
+    return found, memory.array("f", 3 * n).reshape(n, 3).copy(), memory.array("mode_tried", n).copy()
+
+
+def _delassus(seed: int, n: int, freedoms: int) -> tuple[Any, Any]:
+    random = np.random.default_rng(seed)
+    jacobian = random.normal(size=(3 * n, freedoms))
+    return jacobian @ jacobian.T, random.normal(size=(n, 3)) * [3.0, 1.0, 1.0]
+
+
+def _assert_lawful(
+    delassus: Any, bias: Any, forces: Any, modes: Any, mu: Any, static: Any, slip: Any, exact: bool
+) -> None:
+    acceleration = (delassus @ forces.ravel()).reshape(-1, 3) + bias
+    size = max(1.0, float(np.max(np.abs(forces))), float(np.max(np.abs(delassus))) * float(np.max(np.abs(forces))))
+    small = 1e-8 * size
+    for i in range(len(mu)):
+        normal, pull, push = forces[i, 0], forces[i, 1:], acceleration[i, 1:]
+        assert Unilateral().is_fulfilled(acceleration[i, 0], normal, small)
+        law = Coulomb(float(mu[i]), float(static[i]))
+        if np.any(slip[i] != 0.0):
+            assert modes[i] != STICK
+            assert law.is_fulfilled(tuple(slip[i]), normal, tuple(pull), small)
+        elif modes[i] == STICK:
+            np.testing.assert_allclose(push, 0.0, rtol=0, atol=small)
+            # where forces are not unique the bound is that of the group, Eq. (38)
+            assert not exact or np.hypot(*pull) <= static[i] * normal + small
+        elif modes[i] == SLIDE and np.hypot(*push) > 1e-6 * size:
+            np.testing.assert_allclose(pull, -mu[i] * normal * push / np.hypot(*push), rtol=0, atol=1e-6 * size)
+        elif modes[i] == OPEN:
+            assert normal == 0.0
+
+
+coefficients = st.lists(st.floats(0.05, 0.7), min_size=4, max_size=4)
+
+
+@settings(max_examples=150)
+@given(seed=st.integers(0, 10**6), n=st.integers(1, 4), mu=coefficients, extra=st.sampled_from([1.0, 1.3]))
+def test_contacts_at_rest(seed: int, n: int, mu: Any, extra: float) -> None:
+    """Incipient slip: every positive definite G has a solution, and it is found, on the cone, not a pyramid."""
+    delassus, bias = _delassus(seed, n, 3 * n + 2)
+    mu, slip = np.array(mu[:n]), np.zeros((n, 2))
+    static = mu * extra
+    found, forces, modes = _solve(_memory(delassus, bias, mu, static, slip), n)
+    # with mu_s > mu there may be none
+    assert found or extra > 1.0
+    if found:
+        _assert_lawful(delassus, bias, forces, modes, mu, static, slip, exact=True)
+
+
+@settings(max_examples=100)
+@given(
+    seed=st.integers(0, 10**6),
+    n=st.integers(1, 4),
+    mu=coefficients,
+    sliding=st.lists(st.booleans(), min_size=4, max_size=4),
+)
+def test_some_slide(seed: int, n: int, mu: Any, sliding: Any) -> None:
+    """Whatever is accepted among sliding and resting contacts obeys Eqs. (16) and (17)."""
+    delassus, bias = _delassus(seed, n, 3 * n + 2)
+    random = np.random.default_rng(seed + 1)
+    angles = random.uniform(0.0, 2.0 * math.pi, n)
+    slip = np.column_stack([np.cos(angles), np.sin(angles)]) * np.array(sliding[:n])[:, None]
+    mu = np.array(mu[:n]) * 0.3
+    found, forces, modes = _solve(_memory(delassus, bias, mu, mu, slip), n)
+    if found:
+        _assert_lawful(delassus, bias, forces, modes, mu, mu, slip, exact=True)
+    else:
+        reduced = [delassus[3 * i, 3 * i] - mu[i] * slip[i] @ delassus[3 * i, 3 * i + 1 : 3 * i + 3] for i in range(n)]
+        assert n > 1 or min(reduced) <= 0.0
+
+
+@settings(max_examples=60)
+@given(seed=st.integers(0, 10**6), n=st.integers(2, 4), mu=coefficients)
+def test_rank_deficient(seed: int, n: int, mu: Any) -> None:
+    """More contacts than the body has freedoms: the accelerations are lawful though the forces are not unique."""
+    delassus, bias = _delassus(seed, n, 6)
+    random = np.random.default_rng(seed)
+    jacobian = random.normal(size=(3 * n, 6))
+    bias = (jacobian @ random.normal(size=6)).reshape(n, 3)
+    mu = np.array(mu[:n])
+    slip = np.zeros((n, 2))
+    found, forces, modes = _solve(_memory(delassus, bias, mu, mu, slip), n)
+    assume(found)
+    _assert_lawful(delassus, bias, forces, modes, mu, mu, slip, exact=False)
+
+
+@settings(max_examples=40)
+@given(seed=st.integers(0, 10**6), mu=coefficients, shift=st.integers(1, 2))
+def test_order_of_contacts_does_not_matter(seed: int, mu: Any, shift: int) -> None:
+    """Permuting three contacts permutes the forces."""
+    n = 3
+    delassus, bias = _delassus(seed, n, 11)
+    mu = np.array(mu[:n])
+    order = np.roll(np.arange(n), shift)
+    rows = (3 * order[:, None] + np.arange(3)).ravel()
+    slip = np.zeros((n, 2))
+    one = _solve(_memory(delassus, bias, mu, mu, slip), n)
+    other = _solve(_memory(delassus[np.ix_(rows, rows)], bias[order], mu[order], mu[order], slip), n)
+    assert one[0]
+    assert other[0]
+    np.testing.assert_allclose(other[1], one[1][order], rtol=0, atol=1e-7 * max(1.0, np.max(np.abs(one[1]))))
+
+
+@pytest.mark.parametrize("side", [-1e-6, 1e-6])
+@pytest.mark.parametrize("static", [0.3, 0.5])
+def test_breakaway_of_one_contact(side: float, static: float) -> None:
+    """A block on a plane: it sticks iff the pull is at most mu_s times the weight, and slips with mu."""
+    mu, pull = 0.3, static * (1.0 + side)
+    bias = np.array([[-1.0, 0.6 * pull, 0.8 * pull]])
+    found, forces, modes = _solve(_memory(np.eye(3), bias, [mu], [static], np.zeros((1, 2))), 1)
+    assert found
+    assert modes[0] == (STICK if side < 0.0 else SLIDE)
+    size = pull if side < 0.0 else mu
+    np.testing.assert_allclose(forces[0], (1.0, -0.6 * size, -0.8 * size), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("side", [-1e-9, 1e-9])
+def test_lift_off_of_one_contact(side: float) -> None:
+    """The contact opens iff the free acceleration points away."""
+    bias = np.array([[side, 0.4, -0.2]])
+    found, forces, modes = _solve(_memory(np.eye(3), bias, [0.3], [0.3], np.zeros((1, 2))), 1)
+    assert found
+    assert (modes[0] == OPEN) == (side > 0.0)
+    assert forces[0, 0] == pytest.approx(max(0.0, -side), abs=1e-15)
+
+
+PAINLEVE = np.array([[1.0, -2.0, 0.0], [-2.0, 5.0, 0.0], [0.0, 0.0, 1.0]])
+SLIDING = np.array([[-1.0, 0.0]])
+
+
+@pytest.mark.parametrize("side", [-1e-6, 1e-6])
+def test_painleve_without_solution(side: float) -> None:
+    """Reduced normal coefficient g_nn - mu g_nt at its zero, pressed in: solved below mu = 1/2, unsolvable above."""
+    mu = 0.5 * (1.0 + side)
+    # sliding along -t1: friction +mu acts through g_nt = -2, so the reduced coefficient is 1 - 2 mu
+    found, forces, _ = _solve(_memory(PAINLEVE, [[-1.0, 0.0, 0.0]], [mu], [mu], SLIDING), 1)
+    assert found == (side < 0.0)
+    if found:
+        assert forces[0, 0] == pytest.approx(1.0 / (1.0 - 2.0 * mu), rel=1e-8)
+
+
+@pytest.mark.parametrize(("past", "expected"), [(SLIDE, SLIDE), (OPEN, OPEN)])
+def test_painleve_with_two_solutions_keeps_the_past(past: int, expected: int) -> None:
+    """Pulled apart with a negative coefficient both contact and flight are solutions: the past mode goes on."""
+    memory = _memory(PAINLEVE, [[1.0, 0.0, 0.0]], [0.8], [0.8], SLIDING)
+    memory.array("mode_tried", 1)[0] = past
+    found, forces, modes = _solve(memory, 1)
+    assert found
+    assert modes[0] == expected
+    assert forces[0, 0] == pytest.approx(1.0 / 0.6 if past == SLIDE else 0.0, abs=1e-12)

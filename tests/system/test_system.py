@@ -1,0 +1,277 @@
+"""System and runs on bad input: nothing invalid gets past, and a law that fails is named."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from bodies import Ball, Dumbbell, Harmonic, Plate
+from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
+from nonsmooth.interfaces import FrictionLaw, ImpactProcess
+from nonsmooth.parameters import parameter
+
+
+def _raises(words: tuple[str, ...], action: Callable[[], Any]) -> None:
+    with pytest.raises(ns.InvalidInput) as caught:
+        action()
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_bodies_must_be_bodies(build: Any) -> None:
+    """Each once, at least one, only bodies."""
+    ball: Any = Ball(0.01)
+    _raises(("System.bodies", "at least one body"), lambda: ns.System([]))
+    _raises(("System.bodies", "each once", "Make a new object"), lambda: ns.System([ball, ball]))
+    _raises(("System.bodies", "bodies only", "'ball'"), lambda: ns.System([ball, "ball"]))  # type: ignore[list-item]
+    assert len(ns.System([ball, Ball(0.01)]).bodies) == 2
+
+
+@pytest.mark.parametrize("gravity", [math.nan, math.inf, 1e5, "9.81", None])
+def test_gravity_must_be_a_number(gravity: Any) -> None:
+    """Finite and of this world."""
+    _raises(("System.gravity", "m/s^2"), lambda: ns.System([Ball(0.01)], gravity))
+
+
+def test_contacts_need_bodies_of_the_system(build: Any) -> None:
+    """Two different ones, both known, of shapes that can meet."""
+    plate, ball, other = Plate(), Ball(0.01), Ball(0.02)
+    system = ns.System([plate, ball])
+    laws = build.laws()
+    _raises(("System.contact", "body of this system", "Add it"), lambda: system.contact(plate, other, **laws))
+    _raises(("System.contact", "two different bodies"), lambda: system.contact(ball, ball, **laws))
+    _raises(("System.place", "body of this system"), lambda: system.place(other, position=(0, 0, 1)))
+    two = ns.System([plate, Plate()])
+    _raises(("System.contact", "Plane-Plane", "Known pairs"), lambda: two.contact(*two.bodies, **laws))
+    assert system.contacts == ()
+
+
+def test_contacts_need_laws(build: Any) -> None:
+    """All three, each of its kind."""
+    plate, ball = Plate(), Ball(0.01)
+    system = ns.System([plate, ball])
+    laws = build.laws()
+    for name, kind in (("normal", "NormalLaw"), ("friction", "FrictionLaw"), ("impact", "ImpactLaw")):
+        for wrong in (None, 0.2, Ball(0.01)):
+            words = ("System.contact", f"needs a {kind}", "list laws")
+            _raises(words, lambda name=name, wrong=wrong: system.contact(plate, ball, **(laws | {name: wrong})))  # type: ignore[misc]
+    with pytest.raises(TypeError, match="impact"):
+        system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(0.2))  # type: ignore[call-arg]
+
+
+def test_impact_laws_must_be_of_one_kind(build: Any) -> None:
+    """An impact owns the whole colliding set."""
+    plate, ball, other = Plate(), Ball(0.01), Ball(0.02)
+    system = ns.System([plate, ball, other])
+    system.contact(plate, ball, **build.laws())
+    mixed = build.laws() | {"impact": NewtonImpact(0.5)}
+    _raises(
+        ("kind of EnergeticImpact", "NewtonImpact", "whole colliding set"),
+        lambda: system.contact(plate, other, **mixed),
+    )
+    system.contact(plate, other, **build.laws(restitution=0.9))
+    assert len(system.contacts) == 2
+
+
+def test_a_dumbbell_has_two_contacts_whatever_the_order(build: Any) -> None:
+    """The pair decides who is first: the normal points from the plate."""
+    plate, body = Plate(), Dumbbell()
+    for pair in ((plate, body), (body, plate)):
+        system = ns.System([plate, body])
+        contacts = system.contact(*pair, **build.laws())
+        assert len(contacts) == 2
+        assert all(contact.first is plate for contact in contacts)
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1e-6])
+def test_overlap_at_the_start_is_refused(build: Any, depth: float) -> None:
+    """The gap is named; touching is allowed."""
+    ball = Ball(0.01)
+    system = build.over(ball)
+    system.place(ball, position=(0, 0, 0.01 - depth))
+    _raises(("start of the contact", "must not overlap", "but it is -", "gap >= 0"), lambda: ns.simulate(system, 0.1))
+    system.place(ball, position=(0, 0, 0.01))
+    assert ns.simulate(system, 0.01).status == "done"
+
+
+@pytest.mark.parametrize("t_end", [0.0, -1.0, math.nan, math.inf])
+def test_end_time_must_be_positive(build: Any, t_end: float) -> None:
+    """And finite."""
+    ball = Ball(0.01)
+    system = build.over(ball)
+    system.place(ball, position=(0, 0, 0.02))
+    _raises(("simulate: t_end", "positive and finite", "[s]"), lambda: ns.simulate(system, t_end))
+    _raises(("simulate: sample_interval",), lambda: ns.simulate(system, 0.1, sample_interval=t_end))
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("tolerance", 0.0), ("tolerance", math.nan), ("impact_tolerance", 1.0), ("steps_per_period", 0.5)],
+)
+def test_options_are_checked(option: str, value: float) -> None:
+    """A tolerance that no step can meet is refused."""
+    _raises((f"Options.{option}",), lambda: ns.Options(**{option: value}))
+
+
+def _bad_force(indentation: float, threshold: float) -> float:
+    return indentation if indentation < threshold else math.nan
+
+
+def _one(rate: float) -> float:
+    return 1.0
+
+
+@final
+@dataclass(frozen=True)
+class BrokenImpact(ImpactProcess):
+    """Returns a number that is not finite."""
+
+    threshold: float = parameter(1e-9, doc="from here on it fails", unit="m")
+
+    @property
+    def force(self) -> Callable[..., float]:
+        """Not finite."""
+        return _bad_force
+
+    @property
+    def efficiency(self) -> Callable[..., float]:
+        """Elastic."""
+        return _one
+
+    @property
+    def contact_time(self) -> float:
+        """Any."""
+        return 1e-5
+
+    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
+        """Never."""
+        return False
+
+
+def _bad_friction(speed: float) -> float:
+    return math.nan if speed > 1e-3 else 0.3
+
+
+@final
+@dataclass(frozen=True)
+class BrokenFriction(FrictionLaw):
+    """Fails as soon as something slips."""
+
+    @property
+    def coefficient(self) -> Callable[..., float]:
+        """Not finite under slip."""
+        return _bad_friction
+
+    def is_fulfilled(self, slip: Any, normal_force: float, tangential_force: Any, tolerance: float) -> bool:
+        """Never."""
+        return False
+
+
+def test_an_impact_law_that_fails_is_named(build: Any) -> None:
+    """RunFailed names the law and its file, and keeps what was computed."""
+    body, plate = Dumbbell(), Plate()
+    system = ns.System([plate, body])
+    system.contact(plate, body, **(build.laws() | {"impact": BrokenImpact()}))
+    system.place(body, position=(0, 0, 0.02))
+    with pytest.raises(ns.RunFailed) as caught:
+        ns.simulate(system, 0.2)
+    message = str(caught.value)
+    for word in ("BrokenImpact", "_bad_force", "test_system.py", "nan", "At t = 0.0"):
+        assert word in message
+    solution = caught.value.solution
+    assert isinstance(solution, ns.Solution)
+    assert solution.status == "failed"
+    assert 0.03 < solution.t_end < 0.06
+    assert np.all(np.isfinite(solution.q))
+    assert len(solution.t) > 100
+
+
+def test_a_friction_law_that_fails_is_named(build: Any) -> None:
+    """The same in sustained contact."""
+    ball, plate = Ball(0.01), Plate()
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, **(build.laws() | {"friction": BrokenFriction()}))
+    system.place(ball, position=(0, 0, 0.01), velocity=(0.5, 0, 0))
+    with pytest.raises(ns.RunFailed) as caught:
+        ns.simulate(system, 0.2)
+    for word in ("BrokenFriction", "_bad_friction", "test_system.py", "nan"):
+        assert word in str(caught.value)
+
+
+def test_a_parameter_nobody_gives_is_named(build: Any) -> None:
+    """A law function that asks for a name its law does not have."""
+
+    def force(indentation: float, stiffnes: float) -> float:
+        return stiffnes * indentation
+
+    @final
+    @dataclass(frozen=True)
+    class Misspelt(ImpactProcess):
+        """Asks for `stiffnes`."""
+
+        stiffness: float = parameter(1.0, doc="stiffness", unit="N/m")
+
+        @property
+        def force(self) -> Callable[..., float]:
+            return force
+
+        @property
+        def efficiency(self) -> Callable[..., float]:
+            return _one
+
+        @property
+        def contact_time(self) -> float:
+            return 1e-5
+
+        def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
+            return False
+
+    ball, plate = Ball(0.01), Plate()
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, **(build.laws() | {"impact": Misspelt()}))
+    system.place(ball, position=(0, 0, 0.02))
+    with pytest.raises(ns.UnknownName, match="Did you mean 'stiffness'"):
+        ns.simulate(system, 0.1)
+
+
+MATRICES: dict[str, Any] = {
+    "mass": np.eye(2),
+    "normal": np.array([[1.0], [0.0]]),
+    "tangential": np.array([[[0.0, 0.0]], [[1.0, 0.0]]]),
+    "velocity": np.array([-1.0, 0.5]),
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("mass", np.diag([1.0, -1.0])),
+        ("mass", np.array([[1.0, 0.5], [0.0, 1.0]])),
+        ("mass", np.eye(3)),
+        ("normal", np.zeros((3, 1))),
+        ("tangential", np.zeros((2, 1))),
+        ("velocity", np.array([math.nan, 0.0])),
+    ],
+)
+def test_one_impact_checks_its_matrices(name: str, value: Any) -> None:
+    """Shape, symmetry, definiteness, finiteness."""
+    laws: dict[str, Any] = {"impact": [EnergeticImpact(0.5)], "friction": [Coulomb(0.2)]}
+    good, none = MATRICES | laws, MATRICES | laws | {"friction": []}
+    _raises((f"solve_impact: {name}", "must be"), lambda: ns.solve_impact(**(good | {name: value})))
+    _raises(("solve_impact: friction", "one law for each"), lambda: ns.solve_impact(**none))
+    assert ns.solve_impact(**good).velocity[0] == pytest.approx(0.5)
+
+
+def test_a_fast_plate_is_resolved(build: Any) -> None:
+    """The shortest time scale of all bodies limits the step."""
+    system = ns.System(
+        [Plate(Harmonic(amplitude=1e-4, frequency=50.0)), Plate(Harmonic(amplitude=1e-4, frequency=20.0))]
+    )
+    assert system.time_scale == pytest.approx(0.02)
+    assert system.n_degrees == 0
