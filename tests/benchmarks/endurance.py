@@ -43,9 +43,8 @@ def main() -> None:
     events = solution.events
     row = 8 * (5 + 3 * events.impulse.shape[1] + events.q.shape[1] + 2 * events.u_before.shape[1])
     row += 8 * (3 + events.before.shape[1])
-    print(
-        f"drift mode, {t_end:g} s: {len(events)} events, a row of {row} bytes each; residual {solution.energy.residual:.1e}"
-    )
+    residual = solution.energy.residual
+    print(f"drift mode, {t_end:g} s: {len(events)} events, a row of {row} bytes each; energy residual {residual:.1e}")
     edges = np.linspace(0.0, t_end, 4)
     for start, end in itertools.pairwise(edges):
         count = np.count_nonzero((events.time > start) & (events.time <= end))
