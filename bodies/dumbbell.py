@@ -20,7 +20,9 @@ class Dumbbell(FreeBody):
     The rod is thin, of length l - 2 r, and touches nothing.
     """
 
-    radius: float = parameter(4.76e-3, doc="radius r of the balls", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)
+    radius: float = parameter(
+        4.76e-3, doc="radius r of the balls", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True
+    )
     aspect_ratio: float = parameter(3.9, doc="aspect ratio A_r = (l + 2 r) / (2 r)", minimum=2.0, usual=(2.0, 100.0))
     density: float = parameter(
         7800.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4), assumed=True
@@ -43,8 +45,8 @@ class Dumbbell(FreeBody):
     @property
     def inertia(self) -> tuple[float, float, float]:
         """(J_2, J_1, J_1) of Eq. (4): about the rod axis and across it [kg m^2]."""
-        r, l, x, m = self.radius, self.centre_distance, self.rod_mass_fraction, self.total_mass
-        across = m * ((1.0 - x) * (l * l / 4.0 + 0.4 * r * r) + x * (l - 2.0 * r) ** 2 / 12.0)
+        r, length, x, m = self.radius, self.centre_distance, self.rod_mass_fraction, self.total_mass
+        across = m * ((1.0 - x) * (length * length / 4.0 + 0.4 * r * r) + x * (length - 2.0 * r) ** 2 / 12.0)
         along = m * (1.0 - x) * 0.4 * r * r
         return along, across, across
 

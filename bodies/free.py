@@ -12,6 +12,7 @@ import numpy as np
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.types import Floats
 
 _WORDS = {
     "position": (3, (0.0, 0.0, 0.0), "m"),
@@ -21,9 +22,19 @@ _WORDS = {
 }
 
 
-def _evaluate(  # type: ignore[no-untyped-def]
-    t, q, u, out, mass, inertia_x, inertia_y, inertia_z, gravity_x, gravity_y, gravity_z
-):
+def _evaluate(
+    t: float,
+    q: Floats,
+    u: Floats,
+    out: Floats,
+    mass: float,
+    inertia_x: float,
+    inertia_y: float,
+    inertia_z: float,
+    gravity_x: float,
+    gravity_y: float,
+    gravity_z: float,
+) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
     ox, oy, oz = u[3], u[4], u[5]
     for i in range(3):

@@ -38,6 +38,8 @@ class ImpactResult:
         Number of phases: compressions begun, turns, ends, changes between stick and slip.
     steps : int
         Integration steps.
+    truncated : bool
+        Whether a cascade of ever smaller compressions was cut short, below the tolerance.
     """
 
     velocity: Floats
@@ -48,6 +50,7 @@ class ImpactResult:
     friction_loss: Floats
     phases: int
     steps: int
+    truncated: bool
 
     @property
     def restitution_loss(self) -> Floats:
@@ -107,7 +110,10 @@ def solve_impact(
     ):
         if array.shape != shape or not np.all(np.isfinite(array)):
             raise InvalidInput(
-                f"solve_impact: {name}", f"must be finite with shape {shape}", array.shape, "One impact law per contact."
+                f"solve_impact: {name}",
+                f"must be finite with shape {shape}",
+                array.shape,
+                "Give one impact law per contact.",
             )
     if len(friction) != n or n == 0:
         raise InvalidInput("solve_impact: friction", f"must have one law for each of {n} contacts", len(friction), "")
@@ -127,12 +133,15 @@ def solve_impact(
         raise RunFailed("The impact did not end: a force or efficiency is not positive and finite.")
     impulse = memory.array("impulse", 3 * n).reshape(n, 3).copy()
     return ImpactResult(
-        u + response @ impulse.ravel(),
-        impulse[:, 0],
-        impulse[:, 1:],
-        *(memory.array(name, n).copy() for name in ("stored", "returned", "rubbed")),
+        velocity=u + response @ impulse.ravel(),
+        normal_impulse=impulse[:, 0],
+        tangential_impulse=impulse[:, 1:],
+        stored=memory.array("stored", n).copy(),
+        returned=memory.array("returned", n).copy(),
+        friction_loss=memory.array("rubbed", n).copy(),
         phases=int(memory.scalars["phases"][0]),
         steps=int(memory.scalars["impact_steps"][0]),
+        truncated=bool(memory.scalars["truncated"][0]),
     )
 
 

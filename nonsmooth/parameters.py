@@ -76,9 +76,7 @@ def check_number(thing: str, value: Any, rule: Rule) -> None:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{rule.unit}].")
     if value < rule.minimum or value > rule.maximum or value <= rule.above:
-        raise InvalidInput(
-            thing, f"must be {rule.describe()} [{rule.unit}]", value, f"It is the {rule.doc}."
-        )
+        raise InvalidInput(thing, f"must be {rule.describe()} [{rule.unit}]", value, f"It is the {rule.doc}.")
     low, high = rule.usual
     if value != 0.0 and not low <= abs(value) <= high:
         warnings.warn(

@@ -98,9 +98,7 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     return solution
 
 
-def _drain(
-    model: Model, rows: list[np.ndarray], codes: list[np.ndarray], samples: list[np.ndarray]
-) -> None:
+def _drain(model: Model, rows: list[np.ndarray], codes: list[np.ndarray], samples: list[np.ndarray]) -> None:
     scalars, memory = model.memory.scalars, model.memory
     n_events, n_samples = int(scalars["n_events"][0]), int(scalars["n_samples"][0])
     width = model.n_y + 1
@@ -136,9 +134,14 @@ def _solution(
         restitution_loss=float(scalars["restitution_loss"][0]),
         friction_loss=float(scalars["friction_loss"][0]) + float(y[n_q + n_u + 1]),
         closing_loss=float(scalars["closing_loss"][0]),
+        exchanged_in_flow=float(y[n_q + n_u + 2]),
     )
     counters = Counters(
-        *(int(scalars[name][0]) for name in ("steps", "rejected", "impacts", "impact_steps")), wall_seconds=wall
+        steps=int(scalars["steps"][0]),
+        rejected=int(scalars["rejected"][0]),
+        impacts=int(scalars["impacts"][0]),
+        impact_steps=int(scalars["impact_steps"][0]),
+        wall_seconds=wall,
     )
     return Solution(
         model.system,

@@ -1,0 +1,1 @@
+"""Pairs of shapes: contact kinematics in closed form."""

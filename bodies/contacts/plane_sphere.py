@@ -10,9 +10,19 @@ from bodies.shapes.plane import Plane
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
 
 
-def _evaluate(a, b, out, radius, x, y, z, height):  # type: ignore[no-untyped-def]
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    radius: float,
+    x: float,
+    y: float,
+    z: float,
+    height: float,
+) -> None:
     # normal and first tangent are the third and first axis of the plane's frame
     gap = -height - radius
     for i in range(3):

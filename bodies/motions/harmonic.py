@@ -10,9 +10,21 @@ from typing import final
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
 
 
-def _evaluate(t, q, u, out, amplitude, frequency, phase, axis_x, axis_y, axis_z):  # type: ignore[no-untyped-def]
+def _evaluate(
+    t: float,
+    q: Floats,
+    u: Floats,
+    out: Floats,
+    amplitude: float,
+    frequency: float,
+    phase: float,
+    axis_x: float,
+    axis_y: float,
+    axis_z: float,
+) -> None:
     omega = 2.0 * math.pi * frequency
     angle = omega * t + phase
     displacement = amplitude * math.sin(angle)

@@ -9,9 +9,16 @@ from typing import final
 
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
 
 
-def _evaluate(t, q, u, out, slope):  # type: ignore[no-untyped-def]
+def _evaluate(
+    t: float,
+    q: Floats,
+    u: Floats,
+    out: Floats,
+    slope: float,
+) -> None:
     c, s = math.cos(slope), math.sin(slope)
     out[3], out[4], out[5] = c, 0.0, s
     out[6], out[7], out[8] = 0.0, 1.0, 0.0

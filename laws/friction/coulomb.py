@@ -45,7 +45,7 @@ class Coulomb(FrictionLaw):
 
     @property
     def coefficient(self) -> Callable[..., float]:
-        """mu for any slip, mu_s at rest."""
+        """Mu for any slip, mu_s at rest."""
         return _coefficient
 
     def is_fulfilled(
@@ -60,6 +60,4 @@ class Coulomb(FrictionLaw):
         bound = _coefficient(speed, **self.parameters()) * normal_force
         if speed <= tolerance:
             return math.hypot(*tangential_force) <= self.parameters()["static_friction"] * normal_force + tolerance
-        return all(
-            abs(t + bound * v / speed) <= tolerance for t, v in zip(tangential_force, slip, strict=True)
-        )
+        return all(abs(t + bound * v / speed) <= tolerance for t, v in zip(tangential_force, slip, strict=True))

@@ -15,7 +15,7 @@ def _force(indentation: float, stiffness: float, exponent: float) -> float:
     if exponent == 1.5:
         # Hertz, where a square root is cheaper than a power
         return stiffness * indentation * math.sqrt(indentation)
-    return stiffness * indentation**exponent
+    return float(stiffness * indentation**exponent)
 
 
 def _efficiency(rate: float, restitution: float) -> float:
@@ -39,16 +39,14 @@ class EnergeticImpact(ImpactProcess):
     stiffness: float = parameter(
         1.0, doc="contact stiffness k of F = k x^eta, relative to the other contacts", unit="N/m^eta", above=0.0
     )
-    exponent: float = parameter(
-        1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0
-    )
+    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
     duration: float = parameter(
         2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
     )
 
     @property
     def force(self) -> Callable[..., float]:
-        """k x^eta, Eq. (20)."""
+        """K x^eta, Eq. (20)."""
         return _force
 
     @property

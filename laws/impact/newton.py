@@ -9,9 +9,17 @@ from typing import final
 
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
 
 
-def _impulses(n, delassus, rates, out, friction, restitution):  # type: ignore[no-untyped-def]
+def _impulses(
+    n: int,
+    delassus: Floats,
+    rates: Floats,
+    out: Floats,
+    friction: Floats,
+    restitution: Floats,
+) -> None:
     """Solve by projection, contact by contact: g'+ >= -e g'-, P_N >= 0, P_T in the disc against v+."""
     width = 3 * n
     for i in range(width):

@@ -15,6 +15,4 @@ class Unilateral(NormalLaw):
 
     def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
         """Tell whether the pair is complementary within the tolerance."""
-        return (
-            acceleration >= -tolerance and force >= -tolerance and min(abs(acceleration), abs(force)) <= tolerance
-        )
+        return acceleration >= -tolerance and force >= -tolerance and min(abs(acceleration), abs(force)) <= tolerance

@@ -86,9 +86,7 @@ def _compute(scenario: Scenario, system: System) -> tuple[Solution | None, str, 
 
     try:
         with Interrupt() as interrupt:
-            solution = simulate(
-                system, scenario.t_end, sample_interval=scenario.sample_interval, progress=after_steps
-            )
+            solution = simulate(system, scenario.t_end, sample_interval=scenario.sample_interval, progress=after_steps)
     except RunFailed as error:
         kept = cast("Solution | None", error.solution)
         message = kept.message if kept else str(error)

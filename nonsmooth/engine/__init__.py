@@ -1,0 +1,1 @@
+"""The engine: flow, guards, contact, impact, and the automaton that orders them."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 
 _SWEEPS = 4000
 _SETTLED = 1e-15
@@ -17,7 +17,7 @@ _FLAT = 1e-14
 
 
 @kernel("f8(S, F, i8)")
-def _row(S, w, line):
+def _row(S: Scalars, w: Floats, line: int) -> float:
     width = 3 * S.n_active
     total = w[S.b + line]
     for j in range(width):
@@ -26,7 +26,7 @@ def _row(S, w, line):
 
 
 @kernel("void(S, F, I, i8)")
-def _update_normal(S, w, k, a):
+def _update_normal(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Set the normal force that stops the approach, or zero."""
     width = 3 * S.n_active
     line = 3 * a
@@ -44,7 +44,7 @@ def _update_normal(S, w, k, a):
 
 
 @kernel("void(S, F, I, i8)")
-def _update_tangent(S, w, k, a):
+def _update_tangent(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Set the friction: along the slip, or the sticking force cut to the disc of Coulomb."""
     f = S.f + 3 * a
     if k[S.at_rest + a] == 0:
@@ -75,7 +75,7 @@ def _update_tangent(S, w, k, a):
 
 
 @kernel("void(F, i8, f8, f8, f8, f8, f8, f8)")
-def _cut_to_disc(w, t, g11, g12, g22, c1, c2, radius):
+def _cut_to_disc(w: Floats, t: int, g11: float, g12: float, g22: float, c1: float, c2: float, radius: float) -> None:
     """Minimise T.G T / 2 + c.T over |T| <= radius, its solution being on the edge: (G + alpha) T = -c."""
     if radius <= 0.0:
         w[t] = w[t + 1] = 0.0
@@ -99,7 +99,7 @@ def _cut_to_disc(w, t, g11, g12, g22, c1, c2, radius):
 
 
 @room()
-def gauss_seidel(S, w, k):
+def gauss_seidel(S: Scalars, w: Floats, k: Integers) -> None:
     """Sweep until the forces settle; leave ``f``, ``tangent_held`` and, for incipient slip, ``d``."""
     for _sweep in range(_SWEEPS):
         change = size = 0.0

@@ -11,7 +11,7 @@ import math
 from nonsmooth.engine.cone import gauss_seidel
 from nonsmooth.engine.delassus import add_response, assemble_delassus, row
 from nonsmooth.engine.forces import evaluate_margins, resolve
-from nonsmooth.engine.kernel import at, call_scalar, kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 
 _TOLERANCE = 1e-9
@@ -20,13 +20,13 @@ _MOST_ENUMERATED = 5
 
 
 @kernel("f8(S, F, I, i8, f8)")
-def friction_coefficient(S, w, k, c, speed):
+def friction_coefficient(S: Scalars, w: Floats, k: Integers, c: int, speed: float) -> float:
     """Return the friction coefficient of contact ``c``; speed 0 is the static limit."""
     return call_scalar(k[S.friction_function + c], speed, at(w, k[S.friction_parameters + c]))
 
 
 @kernel("void(S, F, I)")
-def free_acceleration(S, w, k):
+def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
     """Write M^-1 h of all bodies to ``du``."""
     for body in range(S.n_bodies):
         n_u = k[S.body_nu + body]
@@ -39,7 +39,7 @@ def free_acceleration(S, w, k):
 
 
 @room()
-def set_up(S, w, k):
+def set_up(S: Scalars, w: Floats, k: Integers) -> None:
     """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics being known."""
     free_acceleration(S, w, k)
     assemble_delassus(S, w, k)
@@ -63,7 +63,7 @@ def set_up(S, w, k):
 
 
 @kernel("void(S, F, I)")
-def _hold(S, w, k):
+def _hold(S: Scalars, w: Floats, k: Integers) -> None:
     """Translate the modes under trial into what is held."""
     for a in range(S.n_active):
         mode = k[S.mode_tried + a]
@@ -74,7 +74,7 @@ def _hold(S, w, k):
 
 
 @kernel("i8(S, F, I)")
-def _verified(S, w, k):
+def _verified(S: Scalars, w: Floats, k: Integers) -> int:
     """Solve for the modes under trial; return 1 if the answer fulfils the laws themselves."""
     _hold(S, w, k)
     resolve(S, w, k)
@@ -113,7 +113,7 @@ def _verified(S, w, k):
 
 
 @kernel("i8(S, F, I)")
-def _enumerate(S, w, k):
+def _enumerate(S: Scalars, w: Floats, k: Integers) -> int:
     """Try every combination of modes; return 1 at the first that is verified."""
     m = S.n_active
     if m > _MOST_ENUMERATED:
@@ -137,7 +137,7 @@ def _enumerate(S, w, k):
 
 
 @room("i8(S, F, I)")
-def solve_contact(S, w, k):
+def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     """Find modes and forces of the active contacts, ``mode_tried`` holding the past modes; return 1 if found.
 
     The kinematics of the active contacts must be evaluated and :func:`set_up` called.  On return
@@ -166,6 +166,6 @@ def solve_contact(S, w, k):
 
 
 @kernel("void(S, F, I)")
-def accelerate(S, w, k):
+def accelerate(S: Scalars, w: Floats, k: Integers) -> None:
     """Add the accelerations that the contact forces give to ``du``."""
     add_response(S, w, k, S.f, S.du)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 
 
 @kernel("void(F, i8, i8, i8, i8, i8)")
-def _add_block(w, jacobian, response, n_u, out, width):
+def _add_block(w: Floats, jacobian: int, response: int, n_u: int, out: int, width: int) -> None:
     for r in range(3):
         for s in range(3):
             total = 0.0
@@ -16,7 +16,7 @@ def _add_block(w, jacobian, response, n_u, out, width):
 
 
 @kernel()
-def assemble_delassus(S, w, k):
+def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
     """Write G = [W N]^T M^-1 [W N] of the active contacts, rows (n, t1, t2) of each in turn."""
     m = S.n_active
     width = 3 * m
@@ -39,7 +39,7 @@ def assemble_delassus(S, w, k):
 
 
 @kernel("void(S, F, I, i8, i8)")
-def add_response(S, w, k, f, du):
+def add_response(S: Scalars, w: Floats, k: Integers, f: int, du: int) -> None:
     """Add M^-1 (W f_N + N f_T) of the active contacts' forces or impulses at ``f`` to ``du``."""
     for i in range(S.n_active):
         c = k[S.active + i]
@@ -55,13 +55,13 @@ def add_response(S, w, k, f, du):
 
 
 @kernel("f8(S, F, I, i8, i8)")
-def along(S, w, k, c, du):
+def along(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> float:
     """Return W^T du of contact ``c``: the normal acceleration or rate that ``du`` alone gives."""
     return row(S, w, k, c, 0, du)
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")
-def row(S, w, k, c, r, du):
+def row(S: Scalars, w: Floats, k: Integers, c: int, r: int, du: int) -> float:
     """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
     total = 0.0
     a, b = k[S.body_a + c], k[S.body_b + c]

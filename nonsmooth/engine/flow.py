@@ -7,14 +7,15 @@ import math
 from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus import add_response, assemble_delassus, row
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact, evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import component_error, stage_state
 from nonsmooth.model.layout import FRAME
 
+
 @kernel("void(S, F, I, f8, i8)")
-def right_hand_side(S, w, k, t, y):
+def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
     In free flight the driven bodies are left alone.
@@ -43,7 +44,7 @@ def right_hand_side(S, w, k, t, y):
 
 
 @kernel("void(S, F, I, i8)")
-def _set_friction(S, w, k, a):
+def _set_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Set what is held and the slip direction, continued smoothly through a reversal within the step.
 
     Where the slip is too slow to have a direction of its own, that at the start of the step holds.
@@ -66,8 +67,8 @@ def _set_friction(S, w, k, a):
 
 
 @room("void(S, F, I, f8, i8, i8)")
-def slope(S, w, k, t, y, out):
-    """Write dy/dt: coordinate rates, accelerations, power of the driven bodies, power lost to friction."""
+def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> None:
+    """Write dy/dt: coordinate rates, accelerations; power of the driven bodies, lost to friction, exchanged in all."""
     right_hand_side(S, w, k, t, y)
     for body in range(S.n_bodies):
         rates = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body]
@@ -75,7 +76,11 @@ def slope(S, w, k, t, y, out):
             w[out + k[S.body_q + body] + i] = w[rates + i]
     for i in range(S.n_u):
         w[out + S.n_q + i] = w[S.du + i]
-    driven = lost = 0.0
+    driven = lost = own = 0.0
+    for body in range(S.n_bodies):
+        h = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body] + k[S.body_nq + body]
+        for i in range(k[S.body_nu + body]):
+            own += w[h + i] * w[y + S.n_q + k[S.body_u + body] + i]
     for a in range(S.n_active):
         c = k[S.active + a]
         for r in range(3):
@@ -83,15 +88,17 @@ def slope(S, w, k, t, y, out):
             driven -= force * w[S.prescribed_rate + 3 * c + r]
             if r > 0 and k[S.tangent_held + a] == 0:
                 lost -= force * w[S.rate + 3 * c + r]
+        w[S.least_force + c] = min(w[S.least_force + c], w[S.f + 3 * a])
         slip = w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
         if k[S.tangent_held + a] == 1 or w[S.f + 3 * a] < 0.0 or slip < 0.0:
             S.suspect = 1
     w[out + S.n_q + S.n_u] = driven
     w[out + S.n_q + S.n_u + 1] = lost
+    w[out + S.n_q + S.n_u + 2] = abs(own) + abs(driven) + abs(lost)
 
 
 @room("f8(S, F, I, f8)")
-def try_step(S, w, k, h):
+def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
 
     ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip
@@ -99,6 +106,8 @@ def try_step(S, w, k, h):
     """
     n = S.n_y
     S.suspect = 0
+    for c in range(S.n_contacts):
+        w[S.least_force + c] = 1e300
     for stage in range(1, 7):
         out = S.y_new if stage == 6 else S.y_stage
         stage_state(S, w, S.y, S.slopes, n, stage, h, out)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import eliminate, minimum_norm
 
 _COUPLED = 1e-7
@@ -17,7 +17,7 @@ _COUPLED = 1e-7
 
 
 @room()
-def resolve(S, w, k):
+def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     """Complete ``f``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)
     S.n_unknown = n
@@ -45,7 +45,7 @@ def resolve(S, w, k):
 
 
 @kernel("i8(S, F, I)")
-def _collect(S, w, k):
+def _collect(S: Scalars, w: Floats, k: Integers) -> int:
     """List the unknown components and write the given ones; return how many are unknown."""
     n = 0
     for a in range(S.n_active):
@@ -66,13 +66,13 @@ def _collect(S, w, k):
 
 
 @kernel("void(S, F, i8)")
-def _slide(S, w, a):
+def _slide(S: Scalars, w: Floats, a: int) -> None:
     w[S.f + 3 * a + 1] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a]
     w[S.f + 3 * a + 2] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + 1]
 
 
 @kernel("f8(S, F, I, i8, i8)")
-def _entry(S, w, k, line, column):
+def _entry(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
     """Return the effect on row ``line`` of a unit unknown, friction of a sliding contact included."""
     g = S.delassus + line * 3 * S.n_active + column
     a = column // 3
@@ -82,7 +82,7 @@ def _entry(S, w, k, line, column):
 
 
 @kernel("void(S, F, I, i8)")
-def _least_norm(S, w, k, n):
+def _least_norm(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Solve the singular system for least norm; keep the projector on its null space."""
     for i in range(n):
         for j in range(n):
@@ -103,7 +103,7 @@ def _least_norm(S, w, k, n):
 
 
 @kernel()
-def evaluate_margins(S, w, k):
+def evaluate_margins(S: Scalars, w: Floats, k: Integers) -> None:
     """Write, for every sticking active contact, how far its friction is from the static bound [N].
 
     A contact whose tangential force is not unique obeys two bounds: the sum rule of its group, Eq. (38),
@@ -121,7 +121,7 @@ def evaluate_margins(S, w, k):
 
 
 @kernel("void(S, F, I, i8)")
-def _group_margin(S, w, k, a):
+def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     n = S.n_unknown
     own = 0
     for i in range(n):

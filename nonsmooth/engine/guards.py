@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.flow import right_hand_side
 from nonsmooth.engine.forces import evaluate_margins
-from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_driven_bodies, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import GEOMETRY
@@ -25,7 +25,7 @@ _WRONG = -1e-9
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
-def write_guards(S, w, k, t, y, forces):
+def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: int) -> None:
     """Write the guards after the right-hand side at ``t`` and ``y``; of closed contacts if ``forces`` are known (1)."""
     if S.n_active == 0:
         evaluate_driven_bodies(S, w, k, t, y)
@@ -38,8 +38,7 @@ def write_guards(S, w, k, t, y, forces):
                 w[S.guard + 2 * c + 1] = w[S.margin + a]
             else:
                 w[S.guard + 2 * c + 1] = (
-                    w[S.rate + 3 * c + 1] * w[S.direction + 2 * c]
-                    + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
+                    w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
                 )
     for c in range(S.n_contacts):
         if k[S.mode + c] == OPEN:
@@ -51,7 +50,7 @@ def write_guards(S, w, k, t, y, forces):
 
 
 @room("void(S, F, I, f8, i8, f8, i8)")
-def evaluate_guards(S, w, k, t, y, elapsed, forces):
+def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapsed: float, forces: int) -> None:
     """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step."""
     if forces == 1:
         right_hand_side(S, w, k, t, y)
@@ -62,7 +61,7 @@ def evaluate_guards(S, w, k, t, y, elapsed, forces):
 
 
 @kernel("void(S, F, I, f8)")
-def deflate(S, w, k, elapsed):
+def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
     """Divide the guards that started from zero by the time elapsed."""
     for i in range(2 * S.n_contacts):
         if k[S.guard_deflated + i] == 1:
@@ -70,7 +69,7 @@ def deflate(S, w, k, elapsed):
 
 
 @kernel()
-def keep_end(S, w, k):
+def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep guards and rates of the end of a step, where the next one starts."""
     for c in range(S.n_contacts):
         w[S.gap_rate_end + c] = w[S.gap_rate + c]
@@ -82,7 +81,7 @@ def keep_end(S, w, k):
 
 
 @kernel()
-def arm_guards(S, w, k):
+def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the kept guards as those of the start: arm the positive ones, deflate those that start from zero."""
     for c in range(S.n_contacts):
         first = 2 * c
@@ -101,7 +100,7 @@ def arm_guards(S, w, k):
 
 
 @kernel("void(S, F, I, i8)")
-def arm_further(S, w, k, forces):
+def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
     """Arm the guards that have become positive within the step."""
     for i in range(2 * S.n_contacts):
         if w[S.guard + i] > 0.0 and (forces == 1 or k[S.mode + i // 2] == OPEN):
@@ -109,7 +108,7 @@ def arm_further(S, w, k, forces):
 
 
 @kernel("i8(S, F, I, i8, i8)")
-def first_fired(S, w, k, forces, but):
+def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> int:
     """Return the first guard that has fired, other than ``but``, or -1."""
     for i in range(2 * S.n_contacts):
         if forces == 0 and k[S.mode + i // 2] != OPEN:

@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.flow import slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
-from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies
 from nonsmooth.engine.location import first_crossing, locate
 from nonsmooth.engine.modes import (
@@ -37,7 +37,7 @@ _ROOM = 64
 
 
 @kernel("void(S, F, I)")
-def _orient_slips(S, w, k):
+def _orient_slips(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the present slip directions as those of the step that begins."""
     for c in range(S.n_contacts):
         if k[S.mode + c] == SLIDE:
@@ -49,7 +49,7 @@ def _orient_slips(S, w, k):
 
 
 @kernel("i8(S, F, I)")
-def _accepted_step(S, w, k):
+def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
     closed = 0
     for c in range(S.n_contacts):
@@ -80,7 +80,7 @@ def _accepted_step(S, w, k):
 
 
 @kernel("i8(S, F, I)")
-def _drifted(S, w, k):
+def _drifted(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
@@ -93,7 +93,7 @@ def _drifted(S, w, k):
 
 
 @kernel("void(S, F, I, f8)")
-def _commit(S, w, k, h):
+def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """Take over the step of ``h``: samples, state, time, constraints."""
     record_samples(S, w, k, h)
     for i in range(S.n_y):
@@ -106,16 +106,19 @@ def _commit(S, w, k, h):
 
 
 @kernel("i8(S, F, I)")
-def _cause(S, w, k):
+def _cause(S: Scalars, w: Floats, k: Integers) -> int:
     """Return what the guard that fired means."""
     c = S.trigger // 2
     if S.trigger % 2 == 0:
         return IMPACT if k[S.mode + c] == OPEN else LIFT_OFF
-    return STICK_TO_SLIP if k[S.mode + c] == STICK else SLIP_TO_STICK
+    if k[S.mode + c] != STICK:
+        return SLIP_TO_STICK
+    # the static bound vanishes with the normal force
+    return LIFT_OFF if w[S.guard + 2 * c] <= 1e-9 * w[S.guard_first + 2 * c] else STICK_TO_SLIP
 
 
 @kernel("i8(S, F, I)")
-def _step(S, w, k):
+def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
     if S.fresh == 0:
         slope(S, w, k, S.t, S.y, S.slopes)
@@ -155,7 +158,7 @@ def _step(S, w, k):
 
 
 @kernel("void(S, F, I, i8)")
-def _break_direction(S, w, k, contact):
+def _break_direction(S: Scalars, w: Floats, k: Integers, contact: int) -> None:
     """Let a contact that breaks away slip against the friction that held it."""
     for a in range(S.n_active):
         if k[S.active + a] == contact:
@@ -167,7 +170,7 @@ def _break_direction(S, w, k, contact):
 
 
 @room("i8(S, F, I, i8)")
-def advance(S, w, k, most_steps):
+def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
     """Run until the end time, a failure, full buffers or ``most_steps``; return the status."""
     if S.started == 0:
         S.started = 1

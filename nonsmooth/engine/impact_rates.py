@@ -13,7 +13,7 @@ import math
 
 from nonsmooth.engine.contact_problem import friction_coefficient
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.kernel import at, call_scalar, kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.runge_kutta import component_error, stage_state
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
@@ -25,12 +25,15 @@ STRIDE = 7
 NOISE = 1e-12
 """Rates below this, relative to the impact speed, do not switch a phase."""
 
+_STRAIGHT = 1e-13
+"""Second differences of slopes below this, relative to the slopes, count as zero."""
+
 REST = 1e-8
 """Slip velocities below this, relative to the impact speed, count as none."""
 
 
 @kernel("f8(S, F, I, i8, f8)")
-def normal_force(S, w, k, a, x):
+def normal_force(S: Scalars, w: Floats, k: Integers, a: int, x: float) -> float:
     """Return the force of the active contact ``a`` at the deformation ``x``, Eq. (20)."""
     if a == S.lone:
         return 1.0
@@ -41,14 +44,14 @@ def normal_force(S, w, k, a, x):
 
 
 @kernel("f8(S, F, I, i8, f8)")
-def efficiency(S, w, k, a, rate):
+def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float:
     """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
     c = k[S.active + a]
     return call_scalar(k[S.efficiency_function + c], rate, at(w, k[S.efficiency_parameters + c]))
 
 
 @kernel("void(S, F, I, i8)")
-def evaluate_impact_rates(S, w, k, y):
+def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write z = z_0 + G P: gap rates and slip velocities at the impact state ``y``."""
     width = 3 * S.n_active
     for i in range(width):
@@ -62,7 +65,7 @@ def evaluate_impact_rates(S, w, k, y):
 
 
 @room("void(S, F, I, i8)")
-def evaluate_impact_forces(S, w, k, y):
+def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write the forces ``f`` of the active contacts at the impact state ``y`` in the present phases."""
     evaluate_impact_rates(S, w, k, y)
     held = 0
@@ -83,7 +86,7 @@ def evaluate_impact_forces(S, w, k, y):
 
 
 @kernel("void(S, F, I, i8)")
-def _slide(S, w, k, a):
+def _slide(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write the friction of a sliding contact, its direction continued smoothly through a reversal."""
     c = k[S.active + a]
     d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
@@ -100,7 +103,7 @@ def _slide(S, w, k, a):
 
 
 @kernel("void(S, F, I, i8, i8)")
-def impact_slope(S, w, k, y, out):
+def impact_slope(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> None:
     """Write d(P, x, W, D)/ds of all active contacts."""
     evaluate_impact_forces(S, w, k, y)
     for a in range(S.n_active):
@@ -122,7 +125,7 @@ def impact_slope(S, w, k, y, out):
 
 
 @kernel("f8(S, F, I, f8)")
-def try_impact_step(S, w, k, h):
+def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance."""
     n = STRIDE * S.n_active
     for stage in range(1, 7):
@@ -142,4 +145,25 @@ def try_impact_step(S, w, k, h):
                 error /= impulse_scale
             if not error <= worst:
                 worst = error
-    return worst / S.impact_rtol
+    return worst / float(S.impact_rtol)
+
+
+@kernel("i8(S, F, I, f8)")
+def try_linear_step(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Take one step of ``h`` to ``impact_new`` by the midpoint rule; return 1 if the slope is linear and it is exact.
+
+    A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
+    """
+    n = STRIDE * S.n_active
+    middle, end = S.impact_slopes + n, S.impact_slopes + 6 * n
+    for i in range(n):
+        w[S.impact_stage + i] = w[S.impact_y + i] + 0.5 * h * w[S.impact_slopes + i]
+    impact_slope(S, w, k, S.impact_stage, middle)
+    for i in range(n):
+        w[S.impact_new + i] = w[S.impact_y + i] + h * w[middle + i]
+    impact_slope(S, w, k, S.impact_new, end)
+    for i in range(n):
+        first, half, last = w[S.impact_slopes + i], w[middle + i], w[end + i]
+        if not abs(first + last - 2.0 * half) <= _STRAIGHT * (abs(first) + abs(last) + abs(half)):
+            return 0
+    return 1

@@ -4,48 +4,69 @@ Engine functions take the scalars ``S`` (one record of counts, offsets, toleranc
 floats ``w`` and the heap of integers ``k`` (see :mod:`nonsmooth.model.layout`).  Set the environment
 variable ``NONSMOOTH_PLAIN=1`` before the first import to run the same source as ordinary Python,
 without numba: for the debugger, for coverage, and to see that both agree.
+
+Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8`` and ``void``.
 """
 
 from __future__ import annotations
 
+import importlib
 import os
+from collections.abc import Callable
+from typing import Any, Protocol, TypeAlias, TypeVar
+
+from nonsmooth.model.layout import Memory
+from nonsmooth.types import Floats, Integers
 
 PLAIN = os.environ.get("NONSMOOTH_PLAIN", "0") not in ("", "0")
 
-if PLAIN:
-    from nonsmooth.engine.plain import (
-        COMPILATION_ERRORS,
-        address_of,
-        at,
-        call_body,
-        call_map,
-        call_pair,
-        call_room,
-        call_scalar,
-        jit,
-        kernel,
-        room,
-        room_addresses,
-    )
-else:
-    from nonsmooth.engine.native import (
-        COMPILATION_ERRORS,
-        address_of,
-        at,
-        call_body,
-        call_map,
-        call_pair,
-        call_room,
-        call_scalar,
-        jit,
-        kernel,
-        room,
-        room_addresses,
-    )
+Scalars: TypeAlias = Any
+"""The record ``S``."""
+
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+class _Decorator(Protocol):
+    def __call__(self, signature: str = "void(S, F, I)", /) -> Callable[[_Function], _Function]: ...
+
+
+_half = importlib.import_module("nonsmooth.engine.plain" if PLAIN else "nonsmooth.engine.native")
+
+kernel: _Decorator = _half.kernel
+"""An engine function, compiled into its callers."""
+room: _Decorator = _half.room
+"""An engine function compiled apart, reached by its address, by Python too."""
+room_addresses: Callable[[], tuple[int, ...]] = _half.room_addresses
+"""The addresses of all rooms, which belong at the head of ``k``."""
+call_room: Callable[..., Any] = _half.call_room
+"""``call_room(name, memory, *numbers)``: call a room from Python."""
+
+at: Callable[[Floats, int], Floats] = _half.at
+"""The heap from an offset on."""
+call_scalar: Callable[[int, float, Floats], float] = _half.call_scalar
+"""Call ``law(x, parameters)`` at an address."""
+call_body: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.call_body
+"""Call ``body(t, q, u, parameters, out)`` at an address."""
+call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = _half.call_pair
+"""Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
+call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.call_map
+"""Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
+
+jit: Callable[[Callable[..., Any]], Any] = _half.jit
+"""Compile a plug-in's function on demand."""
+address_of: Callable[[Callable[..., Any], str], int] = _half.address_of
+"""Compile a shim of a form ("scalar", "body", "pair", "map") and return its address."""
+COMPILATION_ERRORS: tuple[type[Exception], ...] = _half.COMPILATION_ERRORS
+"""What :func:`address_of` may raise."""
 
 __all__ = [
     "COMPILATION_ERRORS",
     "PLAIN",
+    "Floats",
+    "Integers",
+    "Memory",
+    "Scalars",
     "address_of",
     "at",
     "call_body",

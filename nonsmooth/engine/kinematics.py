@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.kernel import at, call_body, call_pair, kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_body, call_pair, kernel, room
 from nonsmooth.model.layout import FRAME, GEOMETRY
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
-def evaluate_body(S, w, k, t, y, body):
+def evaluate_body(S: Scalars, w: Floats, k: Integers, t: float, y: int, body: int) -> None:
     """Let one body write its output block at time ``t`` and the state at offset ``y``."""
     call_body(
         k[S.body_function + body],
@@ -20,14 +20,14 @@ def evaluate_body(S, w, k, t, y, body):
 
 
 @kernel("void(S, F, I, f8, i8)")
-def evaluate_bodies(S, w, k, t, y):
+def evaluate_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let every body write its output block at time ``t`` and the state at offset ``y``."""
     for body in range(S.n_bodies):
         evaluate_body(S, w, k, t, y, body)
 
 
 @kernel("void(S, F, I, f8, i8)")
-def evaluate_driven_bodies(S, w, k, t, y):
+def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let the bodies without coordinates write their output blocks."""
     for body in range(S.n_bodies):
         if k[S.body_nu + body] == 0:
@@ -35,7 +35,7 @@ def evaluate_driven_bodies(S, w, k, t, y):
 
 
 @kernel("void(S, F, I, f8, i8)")
-def evaluate_free_bodies(S, w, k, t, y):
+def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let the bodies that have coordinates write their output blocks; for free flight."""
     for body in range(S.n_bodies):
         if k[S.body_nu + body] > 0:
@@ -43,7 +43,7 @@ def evaluate_free_bodies(S, w, k, t, y):
 
 
 @kernel("void(S, F, I, i8)")
-def evaluate_geometry(S, w, k, c):
+def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write gap, witness points, curvature and the axes n, t1, t2 of contact ``c``."""
     call_pair(
         k[S.geometry_function + c],
@@ -62,7 +62,7 @@ def evaluate_geometry(S, w, k, c):
 
 
 @kernel("f8(F, i8, i8, i8)")
-def _point_speed(w, frame, point, axis):
+def _point_speed(w: Floats, frame: int, point: int, axis: int) -> float:
     """Return the velocity of the body point at ``point`` along ``axis`` [m/s]."""
     x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
     ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
@@ -74,7 +74,7 @@ def _point_speed(w, frame, point, axis):
 
 
 @kernel("void(S, F, I, i8)")
-def evaluate_rates(S, w, k, c):
+def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
     point = S.geometry + GEOMETRY * c + 7
     a, b = k[S.body_out + k[S.body_a + c]], k[S.body_out + k[S.body_b + c]]
@@ -84,7 +84,7 @@ def evaluate_rates(S, w, k, c):
 
 
 @kernel("void(F, i8, i8, i8, i8, i8, f8)")
-def _side_jacobian(w, frame, point, axes, n_u, out, sign):
+def _side_jacobian(w: Floats, frame: int, point: int, axes: int, n_u: int, out: int, sign: float) -> None:
     """Write the three rows of one body: sign * (axis, rho x axis) . frame Jacobian, whose zeros are skipped."""
     x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
     jacobian = frame + FRAME
@@ -105,7 +105,7 @@ def _side_jacobian(w, frame, point, axes, n_u, out, sign):
 
 
 @kernel("void(F, i8, i8, i8, i8)")
-def _side_response(w, jacobian, inverse_mass, n_u, out):
+def _side_response(w: Floats, jacobian: int, inverse_mass: int, n_u: int, out: int) -> None:
     """Write M^-1 J^T of one body, three rows of n_u; zeros of M^-1 are skipped."""
     for i in range(3 * n_u):
         w[out + i] = 0.0
@@ -118,14 +118,14 @@ def _side_response(w, jacobian, inverse_mass, n_u, out):
 
 
 @kernel("i8(S, F, I, i8)")
-def inverse_mass(S, w, k, body):
+def inverse_mass(S: Scalars, w: Floats, k: Integers, body: int) -> int:
     """Return the offset of a body's M^-1 in its output block."""
     n_u = k[S.body_nu + body]
     return k[S.body_out + body] + FRAME + 6 * n_u + k[S.body_nq + body] + n_u
 
 
 @kernel("void(S, F, I, i8, i8)")
-def evaluate_jacobian(S, w, k, c, y):
+def evaluate_jacobian(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> None:
     """Write W^T and N^T of contact ``c`` (rows n, t1, t2), M^-1 times them, and the prescribed rates."""
     point = S.geometry + GEOMETRY * c + 7
     a, b = k[S.body_a + c], k[S.body_b + c]
@@ -146,7 +146,7 @@ def evaluate_jacobian(S, w, k, c, y):
 
 
 @kernel("f8(F, i8, i8, i8, f8, f8, f8)")
-def _point_bias(w, frame, point, axis, sx, sy, sz):
+def _point_bias(w: Floats, frame: int, point: int, axis: int, sx: float, sy: float, sz: float) -> float:
     """Return the acceleration along ``axis`` of a witness that slides at (sx, sy, sz) over its body, u' = 0."""
     x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
     ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
@@ -161,7 +161,7 @@ def _point_bias(w, frame, point, axis, sx, sy, sz):
 
 
 @kernel("void(S, F, I, i8, i8)")
-def evaluate_bias(S, w, k, c, rows):
+def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None:
     """Write S_N and S_T of Eq. (13) with the prescribed accelerations: g'' and v' of contact ``c`` while u' = 0.
 
     Only the normal one with ``rows`` 1, all with 3.
@@ -231,7 +231,7 @@ def evaluate_bias(S, w, k, c, rows):
 
 
 @room("void(S, F, I, i8, i8, i8)")
-def evaluate_contact(S, w, k, c, y, rows):
+def evaluate_contact(S: Scalars, w: Floats, k: Integers, c: int, y: int, rows: int) -> None:
     """Write everything about contact ``c`` at the state ``y``, the bodies being evaluated; ``rows`` of the bias."""
     evaluate_geometry(S, w, k, c)
     evaluate_rates(S, w, k, c)
@@ -240,7 +240,7 @@ def evaluate_contact(S, w, k, c, y, rows):
 
 
 @room()
-def evaluate_at(S, w, k):
+def evaluate_at(S: Scalars, w: Floats, k: Integers) -> None:
     """Evaluate all bodies and contacts at the present time and state."""
     evaluate_bodies(S, w, k, S.t, S.y)
     for c in range(S.n_contacts):

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.kernel import Floats, kernel
 
 SINGULAR = 1e-10
 """A pivot or singular value below this, relative to the largest, counts as zero."""
 
 
 @kernel("i8(F, i8, i8, i8)")
-def eliminate(w, a, n, x):
+def eliminate(w: Floats, a: int, n: int, x: int) -> int:
     """Solve the n x n system at ``a`` with right-hand side at ``x``, both overwritten; return 1, or 0 if singular."""
     largest = 0.0
     for i in range(n * n):
@@ -41,7 +41,7 @@ def eliminate(w, a, n, x):
 
 
 @kernel("void(F, i8, i8, i8)")
-def _orthogonalise(w, a, n, v):
+def _orthogonalise(w: Floats, a: int, n: int, v: int) -> None:
     """Turn the columns of ``a`` orthogonal by plane rotations, collected in ``v`` (one-sided Jacobi)."""
     for i in range(n):
         for j in range(n):
@@ -74,7 +74,7 @@ def _orthogonalise(w, a, n, v):
 
 
 @kernel("i8(F, i8, i8, i8, i8, i8, i8)")
-def minimum_norm(w, a, n, b, x, v, sigma):
+def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, sigma: int) -> int:
     """Least-squares solution of least norm by singular values; return the rank.
 
     ``a`` is overwritten; ``v`` receives the right singular vectors as columns, ``sigma`` the singular

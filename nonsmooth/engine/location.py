@@ -8,17 +8,21 @@ from __future__ import annotations
 
 from nonsmooth.engine.flow import try_step
 from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, keep_end, write_guards
-from nonsmooth.engine.kernel import kernel
-from nonsmooth.engine.modes import OPEN
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import dense_state
 
 _MIDDLE = 0.5
+_NEAR = 0.2
+"""A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
+_FAINT = 1e-9
+"""A start value below this part of the end value says nothing of the sign within the step."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
 
 @kernel("i8(S, F, I)")
-def _any_closed(S, w, k):
+def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             return 1
@@ -26,13 +30,19 @@ def _any_closed(S, w, k):
 
 
 @kernel("void(S, F, I, f8, f8, i8)")
-def _guards_within(S, w, k, h, theta, forces):
+def _guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
 
 
+@kernel("f8(S, F, I, f8, f8, i8, i8)")
+def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
+    _guards_within(S, w, k, h, theta, forces)
+    return w[S.guard + i]
+
+
 @kernel("f8(S, F, I, f8, f8, f8, i8)")
-def _least_gap(S, w, k, h, low, high, c):
+def _least_gap(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, c: int) -> float:
     """Return a fraction of the step between ``low`` and ``high`` where the gap of ``c`` is negative, or 0."""
     for _iteration in range(40):
         middle = 0.5 * (low + high)
@@ -50,7 +60,7 @@ def _least_gap(S, w, k, h, low, high, c):
 
 
 @kernel("f8(S, F, I, f8, f8, f8, i8)")
-def _dip(S, w, k, h, low, high, middle):
+def _dip(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, middle: int) -> float:
     """Look for a dip of an open gap between two samples; ``middle`` 1 if the later one is the middle of the step."""
     for c in range(S.n_contacts):
         before = w[S.gap_rate_middle + c] if middle == 0 else w[S.gap_rate_first + c]
@@ -63,8 +73,49 @@ def _dip(S, w, k, h, low, high, middle):
     return 0.0
 
 
+@kernel("f8(S, F, I, f8, i8)")
+def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
+    """Return a fraction of the step where guard ``i`` dips below zero between its samples, or 0, by parabolas."""
+    low, middle, high = 0.0, _MIDDLE, 1.0
+    g_low, g_middle, g_high = w[S.guard_first + i], w[S.guard_middle + i], w[S.guard_end + i]
+    for _iteration in range(8):
+        left, right = (g_middle - g_low) / (middle - low), (g_high - g_middle) / (high - middle)
+        bend = (right - left) / (high - low)
+        if bend <= 0.0:
+            return 0.0
+        vertex = 0.5 * (low + middle) - 0.5 * left / bend
+        value = g_middle + (vertex - middle) * (left + bend * (vertex - low))
+        if not low < vertex < high or value > _NEAR * max(g_low, g_high):
+            return 0.0
+        if abs(vertex - middle) < 1e-9:
+            return 0.0
+        g = _guard_at(S, w, k, h, vertex, i, 1)
+        if g < 0.0:
+            return vertex
+        if vertex > middle:
+            low, g_low, middle, g_middle = middle, g_middle, vertex, g
+        else:
+            high, g_high, middle, g_middle = middle, g_middle, vertex, g
+        if g_middle > min(g_low, g_high):
+            return 0.0
+    return 0.0
+
+
 @kernel("f8(S, F, I, f8)")
-def first_crossing(S, w, k, h):
+def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Look for a dip of a normal force or a static margin between the samples."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            for i in range(2 * c, 2 * c + (2 if k[S.mode + c] == STICK else 1)):
+                if k[S.guard_armed + i] == 1:
+                    theta = _lowest(S, w, k, h, i)
+                    if theta > 0.0:
+                        return theta
+    return 0.0
+
+
+@kernel("f8(S, F, I, f8)")
+def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
 
     Called right after the step, when bodies and forces stand at its end.
@@ -74,7 +125,10 @@ def first_crossing(S, w, k, h):
     keep_end(S, w, k)
     deflate(S, w, k, h)
     fired = first_fired(S, w, k, 1, -1)
-    # where no stage saw a force or slip that violates its mode, the middle is looked at for gaps only
+    # where no stage saw a force or slip that violates its mode or dips, the middle is looked at for gaps only
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + 2 * c], w[S.guard_end + 2 * c]):
+            S.suspect = 1
     forces = closed if S.suspect == 1 else 0
     _guards_within(S, w, k, h, _MIDDLE, forces)
     if first_fired(S, w, k, forces, -1) >= 0:
@@ -84,9 +138,15 @@ def first_crossing(S, w, k, h):
     arm_further(S, w, k, forces)
     for c in range(S.n_contacts):
         w[S.gap_rate_middle + c] = w[S.gap_rate + c]
+    for i in range(2 * S.n_contacts):
+        w[S.guard_middle + i] = w[S.guard + i]
     theta = _dip(S, w, k, h, 0.0, _MIDDLE, 1)
     if theta > 0.0:
         return theta
+    if forces == 1 and fired < 0:
+        theta = _force_dip(S, w, k, h)
+        if theta > 0.0:
+            return theta
     theta = 0.0
     if fired < 0:
         theta = _dip(S, w, k, h, _MIDDLE, 1.0, 0)
@@ -101,13 +161,7 @@ def first_crossing(S, w, k, h):
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
-def _guard_at(S, w, k, h, theta, i, forces):
-    _guards_within(S, w, k, h, theta, forces)
-    return w[S.guard + i]
-
-
-@kernel("f8(S, F, I, f8, f8, i8, i8)")
-def _root(S, w, k, h, high, i, forces):
+def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
     """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
 
     Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.  The guards are left
@@ -117,8 +171,8 @@ def _root(S, w, k, h, high, i, forces):
     low, g_low = 0.0, w[S.guard_first + i]
     g_high = w[S.guard + i]
     S.guard_slope = 0.0
-    while g_low <= 0.0:
-        # it was armed inside the step: look for where it was positive
+    while g_low <= _FAINT * abs(g_high):
+        # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(S, w, k, h, low, i, forces)
         if low < 1e-4 * high:
@@ -151,7 +205,7 @@ def _root(S, w, k, h, high, i, forces):
 
 
 @kernel("f8(S, F, I, f8, f8)")
-def locate(S, w, k, h, high):
+def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 
     The root on the interpolant is corrected on the step itself, whose order is higher.

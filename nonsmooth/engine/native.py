@@ -44,7 +44,7 @@ _TYPES = {
     "i8": types.int64,
     "void": types.void,
 }
-_C_TYPES = {"f8": ctypes.c_double, "i8": ctypes.c_int64, "void": None}
+_C_TYPES: dict[str, Any] = {"f8": ctypes.c_double, "i8": ctypes.c_int64, "void": None}
 _pending: list[tuple[Any, Any]] = []
 _alive: list[Any] = []
 _rooms: dict[str, tuple[Callable[..., Any], str]] = {}
@@ -78,7 +78,7 @@ def _cache_folder() -> Path:
     return Path(tempfile.mkdtemp(prefix="nonsmooth-"))
 
 
-class _StampedLocator(_CacheLocator):  # type: ignore[misc]
+class _StampedLocator(_CacheLocator):
     """Keeps the engine's compiled code in :func:`cache_folder`; leaves other functions alone."""
 
     def __init__(self, source: str) -> None:
@@ -179,7 +179,7 @@ def call_room(name: str, memory: Memory, *arguments: float) -> Any:
     return function(*[heap.ctypes.data for heap in heaps], *arguments)
 
 
-@intrinsic  # type: ignore[misc]
+@intrinsic
 def at(typingctx: Any, heap: Any, offset: Any) -> Any:
     """Return a pointer moved by ``offset`` elements."""
 
@@ -193,9 +193,7 @@ def _caller(result: Any, arguments: tuple[Any, ...]) -> Any:
     """Make an intrinsic that calls the C function at an address."""
 
     def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        native = ir.FunctionType(
-            context.get_value_type(result), [context.get_value_type(a) for a in arguments]
-        )
+        native = ir.FunctionType(context.get_value_type(result), [context.get_value_type(a) for a in arguments])
         function = builder.inttoptr(args[0], ir.PointerType(native))
         value = builder.call(function, args[1:])
         return context.get_dummy_value() if result is types.void else value
@@ -203,25 +201,25 @@ def _caller(result: Any, arguments: tuple[Any, ...]) -> Any:
     return result(types.int64, *arguments), lower
 
 
-@intrinsic  # type: ignore[misc]
+@intrinsic
 def call_scalar(typingctx: Any, address: Any, x: Any, p: Any) -> Any:
     """Call ``float law(float, parameters)`` at an address."""
     return _caller(types.float64, (types.float64, _FLOATS))
 
 
-@intrinsic  # type: ignore[misc]
+@intrinsic
 def call_body(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any, out: Any) -> Any:
     """Call ``void body(t, q, u, parameters, out)`` at an address."""
     return _caller(types.void, (types.float64, _FLOATS, _FLOATS, _FLOATS, _FLOATS))
 
 
-@intrinsic  # type: ignore[misc]
+@intrinsic
 def call_pair(typingctx: Any, address: Any, a: Any, b: Any, p: Any, out: Any) -> Any:
     """Call ``void geometry(frame_a, frame_b, parameters, out)`` at an address."""
     return _caller(types.void, (_FLOATS, _FLOATS, _FLOATS, _FLOATS))
 
 
-@intrinsic  # type: ignore[misc]
+@intrinsic
 def call_map(typingctx: Any, address: Any, n: Any, g: Any, z: Any, p: Any, out: Any) -> Any:
     """Call ``void impact(n, delassus, rates, parameters, impulses)`` at an address."""
     return _caller(types.void, (types.int64, _FLOATS, _FLOATS, _FLOATS, _FLOATS))

@@ -39,7 +39,7 @@ def call_room(name: str, memory: Memory, *arguments: float) -> Any:
     record = memory.scalars[0]
     scalars = SimpleNamespace(**{field: record[field].item() for field in SCALARS.names or ()})
     try:
-        return _rooms[name](scalars, memoryview(memory.floats), memoryview(memory.integers), *arguments)
+        return _rooms[name](scalars, memoryview(memory.floats.data), memoryview(memory.integers.data), *arguments)
     finally:
         for field, value in vars(scalars).items():
             memory.scalars[field] = value

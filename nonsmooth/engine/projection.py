@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.kernel import kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import FRAME, GEOMETRY
 
 
 @kernel("i8(S, F, I)")
-def activate_closed(S, w, k):
+def activate_closed(S: Scalars, w: Floats, k: Integers) -> int:
     """Make the closed contacts the active ones, kinematics evaluated; return how many they are."""
     m = 0
     for c in range(S.n_contacts):
@@ -27,10 +27,11 @@ def activate_closed(S, w, k):
 
 
 @room("f8(S, F, I)")
-def project_rates(S, w, k):
+def project_rates(S: Scalars, w: Floats, k: Integers) -> float:
     """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
 
-    A slip that is only about to start counts as none: its direction would be that of round-off.  The correction is the impulse of least kinetic energy, without friction on sliding contacts.
+    A slip that is only about to start counts as none: its direction would be that of round-off.  The correction
+    is the impulse of least kinetic energy, without friction on sliding contacts.
     Returns the kinetic energy it removes [J]; the work of the driven bodies is booked.
     """
     m = S.n_active
@@ -58,7 +59,7 @@ def project_rates(S, w, k):
 
 
 @kernel()
-def project_gaps(S, w, k):
+def project_gaps(S: Scalars, w: Floats, k: Integers) -> None:
     """Bring the gaps of the active contacts to zero by one Newton step along M^-1 W."""
     m = S.n_active
     worst = 0.0
@@ -86,7 +87,7 @@ def project_gaps(S, w, k):
 
 
 @kernel()
-def normalise_quaternions(S, w, k):
+def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
     """Bring every body's unit quaternion back to unit length."""
     for body in range(S.n_bodies):
         offset = k[S.body_quaternion + body]

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.modes import OPEN, SLIDE
 from nonsmooth.engine.runge_kutta import dense_state
 
 EVENT_HEAD = 5
 """Floats at the head of an event: time, driven work, restitution loss, friction loss, closing loss."""
-CODE_HEAD = 3
-"""Integers at the head of an event: cause, contact, phases; then one code per contact."""
+CODE_HEAD = 4
+"""Integers at the head of an event: cause, contact, phases, whether cut short; then one code per contact."""
 
 
 @kernel("i8(S, F, I, i8)")
-def code(S, w, k, c):
+def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
     mode = k[S.mode + c]
     if mode == OPEN:
@@ -24,7 +24,7 @@ def code(S, w, k, c):
 
 
 @kernel("i8(S, F, I, i8)")
-def impact_code(S, w, k, c):
+def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits of contact ``c`` at the start of an impact, from its rates."""
     if k[S.touching + c] == 0:
         return 0
@@ -38,7 +38,7 @@ def impact_code(S, w, k, c):
 
 
 @kernel()
-def remember(S, w, k):
+def remember(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep modes and velocities as they are before an event, and clear its account."""
     for c in range(S.n_contacts):
         k[S.code_before + c] = code(S, w, k, c)
@@ -52,7 +52,7 @@ def remember(S, w, k):
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
-def record_event(S, w, k, cause, contact, phases):
+def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
     S.recorded += 1
     if S.n_events >= S.event_capacity:
@@ -74,15 +74,14 @@ def record_event(S, w, k, cause, contact, phases):
         w[row + S.n_u + i] = w[S.y + S.n_q + i]
     codes = S.event_codes + S.n_events * (CODE_HEAD + n)
     k[codes], k[codes + 1], k[codes + 2] = cause, contact, phases
+    k[codes + 3] = S.truncated if phases > 0 else 0
     for c in range(n):
-        k[codes + CODE_HEAD + c] = (
-            k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
-        )
+        k[codes + CODE_HEAD + c] = k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
     S.n_events += 1
 
 
 @kernel()
-def amend_last(S, w, k):
+def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the modes that the instant ended in, and its final velocities, into its last event."""
     if S.n_events == 0:
         return
@@ -96,7 +95,7 @@ def amend_last(S, w, k):
 
 
 @kernel("void(S, F, I, f8)")
-def record_samples(S, w, k, h):
+def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """Append the samples that fall into the step of ``h`` from ``t``."""
     width = S.n_y + 1
     while S.next_sample <= S.t + h and S.n_samples < S.sample_capacity:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.kernel import kernel
+from nonsmooth.engine.kernel import Floats, Scalars, kernel
 
 SAFETY, SHRINK, GROW = 0.9, 0.2, 8.0
 _EXPONENT = -0.2
 
 
 @kernel("void(S, F, i8, i8, i8, i8, f8, i8)")
-def stage_state(S, w, start, slopes, n, stage, h, out):
+def stage_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, stage: int, h: float, out: int) -> None:
     """Write the state at which the slope of ``stage`` is evaluated."""
     weights = S.stages + 6 * stage
     for i in range(n):
@@ -20,7 +20,7 @@ def stage_state(S, w, start, slopes, n, stage, h, out):
 
 
 @kernel("void(S, F, i8, i8, i8, f8, f8, i8)")
-def dense_state(S, w, start, slopes, n, h, theta, out):
+def dense_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, h: float, theta: float, out: int) -> None:
     """Write the interpolated state at the fraction ``theta`` of the step."""
     for i in range(n):
         w[out + i] = w[start + i]
@@ -33,7 +33,7 @@ def dense_state(S, w, start, slopes, n, h, theta, out):
 
 
 @kernel("f8(S, F, i8, i8, f8, i8)")
-def component_error(S, w, slopes, n, h, i):
+def component_error(S: Scalars, w: Floats, slopes: int, n: int, h: float, i: int) -> float:
     """Return the estimated error of component ``i`` of the step."""
     total = 0.0
     for j in range(7):
@@ -42,8 +42,8 @@ def component_error(S, w, slopes, n, h, i):
 
 
 @kernel("f8(f8)")
-def step_factor(error):
+def step_factor(error: float) -> float:
     """Return by how much the next step may differ, the error being relative to its tolerance."""
     if error <= 0.0:
         return GROW
-    return min(GROW, max(SHRINK, SAFETY * error**_EXPONENT))
+    return float(min(GROW, max(SHRINK, SAFETY * error**_EXPONENT)))

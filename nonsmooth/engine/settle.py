@@ -7,7 +7,7 @@ import math
 from nonsmooth.engine.contact_problem import accelerate, friction_coefficient, set_up, solve_contact
 from nonsmooth.engine.delassus import add_response, assemble_delassus, row
 from nonsmooth.engine.impact_problem import FINISHED, energetic_impact
-from nonsmooth.engine.kernel import at, call_map, kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import (
     CLOSING,
@@ -34,7 +34,7 @@ _PAINLEVE_ATTEMPTS = 5
 
 
 @room("i8(S, F, I)")
-def touch(S, w, k):
+def touch(S: Scalars, w: Floats, k: Integers) -> int:
     """Find and evaluate the touching contacts; return 1 if one of them approaches."""
     evaluate_bodies(S, w, k, S.t, S.y)
     approaching = 0
@@ -54,13 +54,13 @@ def touch(S, w, k):
 
 
 @kernel("f8(S, F, I, i8)")
-def _speed(S, w, k, c):
+def _speed(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
     return math.sqrt(v1 * v1 + v2 * v2)
 
 
 @kernel("void(S, F, I)")
-def _activate_touching(S, w, k):
+def _activate_touching(S: Scalars, w: Floats, k: Integers) -> None:
     m = 0
     for c in range(S.n_contacts):
         if k[S.touching + c] == 1:
@@ -70,7 +70,7 @@ def _activate_touching(S, w, k):
 
 
 @kernel("void(S, F, I)")
-def _map_impact(S, w, k):
+def _map_impact(S: Scalars, w: Floats, k: Integers) -> None:
     """Let a law that maps velocities to impulses treat the colliding set; split its loss by mean rates."""
     m = S.n_active
     width = 3 * m
@@ -96,7 +96,7 @@ def _map_impact(S, w, k):
 
 
 @room("i8(S, F, I, i8)")
-def collide(S, w, k, cause):
+def collide(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     """Run the impact law on the touching contacts, book its energies, record it; return the status."""
     remember(S, w, k)
     _activate_touching(S, w, k)
@@ -112,7 +112,7 @@ def collide(S, w, k, cause):
             contact = c
         for r in range(3):
             w[S.impact_z0 + 3 * a + r] = w[S.rate + 3 * c + r]
-    S.phases = 1
+    S.phases, S.truncated = 1, 0
     if S.impact_map != 0:
         _map_impact(S, w, k)
     else:
@@ -145,7 +145,7 @@ def collide(S, w, k, cause):
 
 
 @kernel("void(S, F, I, i8)")
-def _provisional_mode(S, w, k, c):
+def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     if k[S.touching + c] == 0 or w[S.rate + 3 * c] > S.velocity_tolerance:
         k[S.mode + c] = OPEN
         return
@@ -156,8 +156,18 @@ def _provisional_mode(S, w, k, c):
             w[S.direction + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
 
 
+@kernel("i8(S, F, I, i8)")
+def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if the normal force of a closed contact has gone together with that which fired."""
+    largest = 0.0
+    for other in range(S.n_contacts):
+        if k[S.mode + other] != OPEN:
+            largest = max(largest, w[S.guard_first + 2 * other])
+    return 1 if k[S.mode + c] != OPEN and w[S.guard + 2 * c] <= 1e-9 * largest else 0
+
+
 @kernel("void(S, F, I, i8, i8)")
-def _expect(S, w, k, cause, contact):
+def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
     """Activate the contacts at rest in the normal direction and guess their modes: the past ones, and the event's."""
     m = 0
     for c in range(S.n_contacts):
@@ -168,7 +178,7 @@ def _expect(S, w, k, cause, contact):
                 mode = SLIDE
             elif mode == OPEN or (c == contact and cause == SLIP_TO_STICK):
                 mode = STICK
-            if c == contact and cause == LIFT_OFF:
+            if cause == LIFT_OFF and (c == contact or _force_gone(S, w, k, c) == 1):
                 mode = OPEN
             if c == contact and cause == STICK_TO_SLIP:
                 mode = SLIDE
@@ -178,7 +188,7 @@ def _expect(S, w, k, cause, contact):
 
 
 @kernel("i8(S, F, I)")
-def _impact_without_collision(S, w, k):
+def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
     """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
     width = 3 * S.n_active
     for c in range(S.n_contacts):
@@ -197,7 +207,7 @@ def _impact_without_collision(S, w, k):
 
 
 @kernel("i8(S, F, I)")
-def _close(S, w, k):
+def _close(S: Scalars, w: Floats, k: Integers) -> int:
     """Close the contacts whose bounces have become shorter than their contact time, Eq. (33); return how many."""
     closing = 0
     contact = -1
@@ -230,8 +240,8 @@ def _close(S, w, k):
 
 
 @room("i8(S, F, I, i8, i8)")
-def settle(S, w, k, cause, contact):
-    """Carry the system through the present instant, ``cause`` and ``contact`` saying why it is one; return the status."""
+def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Carry the system through an instant that ``contact`` makes one by ``cause``; return the status."""
     S.recorded = 0
     resting = 0
     approaching = touch(S, w, k)
@@ -266,7 +276,7 @@ def settle(S, w, k, cause, contact):
 
 
 @kernel("void(S, F, I)")
-def _adopt(S, w, k):
+def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
     """Take over the modes and slip directions that the contact problem found."""
     for c in range(S.n_contacts):
         k[S.mode + c] = OPEN
@@ -279,7 +289,7 @@ def _adopt(S, w, k):
 
 
 @kernel("void(S, F, I, i8, i8)")
-def _finish(S, w, k, cause, contact):
+def _finish(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
     """Put the closed contacts exactly on their constraints and write the event."""
     if activate_closed(S, w, k) > 0:
         S.closing_loss += project_rates(S, w, k)

@@ -49,9 +49,9 @@ class ImpactMap(ImpactLaw, ABC):
     """An impact law that maps the rates before the impact to its impulses.
 
     The contract: ``impulses(n, delassus, rates, out, friction, ...)`` is a plain function of the number of
-    contacts, the Delassus matrix [1/kg] (row by row, shape [3 n, 3 n], rows n, t1, t2 of each contact), the rates before
-    [m/s, 3 n] and the impulses to be written [N s, 3 n]; ``friction`` and its further arguments, parameters
-    of the law, are vectors over the contacts.
+    contacts, the Delassus matrix [1/kg] (row by row, shape [3 n, 3 n], rows n, t1, t2 of each contact), the
+    rates before [m/s, 3 n] and the impulses to be written [N s, 3 n]; ``friction`` and its further
+    arguments, parameters of the law, are vectors over the contacts.
     """
 
     @property

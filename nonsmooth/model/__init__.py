@@ -1,0 +1,1 @@
+"""Layout of a system in memory, and its assembly."""

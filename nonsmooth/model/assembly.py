@@ -19,8 +19,8 @@ from nonsmooth.system.system import System
 
 _EVENT_ROWS = 4096
 _SAMPLE_ROWS = 4096
-N_ACCOUNTS = 2
-"""Energies integrated with the state: work of driven bodies, loss to friction."""
+N_ACCOUNTS = 3
+"""Energies integrated with the state: work of driven bodies, loss to friction, gross exchange."""
 
 
 @dataclass(frozen=True)

@@ -98,6 +98,7 @@ INTEGER_SCALARS = (
     "lone",
     "may_be_lone",
     "phases_kept",
+    "truncated",
     "fresh",
     "suspect",
     "repeated",
@@ -155,6 +156,8 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "bias": _per(3, "n_contacts"),
     "direction": _per(2, "n_contacts"),
     "guard": _per(2, "n_contacts"),
+    "least_force": _per(1, "n_contacts"),
+    "guard_middle": _per(2, "n_contacts"),
     "guard_first": _per(2, "n_contacts"),
     "gap_rate": _per(1, "n_contacts"),
     "gap_rate_first": _per(1, "n_contacts"),
@@ -249,7 +252,7 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "armed": _per(3, "n_contacts"),
     "guard_armed": _per(2, "n_contacts"),
     "guard_deflated": _per(2, "n_contacts"),
-    "event_codes": lambda n: n["event_capacity"] * (3 + n["n_contacts"]),
+    "event_codes": lambda n: n["event_capacity"] * (4 + n["n_contacts"]),
 }
 
 SCALARS = np.dtype(

@@ -1,0 +1,1 @@
+"""Finding and compiling plug-ins."""

@@ -17,6 +17,8 @@ class EnergyAccount:
         Work that the driven bodies did on the others.
     restitution_loss, friction_loss, closing_loss : float
         Losses in impacts, to friction in impacts and sustained slip, and in closing steps and projections.
+    exchanged_in_flow : float
+        Gross energy that gravity, driven bodies and friction exchanged between events, each counted as positive.
     """
 
     kinetic_start: float
@@ -27,6 +29,7 @@ class EnergyAccount:
     restitution_loss: float
     friction_loss: float
     closing_loss: float
+    exchanged_in_flow: float
 
     @property
     def change(self) -> float:
@@ -41,14 +44,7 @@ class EnergyAccount:
     @property
     def exchanged(self) -> float:
         """Energy that changed its form in the run [J]."""
-        return (
-            abs(self.driven_work)
-            + abs(self.restitution_loss)
-            + abs(self.friction_loss)
-            + abs(self.closing_loss)
-            + abs(self.kinetic_end - self.kinetic_start)
-            + abs(self.potential_end - self.potential_start)
-        )
+        return self.exchanged_in_flow + abs(self.restitution_loss) + abs(self.friction_loss) + abs(self.closing_loss)
 
     @property
     def residual(self) -> float:

@@ -28,6 +28,8 @@ class Events:
         The contact that caused it, counted from 0, -1 at the start; shape [n].
     phases : array
         Changes of phase within an impact, else 0; shape [n].
+    truncated : array
+        1 where an endless cascade inside an impact was cut short, shape [n].
     before, during, after : array
         Bits a + 2 b + 4 c of Eq. (29) per contact, shape [n, n_contacts]; ``during`` differs from ``before``
         in an impact, where it shows who collides.
@@ -45,6 +47,7 @@ class Events:
     cause: Integers
     contact: Integers
     phases: Integers
+    truncated: Integers
     before: Integers
     during: Integers
     after: Integers
@@ -68,6 +71,7 @@ class Events:
             codes[:, 0],
             codes[:, 1],
             codes[:, 2],
+            codes[:, 3],
             bits % 8,
             bits // 8 % 8,
             bits // 64,

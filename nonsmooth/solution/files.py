@@ -84,6 +84,7 @@ def to_dataset(solution: Solution, coordinates: Coordinates = _NONE) -> xarray.D
         "event_cause": (("event",), np.array(events.causes(), dtype=str), {"long_name": "cause"}),
         "event_contact": (("event",), events.contact, {"long_name": "contact, counted from 0; -1 at the start"}),
         "event_phases": (("event",), events.phases, {"long_name": "changes of phase within the impact"}),
+        "event_truncated": (("event",), events.truncated, {"long_name": "1 where an endless cascade was cut short"}),
         "impulse": (
             ("event", "contact", "direction"),
             events.impulse,

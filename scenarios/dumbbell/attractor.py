@@ -45,6 +45,8 @@ class Motion:
         Gaps of the balls [m] and their rates [m/s], shape [n, 2].
     beta : array
         Tilt [rad], shape [n].
+    beta_at_events : array
+        Tilt at the events, where it may be extreme [rad], shape [n_events].
     centre : array
         Horizontal position of the mass centre [m], shape [n, 2].
     events : Events
@@ -59,11 +61,19 @@ class Motion:
     gap: Floats
     gap_rate: Floats
     beta: Floats
+    beta_at_events: Floats
     centre: Floats
     events: Events
     period: float
     length: float
     speed: float
+
+    @property
+    def beta_range(self) -> tuple[float, float]:
+        """Smallest and largest tilt [rad], impacts included."""
+        inside = (self.events.time >= self.t[0]) & (self.events.time <= self.t[-1])
+        tilts = np.concatenate([self.beta, self.beta_at_events[inside]])
+        return float(tilts.min()), float(tilts.max())
 
     def tail(self) -> tuple[int, Motion]:
         """Return the number of plate periods in the settled part, and that part."""
@@ -76,6 +86,7 @@ class Motion:
             self.gap[keep],
             self.gap_rate[keep],
             self.beta[keep],
+            self.beta_at_events,
             self.centre[keep],
             self.events,
             self.period,
@@ -160,7 +171,7 @@ def _jump(motion: Motion, period: int, cycles: int, impacts: _Impacts) -> bool:
 
 def _flutter(motion: Motion, period: int, cycles: int, impacts: _Impacts) -> bool:
     """Tell whether the balls strike in turn, each once in two plate periods, and the tilt is symmetric."""
-    low, high = float(motion.beta.min()), float(motion.beta.max())
+    low, high = motion.beta_range
     return (
         period == 2
         and abs(len(impacts.balls) - cycles) <= 1
@@ -207,5 +218,5 @@ def summary(motion: Motion) -> dict[str, object]:
         "period": None if attractor == "rest" else period,
         "drift_velocity": moved.tolist(),
         "max_gap": largest_gaps(tail),
-        "beta_range": [float(tail.beta.min()), float(tail.beta.max())],
+        "beta_range": list(tail.beta_range),
     }

@@ -226,6 +226,8 @@ class DumbbellScenario(Scenario):
         t, q, u = self.paper_motion(solution)
         between = self.centre_distance
         beta, beta_rate = q[:, 4], u[:, 4]
+        events = solution.events
+        at_events, _ = coordinates.from_state(events.time, events.q, events.u_after, between)
         first = q[:, 2] - self.radius - self.plate_height(t)
         first_rate = u[:, 2] - self.plate_velocity(t)
         reach = between / 2.0 * np.cos(beta)
@@ -235,8 +237,9 @@ class DumbbellScenario(Scenario):
             np.column_stack([first, first + between * np.sin(beta)]),
             np.column_stack([first_rate, first_rate + between * np.cos(beta) * beta_rate]),
             beta,
+            at_events[:, 4],
             np.column_stack([q[:, 0] - reach * np.sin(q[:, 3]), q[:, 1] + reach * np.cos(q[:, 3])]),
-            solution.events,
+            events,
             1.0 / self.frequency,
             length,
             2.0 * math.pi * self.frequency * length,

@@ -22,9 +22,7 @@ def solution() -> Solution:
     ball, plate = Ball(radius=5e-3), Plate()
     system = System([ball, plate])
     system.place(ball, position=(0.0, 0.0, 2e-2), velocity=(0.1, 0.0, 0.0))
-    system.contact(
-        ball, plate, normal=Unilateral(), friction=Coulomb(0.2), impact=EnergeticImpact(restitution=0.3)
-    )
+    system.contact(ball, plate, normal=Unilateral(), friction=Coulomb(0.2), impact=EnergeticImpact(restitution=0.3))
     return simulate(system, 0.2)
 
 

@@ -28,7 +28,8 @@ _RUNS: dict[str, dict[str, Any]] = {
     "jump 1": _ONE_DEGREE,
     "flutter": {"mode": "flutter", "t_end": 8.0},
     "drift 3D": {"mode": "drift", "t_end": 24.0} | _ACROSS,
-    "jump 3D": {"mode": "jump"} | _ACROSS,
+    # the level orbit is not stable: in a long run round-off tilts it
+    "jump 3D": {"mode": "jump", "t_end": 0.5} | _ACROSS,
     "flutter 3D": {"mode": "flutter", "t_end": 8.0} | _ACROSS,
     "energetic": _REFERENCE | {"impact": "energetic"},
     "newton": _REFERENCE | {"impact": "newton"},

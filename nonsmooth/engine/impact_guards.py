@@ -1,0 +1,210 @@
+"""Guards inside an impact, and stepping exactly to the first that ends its phase.
+
+Guards are positive while a phase is valid: the gap rate (its sign in compression and expansion, the
+approach of an idle contact, the force of a held one), the stored energy, and the friction (the slip along
+its direction, or the distance to the static bound).
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.forces import evaluate_margins
+from nonsmooth.engine.impact_rates import (
+    COMPRESSION,
+    EXPANSION,
+    HELD,
+    IDLE,
+    NOISE,
+    STRIDE,
+    evaluate_impact_forces,
+    try_impact_step,
+)
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.runge_kutta import dense_state
+
+TOGETHER = 1e-13
+"""Guards within this of zero fire together."""
+_WRONG = -1e-7
+"""A guard that is not armed fires below this all the same."""
+_SHORT = 1e-7
+"""Corrections below this part of a step are made along the tangent; their error is its square."""
+
+
+@kernel("void(S, F, I, i8)")
+def evaluate_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+    """Evaluate the forces at the impact state ``y`` and write the guards."""
+    evaluate_impact_forces(S, w, k, y)
+    write_impact_guards(S, w, k, y)
+
+
+@kernel("void(S, F, I, i8)")
+def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+    """Write the three guards of every active contact: rate, energy, friction; all of order 1."""
+    evaluate_margins(S, w, k)
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        guard = S.impact_guard + 3 * a
+        rate = w[S.impact_z + 3 * a] / S.speed_scale
+        phase = k[S.phase + a]
+        force_scale = 1.0 if a == S.lone else w[S.impact_f_scale + a]
+        w[guard + 1] = 1.0
+        if phase == COMPRESSION:
+            w[guard] = NOISE - rate
+        elif phase == HELD:
+            w[guard] = NOISE + w[S.f + 3 * a] / force_scale
+        else:
+            w[guard] = NOISE + rate
+        if phase == EXPANSION:
+            w[guard + 1] = w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
+            if a == S.lone:
+                w[guard + 1] = w[y + STRIDE * a + 6] / w[S.impact_energy_scale + a]
+        if phase == IDLE:
+            w[guard + 2] = 1.0
+        elif k[S.tangent_held + a] == 1:
+            w[guard + 2] = NOISE + w[S.margin + a] / force_scale
+        else:
+            slip = (
+                w[S.impact_z + 3 * a + 1] * w[S.direction + 2 * c]
+                + w[S.impact_z + 3 * a + 2] * w[S.direction + 2 * c + 1]
+            )
+            w[guard + 2] = NOISE + slip / S.speed_scale
+
+
+@kernel("i8(S, F, I, i8)")
+def fired_guard(S: Scalars, w: Floats, k: Integers, but: int) -> int:
+    """Return the first guard that ends its phase, other than ``but``, or -1.
+
+    A guard left slightly negative by a switch is not armed until it has been positive.
+    """
+    for i in range(3 * S.n_active):
+        value = w[S.impact_guard + i]
+        if i != but and ((value < 0.0 and k[S.armed + i] == 1) or value < _WRONG):
+            return i
+    return -1
+
+
+@kernel()
+def arm_impact_guards(S: Scalars, w: Floats, k: Integers) -> None:
+    """Arm the guards that are positive now, where the next step starts."""
+    for i in range(3 * S.n_active):
+        w[S.impact_guard_first + i] = w[S.impact_guard + i]
+        if w[S.impact_guard + i] > 0.0:
+            k[S.armed + i] = 1
+
+
+@kernel("void(S, F, I)")
+def prepare_guards(S: Scalars, w: Floats, k: Integers) -> None:
+    """Evaluate the guards where a phase begins and arm those that are positive."""
+    for i in range(3 * S.n_active):
+        k[S.armed + i] = 0
+    evaluate_impact_guards(S, w, k, S.impact_y)
+    arm_impact_guards(S, w, k)
+
+
+@kernel("f8(S, F, I, f8, f8, i8)")
+def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int) -> float:
+    dense_state(S, w, S.impact_y, S.impact_slopes, STRIDE * S.n_active, h, theta, S.impact_stage)
+    evaluate_impact_guards(S, w, k, S.impact_stage)
+    return w[S.impact_guard + i]
+
+
+@kernel("f8(S, F, I, f8, f8, f8, i8)")
+def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: float, i: int) -> float:
+    """Return the fraction of the step at which guard ``i`` vanishes on the interpolant (Anderson-Bjorck).
+
+    The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``.
+    """
+    low, g_low = 0.0, w[S.impact_guard_first + i]
+    if g_low <= 0.0:
+        S.guard_slope = 0.0
+        return 1e-3 * high
+    theta = high
+    for _iteration in range(60):
+        S.guard_slope = (g_high - g_low) / ((high - low) * h)
+        theta = high - g_high * (high - low) / (g_high - g_low)
+        g = _guard_at(S, w, k, h, theta, i)
+        if abs(g) <= 1e-13 or high - low <= 1e-14:
+            return theta
+        if g < 0.0:
+            ratio = 1.0 - g / g_high
+            g_low *= ratio if ratio > 0.0 else 0.5
+            high, g_high = theta, g
+        else:
+            ratio = 1.0 - g / g_low
+            g_high *= ratio if ratio > 0.0 else 0.5
+            low, g_low = theta, g
+    return theta
+
+
+@kernel("f8(S, F, I, f8)")
+def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Return the step that ends at the first guard to fire within ``h``; keep the guard in ``trigger``.
+
+    Called with the guards evaluated at the end of the step.
+    """
+    theta = 1.0
+    first = fired_guard(S, w, k, -1)
+    for _other in range(3 * S.n_active):
+        if first < 0:
+            break
+        S.trigger = first
+        theta = _root(S, w, k, h, theta, w[S.impact_guard + first], first)
+        first = fired_guard(S, w, k, first)
+        if first >= 0 and w[S.impact_guard + first] >= -TOGETHER:
+            break
+    i = S.trigger
+    step = theta * h
+    for _iteration in range(4):
+        # the interpolant is of lower order than the step: correct on the step itself
+        try_impact_step(S, w, k, step)
+        S.impact_steps += 1
+        write_impact_guards(S, w, k, S.impact_new)
+        if not S.guard_slope < 0.0:
+            break
+        correction = min(0.2 * theta * h, max(-0.2 * theta * h, -w[S.impact_guard + i] / S.guard_slope))
+        step += correction
+        if abs(correction) <= _SHORT * h:
+            # so short a way is straight
+            n = STRIDE * S.n_active
+            for j in range(n):
+                w[S.impact_new + j] += correction * w[S.impact_slopes + 6 * n + j]
+            break
+    return step
+
+
+@kernel("f8(S, F, I, f8)")
+def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Shorten the step of a lone contact so that it ends at the next event, which its polynomials foretell.
+
+    Leaves the guard that it aims at in ``aimed``, -1 for none.
+    """
+    S.aimed = -1
+    a = S.lone
+    shortest = h
+    width = 3 * S.n_active
+    rates, forces, block = S.impact_z + 3 * a, S.f + 3 * a, S.delassus + 3 * a * width + 3 * a
+    c = k[S.active + a]
+    growth = slip = slip_growth = 0.0
+    for j in range(3):
+        growth += w[block + j] * w[forces + j]
+    for r in range(1, 3):
+        slip += w[rates + r] * w[S.direction + 2 * c + r - 1]
+        for j in range(3):
+            slip_growth += w[block + width * r + j] * w[forces + j] * w[S.direction + 2 * c + r - 1]
+    if k[S.phase + a] == COMPRESSION and growth > 0.0:
+        root = -w[rates] / growth
+        if 0.0 < root < shortest:
+            shortest, S.aimed = root, 3 * a
+    if k[S.phase + a] == EXPANSION and w[rates] > 0.0:
+        # E + E' s + E'' s^2 / 2 = 0, with E'' = E' growth / rate
+        energy, first = w[S.impact_y + STRIDE * a + 6], w[S.impact_slopes + STRIDE * a + 6]
+        square = first * first - 2.0 * first * growth / w[rates] * energy
+        root = 2.0 * energy / (math.sqrt(max(0.0, square)) - first)
+        if 0.0 < root < shortest:
+            shortest, S.aimed = root, 3 * a + 1
+    if k[S.tangent_held + a] == 0 and slip > 0.0 and slip_growth < 0.0:
+        root = -slip / slip_growth
+        if root < shortest:
+            shortest, S.aimed = root, 3 * a + 2
+    return shortest

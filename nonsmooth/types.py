@@ -1,0 +1,21 @@
+"""Types that plug-in functions and the engine share."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+
+class Floats(Protocol):
+    """A block of floats that plug-in functions read or write by index."""
+
+    def __getitem__(self, index: int, /) -> float: ...
+
+    def __setitem__(self, index: int, value: float, /) -> None: ...
+
+
+class Integers(Protocol):
+    """A block of integers."""
+
+    def __getitem__(self, index: int, /) -> int: ...
+
+    def __setitem__(self, index: int, value: int, /) -> None: ...

@@ -1,0 +1,81 @@
+"""The figures: all there, each with units, legend, title and what was assumed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scenarios.dumbbell.figures.trace import Trace
+from scenarios.dumbbell.scenario import DumbbellScenario
+
+EXPECTED = {2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}
+Runner = Callable[..., Any]
+
+
+@pytest.fixture(scope="module")
+def gallery() -> dict[str, Any]:
+    calls: list[tuple[float, float]] = []
+    figures = DumbbellScenario.gallery(lambda t, t_end: calls.append((t, t_end)))
+    assert calls[-1][0] == pytest.approx(calls[-1][1])
+    return dict(figures)
+
+
+def test_gallery_has_the_figures_of_the_paper(gallery: dict[str, Any]) -> None:
+    assert {int(stem[3:5]) for stem in gallery} == EXPECTED
+
+
+def test_every_figure_says_what_it_shows(gallery: dict[str, Any]) -> None:
+    for stem, figure in gallery.items():
+        body, foot = figure.subfigs
+        assert len(body.get_suptitle()) > 20, stem
+        assert "assumed" in foot.texts[0].get_text(), stem
+        assert body.legends, stem
+        for axis in body.axes:
+            assert re.search(r"\[.+\]", axis.get_xlabel()), stem
+        assert re.search(r"\[.+\]", body.axes[0].get_ylabel()), stem
+
+
+def test_lines_differ_without_colour(gallery: dict[str, Any]) -> None:
+    for stem, figure in gallery.items():
+        for axis in figure.subfigs[0].axes:
+            named = {line.get_label(): line for line in axis.lines if not line.get_label().startswith("_")}
+            looks = [(line.get_linestyle(), line.get_marker(), line.get_color() == "black") for line in named.values()]
+            assert len(set(looks)) == len(looks), stem
+
+
+@pytest.mark.parametrize(
+    ("start", "stems"),
+    [
+        ({"mode": "drift"}, {"fig02_drift_motion", "fig03_drift_tangential_velocity", "fig09_beta", "fig11_path"}),
+        ({"mode": "jump"}, {"fig04_jump_motion", "fig09_beta", "fig11_path"}),
+        ({"mode": "free"}, {"free_motion", "fig09_beta", "fig11_path"}),
+    ],
+)
+def test_a_run_draws_the_figures_of_its_mode(dumbbell: Runner, start: dict[str, Any], stems: set[str]) -> None:
+    run = dumbbell(**start)
+    assert set(run.scenario.figures(run.solution)) == stems
+
+
+def test_titles_do_not_promise_what_did_not_happen(dumbbell: Runner) -> None:
+    run = dumbbell(gamma=0.3)
+    figure = run.scenario.figures(run.solution)["fig02_drift_motion"]
+    assert "rest" in figure.subfigs[0].get_suptitle()
+
+
+def test_figures_of_the_shortest_run_can_be_drawn(dumbbell: Runner, tmp_path: Any) -> None:
+    run = dumbbell(mode="jump", t_end=2e-3)
+    for stem, figure in run.scenario.figures(run.solution).items():
+        figure.savefig(tmp_path / f"{stem}.png", dpi=30)
+
+
+def test_trace_jumps_at_events_and_nowhere_else(dumbbell: Runner) -> None:
+    run = dumbbell(mode="flutter")
+    trace = Trace.of(run.scenario, run.solution, 10.0)
+    jumps = np.abs(np.diff(trace.u[:, 4])) > 1.0
+    assert jumps.sum() == pytest.approx(10, abs=1)
+    assert np.array_equal(jumps, np.asarray(trace.struck.any(axis=1))[:-1])
+    np.testing.assert_allclose(trace.slip[0, 0], 0.0, atol=1e-12)
