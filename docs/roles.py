@@ -1,4 +1,4 @@
-"""Docstrings name modules and functions with roles (``:func:`f```); mkdocstrings does not know roles and gets plain code."""
+"""Docstrings name modules and functions with roles (``:func:`f```), unknown to mkdocstrings: make them code."""
 
 from __future__ import annotations
 

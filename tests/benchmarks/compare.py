@@ -1,6 +1,6 @@
 """Speed on the drift mode against MuJoCo and PyBullet, all measured in one run.
 
-    pip install '.[full]' mujoco pybullet && python tests/benchmarks/compare.py
+    pip install '.[full]' mujoco pybullet && python -m tests.benchmarks.compare
 
 Nothing else is needed.  Printed are milliseconds of wall time per simulated second (least and median of interleaved
 repetitions), the ratio of the medians to this engine's, the deepest penetration relative to the amplitude of the
@@ -14,10 +14,10 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from engines import Motion, MuJoCo, PyBullet, damping_ratio
 
 from nonsmooth import simulate
 from scenarios.dumbbell.scenario import DumbbellScenario
+from tests.benchmarks.engines import Motion, MuJoCo, PyBullet, damping_ratio
 
 T_END = 4.0
 REPETITIONS = 9

@@ -1,6 +1,6 @@
 """Wall time and memory per event over a long, event-rich run: neither may grow.
 
-    python tests/benchmarks/endurance.py [SECONDS]
+    python -m tests.benchmarks.endurance [SECONDS]
 
 runs the drift mode for so many simulated seconds (600 by default; an hour makes about a million events) with one
 sample per second, and prints for every third of the run the wall time and the growth of the process per event.

@@ -1,6 +1,6 @@
 """Start of the command: warm, and with an empty cache, when the engine is compiled.
 
-    python tests/benchmarks/startup.py
+    python -m tests.benchmarks.startup
 
 prints the wall time [s] of ``nonsmooth run dumbbell --set t_end=0.1 --json`` in new processes.
 """

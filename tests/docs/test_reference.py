@@ -10,19 +10,18 @@ PAGES = ROOT / "docs" / "pages"
 
 
 def test_every_public_module_is_in_the_reference_once() -> None:
-    """A new module must be listed, a removed one taken out."""
-    public = {
-        ".".join(file.relative_to(ROOT).with_suffix("").parts)
-        for package in ("nonsmooth", "bodies", "laws", "scenarios")
-        for file in (ROOT / package).rglob("*.py")
-        if not file.stem.startswith("_")
-    }
+    """A module is listed, or its package with all that it holds."""
     listed = [
         name
         for page in (PAGES / "reference").glob("*.md")
         for name in re.findall(r"^::: (\S+)$", page.read_text(encoding="utf-8"), re.M)
     ]
-    assert sorted(listed) == sorted(public)
+    for package in ("nonsmooth", "bodies", "laws", "scenarios"):
+        for file in (ROOT / package).rglob("*.py"):
+            if not file.stem.startswith("_"):
+                module = ".".join(file.relative_to(ROOT).with_suffix("").parts)
+                found = [name for name in listed if module == name or module.startswith(f"{name}.")]
+                assert len(found) == 1, f"{module} is in the reference as {found}"
 
 
 def test_every_page_is_in_the_navigation() -> None:
