@@ -34,7 +34,9 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(n_u):
             total = 0.0
             for j in range(n_u):
-                total += w[force + n_u + i * n_u + j] * w[force + j]
+                entry = w[force + n_u + i * n_u + j]
+                if entry != 0.0:
+                    total += entry * w[force + j]
             w[S.du + k[S.body_u + body] + i] = total
 
 

@@ -170,6 +170,7 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             for j in range(n):
                 w[S.impact_new + j] += correction * w[S.impact_slopes + 6 * n + j]
             break
+    evaluate_impact_guards(S, w, k, S.impact_new)
     return step
 
 

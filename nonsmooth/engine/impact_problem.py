@@ -15,7 +15,6 @@ from nonsmooth.engine.impact_guards import (
     TOGETHER,
     aim,
     arm_impact_guards,
-    evaluate_impact_guards,
     fired_guard,
     locate_switch,
     prepare_guards,
@@ -32,9 +31,9 @@ from nonsmooth.engine.impact_rates import (
     efficiency,
     evaluate_impact_forces,
     evaluate_impact_rates,
-    impact_slope,
     try_impact_step,
     try_linear_step,
+    write_impact_slope,
 )
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.runge_kutta import step_factor
@@ -97,8 +96,7 @@ def _account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 
 @kernel("void(S, F, I, f8)")
 def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
-    """Change the phases whose guards have come to zero."""
-    evaluate_impact_guards(S, w, k, S.impact_y)
+    """Change the phases whose guards have come to zero; they are evaluated."""
     friction = 0
     for a in range(S.n_active):
         guard = S.impact_guard + 3 * a
@@ -181,14 +179,15 @@ def _change_clock(S: Scalars, w: Floats, k: Integers) -> int:
             w[S.impact_kept + i] = w[S.impact_y + i]
         _keep_phases(S, w, k)
         S.lone = last
+        prepare_guards(S, w, k)
         return 1
     if acting == 0 or (acting == 1 and last == S.lone):
         return 0
     for i in range(n):
         w[S.impact_y + i] = w[S.impact_kept + i]
-    _restore_phases(S, w, k)
     S.lone = -1
     S.may_be_lone = 0
+    _restore_phases(S, w, k)
     return 1
 
 
@@ -308,7 +307,7 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
         return INVALID
     _start(S, w, k, 1e-2 * shortest)
     prepare_guards(S, w, k)
-    impact_slope(S, w, k, S.impact_y, S.impact_slopes)
+    write_impact_slope(S, w, k, S.impact_slopes)
     h = shortest * (_FAR if m == 1 else S.impact_rtol**0.4)
     for _step in range(_MOST_STEPS):
         if _finished(S, w, k) == 1:
@@ -355,7 +354,7 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
                 grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)
             if S.phases > _LONG * m and _faded(S, w, k) == 1:
                 _cut_short(S, w, k)
-            impact_slope(S, w, k, S.impact_y, S.impact_slopes)
+            write_impact_slope(S, w, k, S.impact_slopes)
         else:
             arm_impact_guards(S, w, k)
             for i in range(n):

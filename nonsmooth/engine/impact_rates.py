@@ -104,8 +104,14 @@ def _slide(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 
 @kernel("void(S, F, I, i8, i8)")
 def impact_slope(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> None:
-    """Write d(P, x, W, D)/ds of all active contacts."""
+    """Write d(P, x, W, D, E)/ds of all active contacts at the impact state ``y``."""
     evaluate_impact_forces(S, w, k, y)
+    write_impact_slope(S, w, k, out)
+
+
+@kernel("void(S, F, I, i8)")
+def write_impact_slope(S: Scalars, w: Floats, k: Integers, out: int) -> None:
+    """Write the slope where rates and forces are evaluated."""
     for a in range(S.n_active):
         f, z, o = S.f + 3 * a, S.impact_z + 3 * a, out + STRIDE * a
         rate = w[z]
