@@ -45,10 +45,13 @@ def set_up(S: Scalars, w: Floats, k: Integers) -> None:
     """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics being known."""
     free_acceleration(S, w, k)
     assemble_delassus(S, w, k)
+    S.acceleration_scale = 0.0
     for a in range(S.n_active):
         c = k[S.active + a]
         for r in range(3):
-            w[S.b + 3 * a + r] = w[S.bias + 3 * c + r] + row(S, w, k, c, r, S.du)
+            bias, free = w[S.bias + 3 * c + r], row(S, w, k, c, r, S.du)
+            w[S.b + 3 * a + r] = bias + free
+            S.acceleration_scale = max(S.acceleration_scale, abs(bias), abs(free))
         v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
         speed = math.sqrt(v1 * v1 + v2 * v2)
         w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
@@ -82,10 +85,13 @@ def _verified(S: Scalars, w: Floats, k: Integers) -> int:
     resolve(S, w, k)
     evaluate_margins(S, w, k)
     width = 3 * S.n_active
-    scale = force_scale = 0.0
+    # the accelerations that may cancel one another in b set the scale, not b itself
+    scale = S.acceleration_scale
+    force_scale = 0.0
     for i in range(width):
-        scale = max(scale, abs(w[S.b + i]))
         force_scale = max(force_scale, abs(w[S.f + i]))
+    for a in range(S.n_active):
+        force_scale = max(force_scale, scale / w[S.delassus + 3 * a * width + 3 * a])
     for i in range(width):
         total = w[S.b + i]
         for j in range(width):

@@ -35,7 +35,9 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.matrix + i * n + j] = _entry(S, w, k, line, k[S.column + j])
     for i in range(n):
         w[S.x + i] = w[S.right + i]
-    if eliminate(w, S.matrix, n, S.x) == 0:
+    if n == 1 and w[S.matrix] != 0.0:
+        w[S.x] = w[S.right] / w[S.matrix]
+    elif eliminate(w, S.matrix, n, S.x) == 0:
         _least_norm(S, w, k, n)
     for i in range(n):
         w[S.f + k[S.column + i]] = w[S.x + i]

@@ -31,7 +31,7 @@ from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
 
 _EVENTS_AT_ONCE = 1000
-_DRIFT = 0.01
+_DRIFT = 0.3
 _ROOM = 64
 """Free rows that an instant may need in the event buffer."""
 
@@ -117,6 +117,18 @@ def _cause(S: Scalars, w: Floats, k: Integers) -> int:
     return LIFT_OFF if w[S.guard + 2 * c] <= 1e-9 * w[S.guard_first + 2 * c] else STICK_TO_SLIP
 
 
+@kernel("i8(S, F, I, i8, i8)")
+def _settle_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Settle the instant of an event; return the status."""
+    if S.t - S.last_event_t > S.time_tolerance:
+        S.repeated = 0
+    S.repeated += 1
+    S.last_event_t = S.t
+    if S.repeated > _EVENTS_AT_ONCE:
+        return EVENTS_ENDLESS
+    return settle(S, w, k, cause, contact)
+
+
 @kernel("i8(S, F, I)")
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
@@ -129,6 +141,12 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
             w[S.slopes + i] = w[S.slopes + 6 * S.n_y + i]
     for c in range(S.n_contacts):
         w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
+    # a gap that closes exactly where the last step ended is an event of that step
+    for c in range(S.n_contacts):
+        arrived = w[S.guard_end + 2 * c] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance
+        if k[S.mode + c] == OPEN and arrived:
+            S.fresh = 0
+            return _settle_event(S, w, k, IMPACT, c)
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
     status = _accepted_step(S, w, k)
@@ -148,13 +166,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, contact)
     _commit(S, w, k, h)
-    if S.t - S.last_event_t > S.time_tolerance:
-        S.repeated = 0
-    S.repeated += 1
-    S.last_event_t = S.t
-    if S.repeated > _EVENTS_AT_ONCE:
-        return EVENTS_ENDLESS
-    return settle(S, w, k, cause, contact)
+    return _settle_event(S, w, k, cause, contact)
 
 
 @kernel("void(S, F, I, i8)")

@@ -27,6 +27,10 @@ TOGETHER = 1e-13
 """Guards within this of zero fire together."""
 _WRONG = -1e-7
 """A guard that is not armed fires below this all the same."""
+_ROUGH = 1e-11
+"""A root on the interpolant need not be better than this: it is corrected on the step itself."""
+_FAINT = 1e-4
+"""Start values below this part of the end value are no help to the secant."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -119,12 +123,19 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
     if g_low <= 0.0:
         S.guard_slope = 0.0
         return 1e-3 * high
+    while g_low <= _FAINT * abs(g_high) and high > 1e-3:
+        # a guard that has just been left near zero says little: halve until there is a proper value
+        g = _guard_at(S, w, k, h, 0.5 * high, i)
+        if g > 0.0:
+            low, g_low = 0.5 * high, g
+        else:
+            high, g_high = 0.5 * high, g
     theta = high
     for _iteration in range(60):
         S.guard_slope = (g_high - g_low) / ((high - low) * h)
         theta = high - g_high * (high - low) / (g_high - g_low)
         g = _guard_at(S, w, k, h, theta, i)
-        if abs(g) <= 1e-13 or high - low <= 1e-14:
+        if abs(g) <= _ROUGH or high - low <= 1e-14:
             return theta
         if g < 0.0:
             ratio = 1.0 - g / g_high

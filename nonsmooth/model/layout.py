@@ -129,6 +129,7 @@ FLOAT_SCALARS = (
     "impact_seed",
     "last_event_t",
     "guard_slope",
+    "acceleration_scale",
 )
 
 _Size = Callable[[Mapping[str, int]], int]

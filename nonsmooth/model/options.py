@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import final
 
@@ -21,5 +20,5 @@ class Options(Component):
     velocity_tolerance: float = parameter(
         1e-9, doc="relative velocity that counts as zero", unit="m/s", above=0.0, maximum=1e-2
     )
-    largest_step: float = parameter(0.1, doc="largest step of the flow", unit="s", above=0.0, maximum=math.inf)
+    largest_step: float = parameter(0.1, doc="largest step of the flow", unit="s", above=0.0, maximum=1e9)
     steps_per_period: float = parameter(4.0, doc="least steps per time scale of a prescribed motion", minimum=1.0)

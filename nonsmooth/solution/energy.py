@@ -48,6 +48,11 @@ class EnergyAccount:
 
     @property
     def residual(self) -> float:
-        """What the account does not explain, relative to the energy exchanged."""
+        """What the account does not explain, relative to the energy exchanged.
+
+        Where next to none is, as in free tumbling or at rest, a millionth of the energy present takes its place.
+        """
         unexplained = abs(self.change - self.driven_work + self.loss)
-        return unexplained / self.exchanged if self.exchanged > 0.0 else unexplained
+        present = self.kinetic_start + self.kinetic_end + abs(self.potential_start) + abs(self.potential_end)
+        scale = max(self.exchanged, 1e-6 * present)
+        return unexplained / scale if scale > 0.0 else unexplained
