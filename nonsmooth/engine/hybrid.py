@@ -130,6 +130,21 @@ def _settle_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) 
 
 
 @kernel("i8(S, F, I)")
+def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return a contact whose slip has come next to rest in the step that ended and slows down, or -1.
+
+    So close to rest the direction of the slip is stiff, and what is left of it below the tolerance.
+    """
+    for c in range(S.n_contacts):
+        if k[S.mode + c] == SLIDE:
+            v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
+            speed = math.sqrt(v1 * v1 + v2 * v2)
+            if speed <= S.velocity_tolerance and speed < w[S.guard_first + 2 * c + 1]:
+                return c
+    return -1
+
+
+@kernel("i8(S, F, I)")
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
     if S.fresh == 0:
@@ -157,8 +172,12 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     high = first_crossing(S, w, k, h)
     if high == 0.0:
         _commit(S, w, k, h)
-        S.fresh = 1
-        return RUNNING
+        contact = _stopping(S, w, k)
+        if contact < 0:
+            S.fresh = 1
+            return RUNNING
+        S.fresh = 0
+        return _settle_event(S, w, k, SLIP_TO_STICK, contact)
     S.fresh = 0
     h = locate(S, w, k, h, high)
     cause = _cause(S, w, k)

@@ -11,7 +11,6 @@ from nonsmooth.engine.impact_rates import (
     COMPRESSION,
     EXPANSION,
     HELD,
-    REST,
     STRIDE,
     evaluate_impact_rates,
     normal_force,
@@ -49,7 +48,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     for a in range(S.n_active):
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         speed = math.sqrt(v1 * v1 + v2 * v2)
-        k[S.at_rest + a] = 1 if speed <= REST * S.speed_scale or k[S.tangent_held + a] == 1 else 0
+        k[S.at_rest + a] = 1 if speed <= S.rest_speed or k[S.tangent_held + a] == 1 else 0
         open_question = max(open_question, k[S.at_rest + a])
     if open_question == 1:
         _stop_slips(S, w, k)

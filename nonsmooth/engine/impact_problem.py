@@ -62,6 +62,7 @@ def _scale(S: Scalars, w: Floats, k: Integers) -> float:
     S.speed_scale = S.impact_seed
     for a in range(m):
         S.speed_scale = max(S.speed_scale, -w[S.impact_z0 + 3 * a])
+    S.rest_speed = max(REST, 10.0 * S.impact_rtol) * S.speed_scale
     shortest = _UNUSED
     for a in range(m):
         energy = S.speed_scale * S.speed_scale / w[S.delassus + 3 * a * width + 3 * a]
@@ -119,7 +120,7 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
                 v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
                 speed = math.sqrt(v1 * v1 + v2 * v2)
                 c = k[S.active + a]
-                if speed > REST * S.speed_scale:
+                if speed > S.rest_speed:
                     w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
                 else:
                     friction = 1
@@ -249,12 +250,31 @@ def _start(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         growth = 0.0
         for j in range(width):
             growth += w[S.delassus + 3 * a * width + j] * w[S.f + j]
-        if k[S.phase + a] == IDLE and growth < 0.0 and w[S.impact_z0 + 3 * a] <= REST * S.speed_scale:
+        if k[S.phase + a] == IDLE and growth < 0.0 and w[S.impact_z0 + 3 * a] <= S.rest_speed:
             k[S.phase + a] = COMPRESSION
             S.phases += 1
             pressed = 1
     if pressed == 1:
         choose_friction(S, w, k, probe)
+
+
+@kernel("i8(S, F, I)")
+def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if some slip has come next to rest in the step that ends and is still slowing down."""
+    width = 3 * S.n_active
+    for a in range(S.n_active):
+        if k[S.phase + a] == IDLE or k[S.tangent_held + a] == 1:
+            continue
+        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+        if v1 * v1 + v2 * v2 > S.rest_speed * S.rest_speed:
+            continue
+        power = 0.0
+        for j in range(width):
+            g = S.delassus + (3 * a + 1) * width + j
+            power += (v1 * w[g] + v2 * w[g + width]) * w[S.f + j]
+        if power < 0.0:
+            return 1
+    return 0
 
 
 @kernel("i8(S, F, I)")
@@ -348,7 +368,13 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
                 grown = _FAR * _impulse_scale(S, w, S.lone)
         for i in range(n):
             w[S.impact_y + i] = w[S.impact_new + i]
-        if fired == 1:
+        if fired == 0 and _stopping(S, w, k) == 1:
+            # close to rest the direction of the slip is stiff, and what is left of it below the tolerance
+            choose_friction(S, w, k, 1e-2 * shortest)
+            prepare_guards(S, w, k)
+            write_impact_slope(S, w, k, S.impact_slopes)
+            S.phases += 1
+        elif fired == 1:
             _switch(S, w, k, 1e-2 * shortest)
             if m > 1 and _change_clock(S, w, k) == 1:
                 grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)

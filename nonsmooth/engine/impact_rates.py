@@ -28,8 +28,8 @@ NOISE = 1e-12
 _STRAIGHT = 1e-13
 """Second differences of slopes below this, relative to the slopes, count as zero."""
 
-REST = 1e-8
-"""Slip velocities below this, relative to the impact speed, count as none."""
+REST = 1e-9
+"""Slip velocities below this, or ten times the tolerance, relative to the impact speed, count as none."""
 
 
 @kernel("f8(S, F, I, i8, f8)")
@@ -92,7 +92,7 @@ def _slide(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
     v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
     speed = math.sqrt(v1 * v1 + v2 * v2)
-    if speed > REST * S.speed_scale:
+    if speed > S.rest_speed:
         sign = 1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0
         d1, d2 = sign * v1 / speed, sign * v2 / speed
     mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))

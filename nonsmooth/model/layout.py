@@ -129,6 +129,7 @@ FLOAT_SCALARS = (
     "impact_seed",
     "last_event_t",
     "guard_slope",
+    "rest_speed",
     "acceleration_scale",
 )
 

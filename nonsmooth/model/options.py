@@ -18,7 +18,7 @@ class Options(Component):
     time_tolerance: float = parameter(1e-12, doc="accuracy of event times", unit="s", above=0.0, maximum=1e-3)
     gap_tolerance: float = parameter(1e-12, doc="gap that counts as closed", unit="m", above=0.0, maximum=1e-3)
     velocity_tolerance: float = parameter(
-        1e-9, doc="relative velocity that counts as zero", unit="m/s", above=0.0, maximum=1e-2
+        2e-8, doc="relative velocity that counts as zero", unit="m/s", above=0.0, maximum=1e-2
     )
     largest_step: float = parameter(0.1, doc="largest step of the flow", unit="s", above=0.0, maximum=1e9)
     steps_per_period: float = parameter(4.0, doc="least steps per time scale of a prescribed motion", minimum=1.0)
