@@ -131,10 +131,13 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
         else:
             high, g_high = 0.5 * high, g
     theta = high
+    theta_before, g_before = high, g_high
     for _iteration in range(60):
-        S.guard_slope = (g_high - g_low) / ((high - low) * h)
         theta = high - g_high * (high - low) / (g_high - g_low)
         g = _guard_at(S, w, k, h, theta, i)
+        if theta != theta_before:
+            S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
+        theta_before, g_before = theta, g
         if abs(g) <= _ROUGH or high - low <= 1e-14:
             return theta
         if g < 0.0:
@@ -166,7 +169,7 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             break
     i = S.trigger
     step = theta * h
-    for _iteration in range(4):
+    for _iteration in range(10):
         # the interpolant is of lower order than the step: correct on the step itself
         try_impact_step(S, w, k, step)
         S.impact_steps += 1

@@ -178,9 +178,12 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
         if low < 1e-4 * high:
             return low
     theta = high - g_high * (high - low) / (g_high - g_low)
+    theta_before, g_before = high, g_high
     for _iteration in range(100):
         g = _guard_at(S, w, k, h, theta, i, forces)
-        S.guard_slope = (g_high - g_low) / ((high - low) * h)
+        if theta != theta_before:
+            S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
+        theta_before, g_before = theta, g
         if k[S.mode + i // 2] == OPEN:
             S.guard_slope = w[S.gap_rate + i // 2]
             if k[S.guard_deflated + i] == 1:
@@ -222,7 +225,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         first = first_fired(S, w, k, closed, S.trigger)
     i = S.trigger
     step = theta * h
-    for _iteration in range(4):
+    for _iteration in range(10):
         try_step(S, w, k, step)
         write_guards(S, w, k, S.t + step, S.y_new, 1)
         value = w[S.guard + i]
