@@ -18,6 +18,7 @@ from nonsmooth.engine.modes import (
     OPEN,
     PAUSED,
     RUNNING,
+    SINGULAR_SLIDING,
     SLIDE,
     SLIP_TO_STICK,
     START,
@@ -147,6 +148,18 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("i8(S, F, I)")
+def _singular(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if the reduced normal coefficient of some sliding contact is next to zero."""
+    width = 3 * S.n_active
+    for a in range(S.n_active):
+        g = S.delassus + 3 * a * width + 3 * a
+        reduced = w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2])
+        if k[S.tangent_held + a] == 0 and reduced < 1e-3 * w[g]:
+            return 1
+    return 0
+
+
+@kernel("i8(S, F, I)")
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
     if S.fresh == 0:
@@ -167,6 +180,8 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
     status = _accepted_step(S, w, k)
+    if status == STEP_TOO_SMALL and _singular(S, w, k) == 1:
+        return SINGULAR_SLIDING
     if status != RUNNING:
         return status
     S.steps += 1

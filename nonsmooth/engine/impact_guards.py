@@ -31,6 +31,7 @@ _ROUGH = 1e-11
 """A root on the interpolant need not be better than this: it is corrected on the step itself."""
 _FAINT = 1e-4
 """Start values below this part of the end value are no help to the secant."""
+_CORRECTIONS = 8
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -169,21 +170,22 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             break
     i = S.trigger
     step = theta * h
-    for _iteration in range(10):
+    n = STRIDE * S.n_active
+    for iteration in range(_CORRECTIONS):
         # the interpolant is of lower order than the step: correct on the step itself
         try_impact_step(S, w, k, step)
         S.impact_steps += 1
         write_impact_guards(S, w, k, S.impact_new)
-        if not S.guard_slope < 0.0:
+        if not S.guard_slope < 0.0 or iteration == _CORRECTIONS - 1:
             break
         correction = min(0.2 * theta * h, max(-0.2 * theta * h, -w[S.impact_guard + i] / S.guard_slope))
-        step += correction
         if abs(correction) <= _SHORT * h:
             # so short a way is straight
-            n = STRIDE * S.n_active
             for j in range(n):
                 w[S.impact_new + j] += correction * w[S.impact_slopes + 6 * n + j]
+            step += correction
             break
+        step += correction
     evaluate_impact_guards(S, w, k, S.impact_new)
     return step
 
@@ -215,9 +217,9 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         # E + E' s + E'' s^2 / 2 = 0, with E'' = E' growth / rate
         energy, first = w[S.impact_y + STRIDE * a + 6], w[S.impact_slopes + STRIDE * a + 6]
         square = first * first - 2.0 * first * growth / w[rates] * energy
-        root = 2.0 * energy / (math.sqrt(max(0.0, square)) - first)
-        if 0.0 < root < shortest:
-            shortest, S.aimed = root, 3 * a + 1
+        speed = math.sqrt(max(0.0, square)) - first
+        if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:
+            shortest, S.aimed = 2.0 * energy / speed, 3 * a + 1
     if k[S.tangent_held + a] == 0 and slip > 0.0 and slip_growth < 0.0:
         root = -slip / slip_growth
         if root < shortest:

@@ -73,7 +73,7 @@ def _scale(S: Scalars, w: Floats, k: Integers) -> float:
             for _iteration in range(4):
                 force = call_scalar(k[S.force_function + c], x, at(w, k[S.force_parameters + c]))
                 double = call_scalar(k[S.force_function + c], 2.0 * x, at(w, k[S.force_parameters + c]))
-                if not (force > 0.0 and double > 0.0):
+                if not (force > 0.0 and double > 0.5001 * force):
                     S.culprit = c
                     return -1.0
                 x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))

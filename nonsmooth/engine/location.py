@@ -235,12 +235,14 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         elif k[S.guard_deflated + i] == 1:
             value /= step
         if not slope < 0.0:
-            break
+            return step
         correction = min(0.2 * theta * h, max(-0.2 * theta * h, -value / slope))
-        step += correction
         if abs(correction) <= _SHORT * h:
             # so short a way is straight
             for j in range(S.n_y):
                 w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
-            break
+            return step + correction
+        step += correction
+    try_step(S, w, k, step)
+    write_guards(S, w, k, S.t + step, S.y_new, 1)
     return step

@@ -21,6 +21,7 @@ CAUSES = (
 
 RUNNING, DONE, PAUSED = 0, 1, 2
 STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
+SINGULAR_SLIDING = 9
 """Status of the engine."""
 
 REASONS = {
@@ -31,6 +32,8 @@ REASONS = {
     IMPACT_ENDLESS: "an impact did not end within its steps",
     NO_CONTACT_SOLUTION: "the contact forces have no solution and the impact without collision did not help",
     SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
+    SINGULAR_SLIDING: "sliding ran into the Painleve singularity, where the normal force grows without bound; "
+    "passing it within the flow is not supported",
     EVENTS_ENDLESS: "events repeat without end within the time tolerance",
 }
 

@@ -258,6 +258,9 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
         set_up(S, w, k)
         if S.n_active > 0:
             if solve_contact(S, w, k) == 0:
+                for a in range(S.n_active):
+                    if not (w[S.mu + a] >= 0.0 and w[S.mu_static + a] >= 0.0):
+                        return NOT_FINITE
                 resting += 1
                 if resting > _PAINLEVE_ATTEMPTS:
                     return NO_CONTACT_SOLUTION
