@@ -43,6 +43,7 @@ FINISHED, ENDLESS, INVALID = 1, 2, 3
 
 _MOST_STEPS = 100000
 _LARGEST = 1e6
+_CIRCLING = 30.0
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
 _UNUSED = 1e300
@@ -62,7 +63,13 @@ def _scale(S: Scalars, w: Floats, k: Integers) -> float:
     S.speed_scale = S.impact_seed
     for a in range(m):
         S.speed_scale = max(S.speed_scale, -w[S.impact_z0 + 3 * a])
-    S.rest_speed = max(REST, 10.0 * S.impact_rtol) * S.speed_scale
+    # a slip that circles round zero does so within the tolerance of its impulse
+    slack = 1.0
+    for a in range(m):
+        normal = w[S.delassus + 3 * a * width + 3 * a]
+        for r in range(1, 3):
+            slack = max(slack, w[S.delassus + (3 * a + r) * width + 3 * a + r] / normal)
+    S.rest_speed = max(REST, _CIRCLING * slack * S.impact_rtol) * S.speed_scale
     shortest = _UNUSED
     for a in range(m):
         energy = S.speed_scale * S.speed_scale / w[S.delassus + 3 * a * width + 3 * a]

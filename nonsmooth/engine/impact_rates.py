@@ -29,7 +29,7 @@ _STRAIGHT = 1e-13
 """Second differences of slopes below this, relative to the slopes, count as zero."""
 
 REST = 1e-9
-"""Slip velocities below this, or ten times the tolerance, relative to the impact speed, count as none."""
+"""Slip velocities below this, relative to the impact speed, count as none; so do those within the tolerance."""
 
 
 @kernel("f8(S, F, I, i8, f8)")

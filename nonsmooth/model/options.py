@@ -13,7 +13,7 @@ from nonsmooth.parameters import Component, parameter
 class Options(Component):
     """Tolerances and limits; the defaults suit bodies from millimetres to metres."""
 
-    tolerance: float = parameter(3e-9, doc="relative error of a step of the flow", above=0.0, maximum=1e-2)
+    tolerance: float = parameter(1e-9, doc="relative error of a step of the flow", above=0.0, maximum=1e-2)
     impact_tolerance: float = parameter(1e-8, doc="relative error of a step inside an impact", above=0.0, maximum=1e-2)
     time_tolerance: float = parameter(1e-12, doc="accuracy of event times", unit="s", above=0.0, maximum=1e-3)
     gap_tolerance: float = parameter(1e-12, doc="gap that counts as closed", unit="m", above=0.0, maximum=1e-3)
