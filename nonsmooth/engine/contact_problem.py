@@ -144,6 +144,22 @@ def _enumerate(S: Scalars, w: Floats, k: Integers) -> int:
     return 0
 
 
+@kernel()
+def _search(S: Scalars, w: Floats, k: Integers) -> None:
+    """Find the modes by Gauss-Seidel from zero forces."""
+    for a in range(S.n_active):
+        k[S.normal_held + a] = 1
+        k[S.tangent_held + a] = 0
+        for i in range(3):
+            w[S.f + 3 * a + i] = 0.0
+    gauss_seidel(S, w, k)
+    for a in range(S.n_active):
+        if w[S.f + 3 * a] <= 0.0:
+            k[S.mode_tried + a] = OPEN
+        else:
+            k[S.mode_tried + a] = STICK if k[S.tangent_held + a] == 1 else SLIDE
+
+
 @room("i8(S, F, I)")
 def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     """Find modes and forces of the active contacts, ``mode_tried`` holding the past modes; return 1 if found.
@@ -157,17 +173,22 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
             k[S.mode_tried + a] = SLIDE
     if _verified(S, w, k) == 1:
         return 1
+    # where a contact has just broken away it must not stick again at the higher static bound
+    freed = 0
     for a in range(S.n_active):
-        k[S.normal_held + a] = 1
-        k[S.tangent_held + a] = 0
-        for i in range(3):
-            w[S.f + 3 * a + i] = 0.0
-    gauss_seidel(S, w, k)
-    for a in range(S.n_active):
-        if w[S.f + 3 * a] <= 0.0:
-            k[S.mode_tried + a] = OPEN
-        else:
-            k[S.mode_tried + a] = STICK if k[S.tangent_held + a] == 1 else SLIDE
+        k[S.freed + a] = 1 if k[S.at_rest + a] == 1 and k[S.mode_tried + a] == SLIDE else 0
+        freed += k[S.freed + a]
+    if freed > 0:
+        for a in range(S.n_active):
+            w[S.mu_kept + a] = w[S.mu_static + a]
+            if k[S.freed + a] == 1:
+                w[S.mu_static + a] = 0.0
+        _search(S, w, k)
+        for a in range(S.n_active):
+            w[S.mu_static + a] = w[S.mu_kept + a]
+        if _verified(S, w, k) == 1:
+            return 1
+    _search(S, w, k)
     if _verified(S, w, k) == 1:
         return 1
     return _enumerate(S, w, k)

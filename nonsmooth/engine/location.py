@@ -245,4 +245,4 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         step += correction
     try_step(S, w, k, step)
     write_guards(S, w, k, S.t + step, S.y_new, 1)
-    return step
+    return float(step)
