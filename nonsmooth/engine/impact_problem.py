@@ -44,6 +44,8 @@ FINISHED, ENDLESS, INVALID = 1, 2, 3
 _MOST_STEPS = 100000
 _LARGEST = 1e6
 _CIRCLING = 30.0
+_PATIENCE = 20
+"""Steps that a slip may take next to rest without slowing down."""
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
 _UNUSED = 1e300
@@ -267,8 +269,9 @@ def _start(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
 
 @kernel("i8(S, F, I)")
 def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if some slip has come next to rest in the step that ends and is still slowing down."""
+    """Return 1 if some slip has come next to rest and is still slowing down, or does not get away from there."""
     width = 3 * S.n_active
+    slow = 0
     for a in range(S.n_active):
         if k[S.phase + a] == IDLE or k[S.tangent_held + a] == 1:
             continue
@@ -279,9 +282,14 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
         for j in range(width):
             g = S.delassus + (3 * a + 1) * width + j
             power += (v1 * w[g] + v2 * w[g + width]) * w[S.f + j]
+        slow = 1
         if power < 0.0:
-            return 1
-    return 0
+            S.slow_steps = _PATIENCE
+    S.slow_steps = S.slow_steps + 1 if slow == 1 else 0
+    if S.slow_steps <= _PATIENCE:
+        return 0
+    S.slow_steps = 0
+    return 1
 
 
 @kernel("i8(S, F, I)")
@@ -329,6 +337,7 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
     S.lone = 0 if m == 1 else -1
     S.may_be_lone = 1
     S.truncated = 0
+    S.slow_steps = 0
     shortest = _scale(S, w, k)
     if not shortest > 0.0:
         return INVALID

@@ -241,7 +241,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             # so short a way is straight
             for j in range(S.n_y):
                 w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
-            return step + correction
+            return float(step + correction)
         step += correction
     try_step(S, w, k, step)
     write_guards(S, w, k, S.t + step, S.y_new, 1)

@@ -99,6 +99,7 @@ INTEGER_SCALARS = (
     "may_be_lone",
     "phases_kept",
     "truncated",
+    "slow_steps",
     "fresh",
     "suspect",
     "repeated",
