@@ -273,7 +273,7 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
     width = 3 * S.n_active
     slow = 0
     for a in range(S.n_active):
-        if k[S.phase + a] == IDLE or k[S.tangent_held + a] == 1:
+        if k[S.phase + a] == IDLE or k[S.tangent_held + a] == 1 or w[S.mu + a] == 0.0:
             continue
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         if v1 * v1 + v2 * v2 > S.rest_speed * S.rest_speed:
