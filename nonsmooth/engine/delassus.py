@@ -54,12 +54,6 @@ def add_response(S: Scalars, w: Floats, k: Integers, f: int, du: int) -> None:
                     w[start + j] += w[response + r * n_u + j] * force
 
 
-@kernel("f8(S, F, I, i8, i8)")
-def along(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> float:
-    """Return W^T du of contact ``c``: the normal acceleration or rate that ``du`` alone gives."""
-    return row(S, w, k, c, 0, du)
-
-
 @kernel("f8(S, F, I, i8, i8, i8)")
 def row(S: Scalars, w: Floats, k: Integers, c: int, r: int, du: int) -> float:
     """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""

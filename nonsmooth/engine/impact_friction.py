@@ -15,7 +15,7 @@ from nonsmooth.engine.impact_rates import (
     evaluate_impact_rates,
     normal_force,
 )
-from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 
 
 @kernel()
@@ -37,7 +37,7 @@ def _stop_slips(S: Scalars, w: Floats, k: Integers) -> None:
     evaluate_impact_rates(S, w, k, S.impact_y)
 
 
-@kernel("void(S, F, I, f8)")
+@room("void(S, F, I, f8)")
 def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     """Decide which contacts at rest stick and which way the others start to slide.
 

@@ -20,7 +20,7 @@ from nonsmooth.engine.impact_rates import (
     evaluate_impact_forces,
     try_impact_step,
 )
-from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import dense_state
 
 TOGETHER = 1e-13
@@ -152,7 +152,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
     return theta
 
 
-@kernel("f8(S, F, I, f8)")
+@room("f8(S, F, I, f8)")
 def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return the step that ends at the first guard to fire within ``h``; keep the guard in ``trigger``.
 

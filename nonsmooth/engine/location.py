@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.flow import try_step
 from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, keep_end, write_guards
-from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import dense_state
 
@@ -114,7 +114,7 @@ def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return 0.0
 
 
-@kernel("f8(S, F, I, f8)")
+@room("f8(S, F, I, f8)")
 def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
 
@@ -207,7 +207,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     return theta
 
 
-@kernel("f8(S, F, I, f8, f8)")
+@room("f8(S, F, I, f8, f8)")
 def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 

@@ -154,7 +154,7 @@ def room_addresses() -> tuple[int, ...]:
     importlib.import_module("nonsmooth.engine.hybrid")
     marker = cache_folder() / "complete"
     if not marker.exists():
-        print("compiling the engine once for this machine (about 20 s) ...", file=sys.stderr, flush=True)
+        print("compiling the engine once for this machine (about 30 s) ...", file=sys.stderr, flush=True)
         for inner, typed in _pending:
             inner.compile(typed)
     addresses = []

@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.contact_problem import accelerate, friction_coefficient, set_up, solve_contact
 from nonsmooth.engine.delassus import add_response, assemble_delassus, row
-from nonsmooth.engine.impact_problem import FINISHED, energetic_impact
+from nonsmooth.engine.impact_problem import ENDLESS, FINISHED, energetic_impact
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import (
@@ -117,7 +117,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     else:
         outcome = energetic_impact(S, w, k)
         if outcome != FINISHED:
-            return IMPACT_ENDLESS if outcome == 2 else NOT_FINITE
+            return IMPACT_ENDLESS if outcome == ENDLESS else NOT_FINITE
     S.impacts += 1
     add_response(S, w, k, S.impulse, S.y + S.n_q)
     driven = restitution = friction = 0.0

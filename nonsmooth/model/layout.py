@@ -64,6 +64,10 @@ ROOMS = (
     "touch",
     "project_rates",
     "set_up",
+    "first_crossing",
+    "locate",
+    "choose_friction",
+    "locate_switch",
 )
 """Engine functions that are compiled apart and called by address (:func:`nonsmooth.engine.kernel.room`)."""
 
