@@ -65,6 +65,7 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         error = try_step(S, w, k, h)
         if error <= 1.0:
             S.h = h
+            S.step_error = error
             if closed == 1:
                 S.h_closed = h * step_factor(error)
             else:

@@ -17,6 +17,7 @@ from nonsmooth.engine.impact_rates import (
     IDLE,
     NOISE,
     STRIDE,
+    efficiency,
     evaluate_impact_forces,
     try_impact_step,
 )
@@ -213,10 +214,10 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         root = -w[rates] / growth
         if 0.0 < root < shortest:
             shortest, S.aimed = root, 3 * a
-    if k[S.phase + a] == EXPANSION and w[rates] > 0.0:
-        # E + E' s + E'' s^2 / 2 = 0, with E'' = E' growth / rate
+    if k[S.phase + a] == EXPANSION and growth > 0.0:
+        # E + E' s + E'' s^2 / 2 = 0, with E' = -rate / efficiency
         energy, first = w[S.impact_y + STRIDE * a + 6], w[S.impact_slopes + STRIDE * a + 6]
-        square = first * first - 2.0 * first * growth / w[rates] * energy
+        square = first * first + 2.0 * growth / efficiency(S, w, k, a, max(w[rates], 1e-300)) * energy
         speed = math.sqrt(max(0.0, square)) - first
         if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:
             shortest, S.aimed = 2.0 * energy / speed, 3 * a + 1

@@ -17,6 +17,8 @@ _NEAR = 0.2
 """A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
 _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
+_NEGLIGIBLE = 0.01
+"""A step whose error is below this part of the tolerance is interpolated within it."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -211,7 +213,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
 def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 
-    The root on the interpolant is corrected on the step itself, whose order is higher.
+    Where the tolerance limits the step, the root on the interpolant is corrected on the step itself, whose order is higher.
     """
     closed = _any_closed(S, w, k)
     first = first_fired(S, w, k, 1, -1)
@@ -225,7 +227,11 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         first = first_fired(S, w, k, closed, S.trigger)
     i = S.trigger
     step = theta * h
+    if S.step_error <= _NEGLIGIBLE:
+        dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
+        return step
     for _iteration in range(10):
+        S.h = step
         try_step(S, w, k, step)
         write_guards(S, w, k, S.t + step, S.y_new, 1)
         value = w[S.guard + i]
@@ -243,6 +249,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
                 w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
             return float(step + correction)
         step += correction
+    S.h = step
     try_step(S, w, k, step)
     write_guards(S, w, k, S.t + step, S.y_new, 1)
     return float(step)

@@ -22,7 +22,8 @@ from numba import types
 from numba.core.caching import CacheImpl, _CacheLocator
 from numba.extending import intrinsic
 
-from nonsmooth.model.layout import ROOMS, SCALARS, Memory
+from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
+from nonsmooth.model.layout import ROOMS, Memory
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _OPTIONS: dict[str, Any] = {
@@ -33,13 +34,10 @@ _OPTIONS: dict[str, Any] = {
     "no_cfunc_wrapper": True,
 }
 
-_SCALARS = numba.from_dtype(SCALARS)
-_FLOATS = types.CPointer(types.float64)
-_INTEGERS = types.CPointer(types.int64)
 _TYPES = {
-    "S": _SCALARS,
-    "F": _FLOATS,
-    "I": _INTEGERS,
+    "S": TABLE,
+    "F": FLOATS,
+    "I": INTEGERS,
     "f8": types.float64,
     "i8": types.int64,
     "void": types.void,
@@ -204,32 +202,32 @@ def _caller(result: Any, arguments: tuple[Any, ...]) -> Any:
 @intrinsic
 def call_scalar(typingctx: Any, address: Any, x: Any, p: Any) -> Any:
     """Call ``float law(float, parameters)`` at an address."""
-    return _caller(types.float64, (types.float64, _FLOATS))
+    return _caller(types.float64, (types.float64, FLOATS))
 
 
 @intrinsic
 def call_body(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any, out: Any) -> Any:
     """Call ``void body(t, q, u, parameters, out)`` at an address."""
-    return _caller(types.void, (types.float64, _FLOATS, _FLOATS, _FLOATS, _FLOATS))
+    return _caller(types.void, (types.float64, FLOATS, FLOATS, FLOATS, FLOATS))
 
 
 @intrinsic
 def call_pair(typingctx: Any, address: Any, a: Any, b: Any, p: Any, out: Any) -> Any:
     """Call ``void geometry(frame_a, frame_b, parameters, out)`` at an address."""
-    return _caller(types.void, (_FLOATS, _FLOATS, _FLOATS, _FLOATS))
+    return _caller(types.void, (FLOATS, FLOATS, FLOATS, FLOATS))
 
 
 @intrinsic
 def call_map(typingctx: Any, address: Any, n: Any, g: Any, z: Any, p: Any, out: Any) -> Any:
     """Call ``void impact(n, delassus, rates, parameters, impulses)`` at an address."""
-    return _caller(types.void, (types.int64, _FLOATS, _FLOATS, _FLOATS, _FLOATS))
+    return _caller(types.void, (types.int64, FLOATS, FLOATS, FLOATS, FLOATS))
 
 
 _C_SIGNATURES = {
-    "scalar": types.float64(types.float64, _FLOATS),
-    "body": types.void(types.float64, _FLOATS, _FLOATS, _FLOATS, _FLOATS),
-    "pair": types.void(_FLOATS, _FLOATS, _FLOATS, _FLOATS),
-    "map": types.void(types.int64, _FLOATS, _FLOATS, _FLOATS, _FLOATS),
+    "scalar": types.float64(types.float64, FLOATS),
+    "body": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
+    "pair": types.void(FLOATS, FLOATS, FLOATS, FLOATS),
+    "map": types.void(types.int64, FLOATS, FLOATS, FLOATS, FLOATS),
 }
 
 

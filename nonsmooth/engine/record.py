@@ -96,13 +96,13 @@ def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("void(S, F, I, f8)")
 def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
-    """Append the samples that fall into the step of ``h`` from ``t``."""
+    """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
     width = S.n_y + 1
     while S.next_sample <= S.t + h and S.n_samples < S.sample_capacity:
         row = S.samples + S.n_samples * width
         w[row] = S.next_sample
-        theta = (S.next_sample - S.t) / h
-        dense_state(S, w, S.y, S.slopes, S.n_y, h, min(1.0, max(0.0, theta)), row + 1)
+        theta = (S.next_sample - S.t) / S.h
+        dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), row + 1)
         S.n_samples += 1
         S.sample_index += 1
         S.next_sample = S.sample_index * S.sample_interval

@@ -114,6 +114,7 @@ FLOAT_SCALARS = (
     "t",
     "t_end",
     "h",
+    "step_error",
     "h_max",
     "h_free",
     "h_first",
@@ -270,6 +271,19 @@ SCALARS = np.dtype(
     align=True,
 )
 """The record ``S``."""
+_COUNTS = (
+    "n_bodies",
+    "n_contacts",
+    "n_q",
+    "n_u",
+    "n_y",
+    "map_width",
+    "event_capacity",
+    "event_width",
+    "sample_capacity",
+)
+CONSTANT_SCALARS = frozenset((*_COUNTS, *_FLOAT_ARRAYS, *_INTEGER_ARRAYS))
+"""What never changes once the memory is laid out."""
 
 
 @dataclass(frozen=True)
