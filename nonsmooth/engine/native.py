@@ -11,7 +11,7 @@ import inspect
 import os
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core.caching import CacheImpl, _CacheLocator
+from numba.core.codegen import CPUCodeLibrary
 from numba.extending import intrinsic
 
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
@@ -146,6 +147,17 @@ def _room_caller(signature: Any) -> Any:
     return intrinsic(scope["typed"])
 
 
+@contextlib.contextmanager
+def _raw() -> Iterator[None]:
+    """Leave what is compiled inside as it is: the rooms that take it in optimise it once, not every caller anew."""
+    optimise = CPUCodeLibrary._optimize_final_module
+    CPUCodeLibrary._optimize_final_module = lambda library: None
+    try:
+        yield
+    finally:
+        CPUCodeLibrary._optimize_final_module = optimise
+
+
 @functools.cache
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
@@ -153,8 +165,9 @@ def room_addresses() -> tuple[int, ...]:
     marker = cache_folder() / "complete"
     if not marker.exists():
         print("compiling the engine once for this machine (about 30 s) ...", file=sys.stderr, flush=True)
-        for inner, typed in _pending:
-            inner.compile(typed)
+        with _raw():
+            for inner, typed in _pending:
+                inner.compile(typed)
     addresses = []
     for name in ROOMS:
         function, signature = _rooms[name]
