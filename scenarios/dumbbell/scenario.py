@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bodies import Dumbbell, Harmonic, Plate
 from laws import Coulomb, Unilateral
+from laws.impact.hertz import closing_time, plane_strain_modulus
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ImpactLaw, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
@@ -97,13 +98,18 @@ class DumbbellScenario(Scenario):
     height: float = parameter(
         0.0, doc="gap between ball 1 and the plate at t = 0", unit="m", minimum=0.0, usual=(1e-7, 10.0)
     )
-    contact_time: float = parameter(
-        2e-5,
-        doc="contact time T_c of the accumulation rule (33)",
+    young_modulus: float = parameter(
+        210e9, doc="Young's modulus E of balls and plate", unit="Pa", above=0.0, usual=(1e5, 2e12), assumed=True
+    )
+    poisson_ratio: float = parameter(
+        0.3, doc="Poisson's ratio nu of balls and plate", minimum=0.0, maximum=0.5, assumed=True
+    )
+    contact_time: float | None = parameter(
+        None,
+        doc="contact time T_c of the accumulation rule (33), by default that of Hertz",
         unit="s",
         minimum=0.0,
         usual=(1e-12, 1e-2),
-        assumed=True,
     )
     impact: str = parameter("energetic", doc="impact law, by its installed name", unit="")
 
@@ -129,6 +135,7 @@ class DumbbellScenario(Scenario):
     def resolved(self) -> Mapping[str, Any]:
         """Return all parameters with the values that the run uses."""
         left_out = defaults(self.mode, self.frequency, self.friction)
+        left_out["contact_time"] = self._hertz_time(self.aspect_ratio or left_out["aspect_ratio"])
         given = {name: getattr(self, name) for name in rules(type(self))}
         return {name: left_out[name] if value is None else value for name, value in given.items()}
 
@@ -184,11 +191,22 @@ class DumbbellScenario(Scenario):
         return system
 
     def _dumbbell(self) -> Dumbbell:
-        used = self.resolved()
-        return Dumbbell(self.radius, used["aspect_ratio"], self.density, self.rod_mass_fraction)
+        return self._dumbbell_of(self.resolved()["aspect_ratio"])
+
+    def _dumbbell_of(self, aspect_ratio: float) -> Dumbbell:
+        return Dumbbell(self.radius, aspect_ratio, self.density, self.rod_mass_fraction)
+
+    def _hertz_time(self, aspect_ratio: float) -> float:
+        """Return the duration of the slightest impact of a ball on the plate under gravity, the dumbbell being level."""
+        dumbbell = self._quietly(lambda: self._dumbbell_of(aspect_ratio))
+        arm, across = dumbbell.centre_distance / 2.0, dumbbell.inertia[1]
+        mass = 1.0 / (1.0 / dumbbell.total_mass + arm**2 / across)
+        modulus = plane_strain_modulus(self.young_modulus, self.poisson_ratio)
+        return closing_time(mass, self.radius, modulus, GRAVITY)
 
     def _impact_law(self) -> ImpactLaw:
-        offered = {"restitution": self.resolved()["restitution"], "duration": self.contact_time}
+        used = self.resolved()
+        offered = {"restitution": used["restitution"], "duration": used["contact_time"]}
         return impact_law(self.impact, offered, {"restitution"} if self.restitution is not None else set())
 
     def _quietly(self, make: Callable[[], Part]) -> Part:
