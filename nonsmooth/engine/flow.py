@@ -10,7 +10,7 @@ from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact, evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.modes import OPEN, STICK
-from nonsmooth.engine.runge_kutta import component_error, stage_state
+from nonsmooth.engine.runge_kutta import step_errors, stage_state
 from nonsmooth.model.layout import FRAME
 
 
@@ -115,10 +115,11 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         for j in range(stage):
             node += w[S.stages + 6 * stage + j]
         slope(S, w, k, S.t + node * h, out, S.slopes + stage * n)
+    step_errors(S, w, S.slopes, n, h, S.y_stage)
     worst = 0.0
     for i in range(S.n_q + S.n_u):
         scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
-        error = component_error(S, w, S.slopes, n, h, i) / (S.rtol * scale)
+        error = abs(w[S.y_stage + i]) / (S.rtol * scale)
         if not error <= worst:
             worst = error
     return worst

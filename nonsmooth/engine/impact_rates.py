@@ -14,7 +14,7 @@ import math
 from nonsmooth.engine.contact_problem import friction_coefficient
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
-from nonsmooth.engine.runge_kutta import component_error, stage_state
+from nonsmooth.engine.runge_kutta import step_errors, stage_state
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
@@ -57,11 +57,10 @@ def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     for i in range(width):
         w[S.impact_z + i] = w[S.impact_z0 + i]
     for a in range(S.n_active):
-        for r in range(3):
-            p = w[y + STRIDE * a + r]
-            if p != 0.0:
-                for i in range(width):
-                    w[S.impact_z + i] += w[S.delassus + i * width + 3 * a + r] * p
+        p0, p1, p2 = w[y + STRIDE * a], w[y + STRIDE * a + 1], w[y + STRIDE * a + 2]
+        for i in range(width):
+            g = S.delassus + i * width + 3 * a
+            w[S.impact_z + i] += w[g] * p0 + w[g + 1] * p1 + w[g + 2] * p2
 
 
 @room("void(S, F, I, i8)")
@@ -138,11 +137,12 @@ def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         out = S.impact_new if stage == 6 else S.impact_stage
         stage_state(S, w, S.impact_y, S.impact_slopes, n, stage, h, out)
         impact_slope(S, w, k, out, S.impact_slopes + stage * n)
+    step_errors(S, w, S.impact_slopes, n, h, S.impact_stage)
     worst = 0.0
     for a in range(S.n_active):
         impulse_scale = S.speed_scale / w[S.delassus + 3 * a * 3 * S.n_active + 3 * a]
         for r in range(STRIDE):
-            error = component_error(S, w, S.impact_slopes, n, h, STRIDE * a + r)
+            error = abs(w[S.impact_stage + STRIDE * a + r])
             if r == 3:
                 error /= w[S.impact_x_scale + a]
             elif r > 3:

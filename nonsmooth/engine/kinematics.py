@@ -22,13 +22,16 @@ def evaluate_body(S: Scalars, w: Floats, k: Integers, t: float, y: int, body: in
 @kernel("void(S, F, I, f8, i8)")
 def evaluate_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let every body write its output block at time ``t`` and the state at offset ``y``."""
-    for body in range(S.n_bodies):
-        evaluate_body(S, w, k, t, y, body)
+    evaluate_driven_bodies(S, w, k, t, y)
+    evaluate_free_bodies(S, w, k, t, y)
 
 
 @kernel("void(S, F, I, f8, i8)")
 def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
-    """Let the bodies without coordinates write their output blocks."""
+    """Let the bodies without coordinates write their output blocks, unless they stand there already."""
+    if t == S.driven_t:
+        return
+    S.driven_t = t
     for body in range(S.n_bodies):
         if k[S.body_nu + body] == 0:
             evaluate_body(S, w, k, t, y, body)
@@ -61,26 +64,21 @@ def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     w[n + 8] = w[n] * w[t + 1] - w[n + 1] * w[t]
 
 
-@kernel("f8(F, i8, i8, i8)")
-def _point_speed(w: Floats, frame: int, point: int, axis: int) -> float:
-    """Return the velocity of the body point at ``point`` along ``axis`` [m/s]."""
-    x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
-    ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
-    return (
-        w[axis] * (w[frame + 12] + oy * z - oz * y)
-        + w[axis + 1] * (w[frame + 13] + oz * x - ox * z)
-        + w[axis + 2] * (w[frame + 14] + ox * y - oy * x)
-    )
-
-
 @kernel("void(S, F, I, i8)")
 def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
-    point = S.geometry + GEOMETRY * c + 7
-    a, b = k[S.body_out + k[S.body_a + c]], k[S.body_out + k[S.body_b + c]]
+    vx = vy = vz = 0.0
+    for side in range(2):
+        frame = k[S.body_out + (k[S.body_a + c] if side == 0 else k[S.body_b + c])]
+        point = S.geometry + GEOMETRY * c + 7 + 3 * side
+        x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
+        ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
+        vx = w[frame + 12] + oy * z - oz * y - vx
+        vy = w[frame + 13] + oz * x - ox * z - vy
+        vz = w[frame + 14] + ox * y - oy * x - vz
     for r in range(3):
         axis = S.axes + 9 * c + 3 * r
-        w[S.rate + 3 * c + r] = _point_speed(w, b, point + 3, axis) - _point_speed(w, a, point, axis)
+        w[S.rate + 3 * c + r] = w[axis] * vx + w[axis + 1] * vy + w[axis + 2] * vz
 
 
 @kernel("void(F, i8, i8, i8, i8, i8, f8)")
@@ -145,21 +143,6 @@ def evaluate_jacobian(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> Non
         w[S.prescribed_rate + 3 * c + r] = w[S.rate + 3 * c + r] - own
 
 
-@kernel("f8(F, i8, i8, i8, f8, f8, f8)")
-def _point_bias(w: Floats, frame: int, point: int, axis: int, sx: float, sy: float, sz: float) -> float:
-    """Return the acceleration along ``axis`` of a witness that slides at (sx, sy, sz) over its body, u' = 0."""
-    x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
-    ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
-    bx, by, bz = w[frame + 21], w[frame + 22], w[frame + 23]
-    # the witness point's velocity relative to the frame origin, as the turning body carries it
-    vx, vy, vz = oy * z - oz * y + sx, oz * x - ox * z + sy, ox * y - oy * x + sz
-    return (
-        w[axis] * (w[frame + 18] + by * z - bz * y + oy * vz - oz * vy)
-        + w[axis + 1] * (w[frame + 19] + bz * x - bx * z + oz * vx - ox * vz)
-        + w[axis + 2] * (w[frame + 20] + bx * y - by * x + ox * vy - oy * vx)
-    )
-
-
 @kernel("void(S, F, I, i8, i8)")
 def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None:
     """Write S_N and S_T of Eq. (13) with the prescribed accelerations: g'' and v' of contact ``c`` while u' = 0.
@@ -200,26 +183,24 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     u1, u2 = w[turn_a] * x1 + w[turn_a + 1] * x2, w[turn_a + 2] * x1 + w[turn_a + 3] * x2
     nu1, nu2 = w[slide_a] * x1 + w[slide_a + 1] * x2, w[slide_a + 2] * x1 + w[slide_a + 3] * x2
     w1, w2 = u1 + gap * nu1 - d1, u2 + gap * nu2 - d2
-    point = geometry + 7
+    # the witness points' accelerations, second minus first, as the turning bodies carry the sliding points
+    ax = ay = az = 0.0
+    for side in range(2):
+        frame = a if side == 0 else b
+        s1, s2 = (u1, u2) if side == 0 else (w1, w2)
+        point = geometry + 7 + 3 * side
+        x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
+        ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
+        bx, by, bz = w[frame + 21], w[frame + 22], w[frame + 23]
+        vx = oy * z - oz * y + s1 * w[t1] + s2 * w[t2]
+        vy = oz * x - ox * z + s1 * w[t1 + 1] + s2 * w[t2 + 1]
+        vz = ox * y - oy * x + s1 * w[t1 + 2] + s2 * w[t2 + 2]
+        ax = w[frame + 18] + by * z - bz * y + oy * vz - oz * vy - ax
+        ay = w[frame + 19] + bz * x - bx * z + oz * vx - ox * vz - ay
+        az = w[frame + 20] + bx * y - by * x + ox * vy - oy * vx - az
     for r in range(rows):
-        axis = S.axes + 9 * c + 3 * r
-        w[S.bias + 3 * c + r] = _point_bias(
-            w,
-            b,
-            point + 3,
-            axis,
-            w1 * w[t1] + w2 * w[t2],
-            w1 * w[t1 + 1] + w2 * w[t2 + 1],
-            w1 * w[t1 + 2] + w2 * w[t2 + 2],
-        ) - _point_bias(
-            w,
-            a,
-            point,
-            axis,
-            u1 * w[t1] + u2 * w[t2],
-            u1 * w[t1 + 1] + u2 * w[t2 + 1],
-            u1 * w[t1 + 2] + u2 * w[t2 + 2],
-        )
+        axis = n + 3 * r
+        w[S.bias + 3 * c + r] = w[axis] * ax + w[axis + 1] * ay + w[axis + 2] * az
     # the axes themselves turn: n' = omega_A x n + nu, and the tangents spin about n with the first body
     n1, n2 = turn_a1 + nu1, turn_a2 + nu2
     spin = w[a + 15] * w[n] + w[a + 16] * w[n + 1] + w[a + 17] * w[n + 2]

@@ -11,12 +11,12 @@ _EXPONENT = -0.2
 @kernel("void(S, F, i8, i8, i8, i8, f8, i8)")
 def stage_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, stage: int, h: float, out: int) -> None:
     """Write the state at which the slope of ``stage`` is evaluated."""
-    weights = S.stages + 6 * stage
     for i in range(n):
-        total = 0.0
-        for j in range(stage):
-            total += w[weights + j] * w[slopes + j * n + i]
-        w[out + i] = w[start + i] + h * total
+        w[out + i] = w[start + i]
+    for j in range(stage):
+        weight = h * w[S.stages + 6 * stage + j]
+        for i in range(n):
+            w[out + i] += weight * w[slopes + j * n + i]
 
 
 @kernel("void(S, F, i8, i8, i8, f8, f8, i8)")
@@ -32,13 +32,15 @@ def dense_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, h: float
                 w[out + i] += weight * w[slopes + j * n + i]
 
 
-@kernel("f8(S, F, i8, i8, f8, i8)")
-def component_error(S: Scalars, w: Floats, slopes: int, n: int, h: float, i: int) -> float:
-    """Return the estimated error of component ``i`` of the step."""
-    total = 0.0
+@kernel("void(S, F, i8, i8, f8, i8)")
+def step_errors(S: Scalars, w: Floats, slopes: int, n: int, h: float, out: int) -> None:
+    """Write the estimated errors of the components of the step."""
+    for i in range(n):
+        w[out + i] = 0.0
     for j in range(7):
-        total += w[S.error_weights + j] * w[slopes + j * n + i]
-    return abs(h * total)
+        weight = h * w[S.error_weights + j]
+        for i in range(n):
+            w[out + i] += weight * w[slopes + j * n + i]
 
 
 @kernel("f8(f8)")

@@ -113,6 +113,7 @@ INTEGER_SCALARS = (
 FLOAT_SCALARS = (
     "t",
     "t_end",
+    "driven_t",
     "h",
     "step_error",
     "h_max",
