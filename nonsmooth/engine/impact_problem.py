@@ -49,6 +49,10 @@ _PATIENCE = 20
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
 _UNUSED = 1e300
+_SHARE = 0.7
+"""The most of its deformation that a contact loses in one step of its expansion,"""
+_LAST = 2.0
+"""down to this deformation, in units of that after the first step of a compression."""
 _AT_EVENT = 4.0 * NOISE
 """A guard this near zero at the end of a step that was aimed at it has fired."""
 _FAR = 4.0
@@ -350,8 +354,7 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
             _finish(S, w, k)
             return FINISHED
         S.aimed = -1
-        if S.lone >= 0:
-            h = aim(S, w, k, h)
+        h = aim(S, w, k, h) if S.lone >= 0 else _graded(S, w, k, h)
         linear = 0
         error = 0.0
         if S.aimed >= 0:
@@ -403,6 +406,17 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
                 w[S.impact_slopes + i] = w[S.impact_slopes + 6 * n + i]
         h = min(grown, _LARGEST * shortest)
     return ENDLESS
+
+
+@kernel("f8(S, F, I, f8)")
+def _graded(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Shorten the step towards the end of an expansion, where the force law is not smooth, geometrically."""
+    small = _LAST * S.impact_rtol**0.4
+    for a in range(S.n_active):
+        x, rate = w[S.impact_y + STRIDE * a + 3], w[S.impact_slopes + STRIDE * a + 3]
+        if k[S.phase + a] == EXPANSION and x > small * w[S.impact_x_scale + a] and h * rate < -_SHARE * x:
+            h = -_SHARE * x / rate
+    return h
 
 
 @kernel("void(S, F, I)")

@@ -19,8 +19,8 @@ from nonsmooth.engine.runge_kutta import step_errors, stage_state
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
 
-STRIDE = 7
-"""Floats of one contact in the state of an impact."""
+STRIDE = 8
+"""Floats of one contact in the state of an impact; one more than it has, to fill vector registers."""
 
 NOISE = 1e-12
 """Rates below this, relative to the impact speed, do not switch a phase."""
