@@ -130,7 +130,7 @@ class FreeBody(Body):
 
     @property
     def scales(self) -> tuple[Vector, Vector]:
-        """Lengths of the shapes and the speeds of a fall through them."""
+        """The length of the body and the speed of a fall through it."""
         length = max(shape.length for shape in self.shapes)
         speed = math.sqrt(9.81 * length)
         return np.array([length] * 3 + [1.0] * 4), np.array([speed] * 3 + [speed / length] * 3)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import final
 
@@ -21,5 +22,5 @@ class Sphere(Shape):
 
     @property
     def length(self) -> float:
-        """The radius [m]."""
-        return self.radius
+        """The radius and the distance of the centre [m]."""
+        return self.radius + math.hypot(self.x, self.y, self.z)

@@ -19,4 +19,4 @@ class Shape(Component, ABC):
     @property
     @abstractmethod
     def length(self) -> float:
-        """Characteristic length [m]; 0 for an unbounded shape."""
+        """Distance of the farthest point from the origin of the body frame [m]; 0 for an unbounded shape."""
