@@ -198,6 +198,9 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         return _settle_event(S, w, k, SLIP_TO_STICK, contact)
     S.fresh = 0
     h = locate(S, w, k, h, high)
+    if h < 0.0:
+        S.h_closed = 0.25 * S.h
+        return RUNNING
     cause = _cause(S, w, k)
     contact = S.trigger // 2
     if cause == STICK_TO_SLIP:

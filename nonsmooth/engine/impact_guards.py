@@ -155,8 +155,9 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
 
 @room("f8(S, F, I, f8)")
 def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Return the step that ends at the first guard to fire within ``h``; keep the guard in ``trigger``.
+    """Step to the first guard to fire within ``h``, kept in ``trigger``; return the error of that step.
 
+    The error is that of a part of an accepted step, unless the motion is not as smooth as it seemed.
     Called with the guards evaluated at the end of the step.
     """
     theta = 1.0
@@ -172,9 +173,10 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     i = S.trigger
     step = theta * h
     n = STRIDE * S.n_active
+    error = 0.0
     for iteration in range(_CORRECTIONS):
         # the interpolant is of lower order than the step: correct on the step itself
-        try_impact_step(S, w, k, step)
+        error = try_impact_step(S, w, k, step)
         S.impact_steps += 1
         write_impact_guards(S, w, k, S.impact_new)
         if not S.guard_slope < 0.0 or iteration == _CORRECTIONS - 1:
@@ -184,11 +186,10 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             # so short a way is straight
             for j in range(n):
                 w[S.impact_new + j] += correction * w[S.impact_slopes + 6 * n + j]
-            step += correction
             break
         step += correction
     evaluate_impact_guards(S, w, k, S.impact_new)
-    return step
+    return error
 
 
 @kernel("f8(S, F, I, f8)")

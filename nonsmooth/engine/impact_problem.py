@@ -49,6 +49,8 @@ _PATIENCE = 20
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
 _UNUSED = 1e300
+_TRUSTED = 2.0
+"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 _SHARE = 0.7
 """The most of its deformation that a contact loses in one step of its expansion,"""
 _LAST = 2.0
@@ -380,7 +382,9 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
                 # locating takes the interpolant of the full step
                 try_impact_step(S, w, k, h)
                 write_impact_guards(S, w, k, S.impact_new)
-            locate_switch(S, w, k, h)
+            if not locate_switch(S, w, k, h) <= _TRUSTED:
+                h *= 0.25
+                continue
         if fired == 1:
             grown = max(h, shortest * S.impact_rtol**0.4)
             if S.lone >= 0:
@@ -401,11 +405,24 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
                 _cut_short(S, w, k)
             write_impact_slope(S, w, k, S.impact_slopes)
         else:
+            _orient(S, w, k)
             arm_impact_guards(S, w, k)
             for i in range(n):
                 w[S.impact_slopes + i] = w[S.impact_slopes + 6 * n + i]
         h = min(grown, _LARGEST * shortest)
     return ENDLESS
+
+
+@kernel("void(S, F, I)")
+def _orient(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take the present slip directions as those of the step that begins."""
+    for a in range(S.n_active):
+        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+        speed = math.sqrt(v1 * v1 + v2 * v2)
+        if k[S.phase + a] != IDLE and k[S.tangent_held + a] == 0 and speed > S.rest_speed:
+            c = k[S.active + a]
+            w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
+            w[S.impact_guard + 3 * a + 2] = NOISE + speed / S.speed_scale
 
 
 @kernel("f8(S, F, I, f8)")

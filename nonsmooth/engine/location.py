@@ -19,6 +19,8 @@ _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
 _NEGLIGIBLE = 0.01
 """A step whose error is below this part of the tolerance is interpolated within it."""
+_TRUSTED = 2.0
+"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -213,7 +215,9 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
 def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 
-    Where the tolerance limits the step, the root on the interpolant is corrected on the step itself, whose order is higher.
+    The step is negative where its error shows that the motion is not as smooth as it seemed.
+    Where the tolerance limits the step, the root on the interpolant is corrected on the step itself, whose order is
+    higher.
     """
     closed = _any_closed(S, w, k)
     first = first_fired(S, w, k, 1, -1)
@@ -232,7 +236,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         return step
     for _iteration in range(10):
         S.h = step
-        try_step(S, w, k, step)
+        if not try_step(S, w, k, step) <= _TRUSTED:
+            return -1.0
         write_guards(S, w, k, S.t + step, S.y_new, 1)
         value = w[S.guard + i]
         slope = S.guard_slope
