@@ -6,9 +6,9 @@ Every contact has two guards, positive while its mode is valid:
 * closed: the normal force; and, sticking, the distance to the static bound, sliding, the slip
   velocity along its direction at the start of the step.
 
-An event lies in the half-open interval t0 < t* <= t1 of a step.  A guard that starts from zero (a gap
-just after an impact, a slip just begun) is divided by the elapsed time, so that its zero at the
-start does not fire while the next one does.
+An event lies in the half-open interval t0 < t* <= t1 of a step.  Of a guard that starts from zero (a gap
+just after an impact, a slip just begun) the growth is taken, divided by the elapsed time, so that its zero at
+the start does not fire while the next one does.
 """
 
 from __future__ import annotations
@@ -62,10 +62,10 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
 
 @kernel("void(S, F, I, f8)")
 def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
-    """Divide the guards that started from zero by the time elapsed."""
+    """Divide the growth of the guards that started from zero by the time elapsed."""
     for i in range(2 * S.n_contacts):
         if k[S.guard_deflated + i] == 1:
-            w[S.guard + i] /= elapsed
+            w[S.guard + i] = (w[S.guard + i] - w[S.guard_start + i]) / elapsed
 
 
 @kernel()
@@ -87,7 +87,7 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
         first = 2 * c
         for i in range(2):
             k[S.guard_deflated + first + i] = 0
-            w[S.guard_first + first + i] = w[S.guard_end + first + i]
+            w[S.guard_start + first + i] = w[S.guard_first + first + i] = w[S.guard_end + first + i]
         if k[S.mode + c] == OPEN:
             if w[S.guard_first + first] <= S.gap_tolerance:
                 k[S.guard_deflated + first] = 1

@@ -241,6 +241,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         write_guards(S, w, k, S.t + step, S.y_new, 1)
         value = w[S.guard + i]
         slope = S.guard_slope
+        if k[S.guard_deflated + i] == 1:
+            value -= w[S.guard_start + i]
         if k[S.mode + i // 2] == OPEN:
             slope = w[S.gap_rate + i // 2]
         elif k[S.guard_deflated + i] == 1:

@@ -167,6 +167,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "least_force": _per(1, "n_contacts"),
     "guard_middle": _per(2, "n_contacts"),
     "guard_first": _per(2, "n_contacts"),
+    "guard_start": _per(2, "n_contacts"),
     "gap_rate": _per(1, "n_contacts"),
     "gap_rate_first": _per(1, "n_contacts"),
     "gap_rate_middle": _per(1, "n_contacts"),
