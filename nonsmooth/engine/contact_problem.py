@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.cone import gauss_seidel
-from nonsmooth.engine.delassus import add_response, assemble_delassus, row
+from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import evaluate_margins, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
+from nonsmooth.engine.kinematics import row
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 
 _TOLERANCE = 1e-9

@@ -52,16 +52,3 @@ def add_response(S: Scalars, w: Floats, k: Integers, f: int, du: int) -> None:
                 force = w[f + 3 * i + r]
                 for j in range(n_u):
                     w[start + j] += w[response + r * n_u + j] * force
-
-
-@kernel("f8(S, F, I, i8, i8, i8)")
-def row(S: Scalars, w: Floats, k: Integers, c: int, r: int, du: int) -> float:
-    """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
-    total = 0.0
-    a, b = k[S.body_a + c], k[S.body_b + c]
-    n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
-    for i in range(n_a):
-        total += w[k[S.jacobian_a + c] + r * n_a + i] * w[du + k[S.body_u + a] + i]
-    for i in range(n_b):
-        total += w[k[S.jacobian_b + c] + r * n_b + i] * w[du + k[S.body_u + b] + i]
-    return total

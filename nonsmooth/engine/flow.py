@@ -5,10 +5,15 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
-from nonsmooth.engine.delassus import add_response, assemble_delassus, row
-from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.held_contacts import hold_contacts, lay_rows
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.kinematics import evaluate_contact, evaluate_driven_bodies, evaluate_free_bodies
+from nonsmooth.engine.kinematics import (
+    evaluate_bias,
+    evaluate_driven_bodies,
+    evaluate_free_bodies,
+    evaluate_geometry,
+    evaluate_rates,
+)
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import step_errors, stage_state
 from nonsmooth.model.layout import FRAME
@@ -26,6 +31,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
             k[S.active + m] = c
             m += 1
     S.n_active = m
+    S.driven_power = 0.0
     evaluate_free_bodies(S, w, k, t, y)
     free_acceleration(S, w, k)
     if m == 0:
@@ -33,14 +39,12 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
     evaluate_driven_bodies(S, w, k, t, y)
     for a in range(m):
         c = k[S.active + a]
-        rows = 3 if k[S.mode + c] == STICK else 1
-        evaluate_contact(S, w, k, c, y, rows)
-        for r in range(rows):
-            w[S.b + 3 * a + r] = w[S.bias + 3 * c + r] + row(S, w, k, c, r, S.du)
+        evaluate_geometry(S, w, k, c)
+        evaluate_rates(S, w, k, c)
+        evaluate_bias(S, w, k, c, 3 if k[S.mode + c] == STICK else 1)
         _set_friction(S, w, k, a)
-    assemble_delassus(S, w, k)
-    resolve(S, w, k)
-    add_response(S, w, k, S.f, S.du)
+        lay_rows(S, w, k, a)
+    hold_contacts(S, w, k, y)
 
 
 @kernel("void(S, F, I, i8)")
@@ -76,7 +80,7 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
             w[out + k[S.body_q + body] + i] = w[rates + i]
     for i in range(S.n_u):
         w[out + S.n_q + i] = w[S.du + i]
-    driven = lost = own = 0.0
+    lost = own = 0.0
     for body in range(S.n_bodies):
         h = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body] + k[S.body_nq + body]
         for i in range(k[S.body_nu + body]):
@@ -85,16 +89,15 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
         c = k[S.active + a]
         for r in range(3):
             force = w[S.f + 3 * a + r]
-            driven -= force * w[S.prescribed_rate + 3 * c + r]
             if r > 0 and k[S.tangent_held + a] == 0:
                 lost -= force * w[S.rate + 3 * c + r]
         w[S.least_force + c] = min(w[S.least_force + c], w[S.f + 3 * a])
         slip = w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
         if k[S.tangent_held + a] == 1 or w[S.f + 3 * a] < 0.0 or slip < 0.0:
             S.suspect = 1
-    w[out + S.n_q + S.n_u] = driven
+    w[out + S.n_q + S.n_u] = S.driven_power
     w[out + S.n_q + S.n_u + 1] = lost
-    w[out + S.n_q + S.n_u + 2] = abs(own) + abs(driven) + abs(lost)
+    w[out + S.n_q + S.n_u + 2] = abs(own) + abs(S.driven_power) + abs(lost)
 
 
 @room("f8(S, F, I, f8)")

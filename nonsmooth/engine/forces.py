@@ -20,10 +20,6 @@ _COUPLED = 1e-7
 def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     """Complete ``f``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)
-    S.n_unknown = n
-    S.n_redundant = 0
-    if n == 0:
-        return
     width = 3 * S.n_active
     for i in range(n):
         line = k[S.column + i]
@@ -32,18 +28,29 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
             total += w[S.delassus + line * width + j] * w[S.f + j]
         w[S.right + i] = -total
         for j in range(n):
-            w[S.matrix + i * n + j] = _entry(S, w, k, line, k[S.column + j])
-    for i in range(n):
-        w[S.x + i] = w[S.right + i]
-    if n == 1 and w[S.matrix] != 0.0:
-        w[S.x] = w[S.right] / w[S.matrix]
-    elif eliminate(w, S.matrix, n, S.x) == 0:
-        _least_norm(S, w, k, n)
+            w[S.reduced + i * n + j] = _entry(S, w, k, line, k[S.column + j])
+    solve_unknowns(S, w, k, n)
     for i in range(n):
         w[S.f + k[S.column + i]] = w[S.x + i]
     for a in range(S.n_active):
         if k[S.normal_held + a] == 1 and k[S.tangent_held + a] == 0:
-            _slide(S, w, a)
+            friction_of_slip(S, w, a)
+
+
+@kernel("void(S, F, I, i8)")
+def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+    """Solve the reduced system ``reduced . x = right`` of the unknowns in ``column``, for least norm if singular."""
+    S.n_unknown = n
+    S.n_redundant = 0
+    if n == 1 and w[S.reduced] != 0.0:
+        w[S.x] = w[S.right] / w[S.reduced]
+        return
+    for i in range(n):
+        w[S.x + i] = w[S.right + i]
+    for i in range(n * n):
+        w[S.matrix + i] = w[S.reduced + i]
+    if n > 0 and eliminate(w, S.matrix, n, S.x) == 0:
+        _least_norm(S, w, k, n)
 
 
 @kernel("i8(S, F, I)")
@@ -63,12 +70,13 @@ def _collect(S: Scalars, w: Floats, k: Integers) -> int:
             k[S.column + n + 1] = 3 * a + 2
             n += 2
         else:
-            _slide(S, w, a)
+            friction_of_slip(S, w, a)
     return n
 
 
 @kernel("void(S, F, i8)")
-def _slide(S: Scalars, w: Floats, a: int) -> None:
+def friction_of_slip(S: Scalars, w: Floats, a: int) -> None:
+    """Write the friction of the sliding active contact ``a``, -mu f_N d."""
     w[S.f + 3 * a + 1] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a]
     w[S.f + 3 * a + 2] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + 1]
 
@@ -86,9 +94,8 @@ def _entry(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
 @kernel("void(S, F, I, i8)")
 def _least_norm(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Solve the singular system for least norm; keep the projector on its null space."""
-    for i in range(n):
-        for j in range(n):
-            w[S.matrix + i * n + j] = _entry(S, w, k, k[S.column + i], k[S.column + j])
+    for i in range(n * n):
+        w[S.matrix + i] = w[S.reduced + i]
     minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
     for i in range(n):
         for j in range(n):

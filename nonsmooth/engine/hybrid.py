@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
@@ -151,7 +152,8 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I)")
 def _singular(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if the reduced normal coefficient of some sliding contact is next to zero."""
-    width = 3 * S.n_active
+    width = 3 * activate_closed(S, w, k)
+    assemble_delassus(S, w, k)
     for a in range(S.n_active):
         g = S.delassus + 3 * a * width + 3 * a
         reduced = w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2])

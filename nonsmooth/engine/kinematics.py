@@ -81,38 +81,32 @@ def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
         w[S.rate + 3 * c + r] = w[axis] * vx + w[axis + 1] * vy + w[axis + 2] * vz
 
 
-@kernel("void(F, i8, i8, i8, i8, i8, f8)")
-def _side_jacobian(w: Floats, frame: int, point: int, axes: int, n_u: int, out: int, sign: float) -> None:
-    """Write the three rows of one body: sign * (axis, rho x axis) . frame Jacobian, whose zeros are skipped."""
+@kernel("void(F, i8, i8, f8, f8, f8, i8, i8)")
+def _side_row(w: Floats, frame: int, point: int, ax: float, ay: float, az: float, n_u: int, out: int) -> None:
+    """Write the row of one body: (axis, rho x axis) . frame Jacobian."""
     x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
-    jacobian = frame + FRAME
-    for i in range(3 * n_u):
-        w[out + i] = 0.0
-    for i in range(3):
-        for j in range(n_u):
-            entry = sign * w[jacobian + i * n_u + j]
-            if entry != 0.0:
-                for r in range(3):
-                    w[out + r * n_u + j] += entry * w[axes + 3 * r + i]
-    for r in range(3):
-        ax, ay, az = w[axes + 3 * r], w[axes + 3 * r + 1], w[axes + 3 * r + 2]
-        mx, my, mz = y * az - z * ay, z * ax - x * az, x * ay - y * ax
-        for j in range(n_u):
-            turning = jacobian + 3 * n_u + j
-            w[out + r * n_u + j] += sign * (mx * w[turning] + my * w[turning + n_u] + mz * w[turning + 2 * n_u])
+    mx, my, mz = y * az - z * ay, z * ax - x * az, x * ay - y * ax
+    for j in range(n_u):
+        v = frame + FRAME + j
+        o = v + 3 * n_u
+        w[out + j] = (
+            ax * w[v]
+            + ay * w[v + n_u]
+            + az * w[v + 2 * n_u]
+            + mx * w[o]
+            + my * w[o + n_u]
+            + mz * w[o + 2 * n_u]
+        )
 
 
-@kernel("void(F, i8, i8, i8, i8)")
-def _side_response(w: Floats, jacobian: int, inverse_mass: int, n_u: int, out: int) -> None:
-    """Write M^-1 J^T of one body, three rows of n_u; zeros of M^-1 are skipped."""
-    for i in range(3 * n_u):
-        w[out + i] = 0.0
-    for i in range(n_u):
-        for j in range(n_u):
-            entry = w[inverse_mass + i * n_u + j]
-            if entry != 0.0:
-                for r in range(3):
-                    w[out + r * n_u + i] += entry * w[jacobian + r * n_u + j]
+@kernel("void(S, F, I, i8, i8, f8, f8, f8)")
+def evaluate_row(S: Scalars, w: Floats, k: Integers, c: int, r: int, ax: float, ay: float, az: float) -> None:
+    """Write row ``r`` of the Jacobians of contact ``c``: of the relative velocity along the axis given."""
+    point = S.geometry + GEOMETRY * c + 7
+    a, b = k[S.body_a + c], k[S.body_b + c]
+    n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
+    _side_row(w, k[S.body_out + a], point, -ax, -ay, -az, n_a, k[S.jacobian_a + c] + r * n_a)
+    _side_row(w, k[S.body_out + b], point + 3, ax, ay, az, n_b, k[S.jacobian_b + c] + r * n_b)
 
 
 @kernel("i8(S, F, I, i8)")
@@ -122,25 +116,45 @@ def inverse_mass(S: Scalars, w: Floats, k: Integers, body: int) -> int:
     return k[S.body_out + body] + FRAME + 6 * n_u + k[S.body_nq + body] + n_u
 
 
+@kernel("void(S, F, I, i8, i8, i8)")
+def evaluate_row_response(S: Scalars, w: Floats, k: Integers, c: int, r: int, s: int) -> None:
+    """Write response ``s`` of contact ``c``: M^-1 times row ``r`` of its Jacobians, whose zeros are skipped."""
+    for side in range(2):
+        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        n_u = k[S.body_nu + body]
+        jacobian = (k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]) + r * n_u
+        response = (k[S.response_a + c] if side == 0 else k[S.response_b + c]) + s * n_u
+        matrix = inverse_mass(S, w, k, body)
+        for i in range(n_u):
+            total = 0.0
+            for j in range(n_u):
+                entry = w[matrix + i * n_u + j]
+                if entry != 0.0:
+                    total += entry * w[jacobian + j]
+            w[response + i] = total
+
+
+@kernel("f8(S, F, I, i8, i8, i8)")
+def row(S: Scalars, w: Floats, k: Integers, c: int, r: int, du: int) -> float:
+    """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
+    total = 0.0
+    a, b = k[S.body_a + c], k[S.body_b + c]
+    n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
+    for i in range(n_a):
+        total += w[k[S.jacobian_a + c] + r * n_a + i] * w[du + k[S.body_u + a] + i]
+    for i in range(n_b):
+        total += w[k[S.jacobian_b + c] + r * n_b + i] * w[du + k[S.body_u + b] + i]
+    return total
+
+
 @kernel("void(S, F, I, i8, i8)")
 def evaluate_jacobian(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> None:
     """Write W^T and N^T of contact ``c`` (rows n, t1, t2), M^-1 times them, and the prescribed rates."""
-    point = S.geometry + GEOMETRY * c + 7
-    a, b = k[S.body_a + c], k[S.body_b + c]
-    n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
-    j_a, j_b = k[S.jacobian_a + c], k[S.jacobian_b + c]
-    _side_jacobian(w, k[S.body_out + a], point, S.axes + 9 * c, n_a, j_a, -1.0)
-    _side_jacobian(w, k[S.body_out + b], point + 3, S.axes + 9 * c, n_b, j_b, 1.0)
-    _side_response(w, j_a, inverse_mass(S, w, k, a), n_a, k[S.response_a + c])
-    _side_response(w, j_b, inverse_mass(S, w, k, b), n_b, k[S.response_b + c])
-    u_a, u_b = y + S.n_q + k[S.body_u + a], y + S.n_q + k[S.body_u + b]
     for r in range(3):
-        own = 0.0
-        for i in range(n_a):
-            own += w[j_a + r * n_a + i] * w[u_a + i]
-        for i in range(n_b):
-            own += w[j_b + r * n_b + i] * w[u_b + i]
-        w[S.prescribed_rate + 3 * c + r] = w[S.rate + 3 * c + r] - own
+        axis = S.axes + 9 * c + 3 * r
+        evaluate_row(S, w, k, c, r, w[axis], w[axis + 1], w[axis + 2])
+        evaluate_row_response(S, w, k, c, r, r)
+        w[S.prescribed_rate + 3 * c + r] = w[S.rate + 3 * c + r] - row(S, w, k, c, r, y + S.n_q)
 
 
 @kernel("void(S, F, I, i8, i8)")

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_problem import accelerate, friction_coefficient, set_up, solve_contact
-from nonsmooth.engine.delassus import add_response, assemble_delassus, row
+from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact_problem import ENDLESS, FINISHED, energetic_impact
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel, room
-from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_geometry, evaluate_rates
+from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_geometry, evaluate_rates, row
 from nonsmooth.engine.modes import (
     CLOSING,
     IMPACT,

@@ -128,6 +128,7 @@ FLOAT_SCALARS = (
     "sample_interval",
     "next_sample",
     "driven_work",
+    "driven_power",
     "friction_loss",
     "restitution_loss",
     "closing_loss",
@@ -190,6 +191,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "event_head": lambda n: 5,
     "event_impulse": _per(3, "n_contacts"),
     # linear algebra
+    "reduced": lambda n: (3 * n["n_contacts"]) ** 2,
     "matrix": lambda n: (3 * n["n_contacts"]) ** 2,
     "basis": lambda n: (3 * n["n_contacts"]) ** 2,
     "null": lambda n: (3 * n["n_contacts"]) ** 2,

@@ -1,0 +1,100 @@
+"""Forces that hold the closed contacts in their modes during smooth motion.
+
+Every closed contact contributes rows, what it holds, and columns, along what it pushes: a sticking one holds and
+pushes along n, t1, t2; a sliding one holds n and pushes along n - mu d, friction included.  Rows times M^-1
+times columns is the reduced matrix whose unknowns are the forces; no more of G than that is needed.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.forces import friction_of_slip, solve_unknowns
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.kinematics import evaluate_row, evaluate_row_response, row
+
+
+@kernel("void(S, F, I, i8)")
+def lay_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+    """Write rows and columns of the active contact ``a``: Jacobian rows 0 to 2, or 0 and that of the column, 1."""
+    c = k[S.active + a]
+    axes = S.axes + 9 * c
+    if k[S.tangent_held + a] == 1:
+        for r in range(3):
+            evaluate_row(S, w, k, c, r, w[axes + 3 * r], w[axes + 3 * r + 1], w[axes + 3 * r + 2])
+            evaluate_row_response(S, w, k, c, r, r)
+        return
+    m1, m2 = w[S.mu + a] * w[S.d + 2 * a], w[S.mu + a] * w[S.d + 2 * a + 1]
+    evaluate_row(S, w, k, c, 0, w[axes], w[axes + 1], w[axes + 2])
+    evaluate_row(
+        S,
+        w,
+        k,
+        c,
+        1,
+        w[axes] - m1 * w[axes + 3] - m2 * w[axes + 6],
+        w[axes + 1] - m1 * w[axes + 4] - m2 * w[axes + 7],
+        w[axes + 2] - m1 * w[axes + 5] - m2 * w[axes + 8],
+    )
+    evaluate_row_response(S, w, k, c, 1, 0)
+
+
+@kernel("f8(S, F, I, i8, i8, i8, i8)")
+def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int) -> float:
+    """Return what a unit force in column ``s`` of contact ``d`` does to row ``r`` of contact ``c``."""
+    total = 0.0
+    for side in range(2):
+        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        n_u = k[S.body_nu + body]
+        jacobian = (k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]) + r * n_u
+        if n_u > 0 and k[S.body_a + d] == body:
+            for i in range(n_u):
+                total += w[jacobian + i] * w[k[S.response_a + d] + s * n_u + i]
+        if n_u > 0 and k[S.body_b + d] == body:
+            for i in range(n_u):
+                total += w[jacobian + i] * w[k[S.response_b + d] + s * n_u + i]
+    return total
+
+
+@kernel("void(S, F, I, i8)")
+def hold_contacts(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+    """Write the forces ``f`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
+
+    Rows and columns must be laid, the free accelerations stand in ``du``; ``y`` is the state.
+    """
+    n = 0
+    for a in range(S.n_active):
+        k[S.redundant + a] = 0
+        for r in range(3 if k[S.tangent_held + a] == 1 else 1):
+            k[S.column + n] = 3 * a + r
+            n += 1
+    for i in range(n):
+        c, r = k[S.active + k[S.column + i] // 3], k[S.column + i] % 3
+        w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
+        for j in range(n):
+            d, s = k[S.active + k[S.column + j] // 3], k[S.column + j] % 3
+            w[S.reduced + i * n + j] = _coupling(S, w, k, c, r, d, s)
+    solve_unknowns(S, w, k, n)
+    for i in range(n):
+        a = k[S.column + i] // 3
+        _push(S, w, k, k[S.active + a], k[S.column + i] % 3, w[S.x + i], S.du)
+        w[S.f + k[S.column + i]] = w[S.x + i]
+        if k[S.tangent_held + a] == 0:
+            friction_of_slip(S, w, a)
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        for r in range(3):
+            S.driven_power -= w[S.f + 3 * a + r] * w[S.rate + 3 * c + r]
+    for i in range(n):
+        a, r = k[S.column + i] // 3, k[S.column + i] % 3
+        along = r if k[S.tangent_held + a] == 1 else 1
+        S.driven_power += w[S.x + i] * row(S, w, k, k[S.active + a], along, y + S.n_q)
+
+
+@kernel("void(S, F, I, i8, i8, f8, i8)")
+def _push(S: Scalars, w: Floats, k: Integers, c: int, s: int, force: float, du: int) -> None:
+    """Add the accelerations that a force in column ``s`` of contact ``c`` gives to ``du``."""
+    for side in range(2):
+        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        response = k[S.response_a + c] if side == 0 else k[S.response_b + c]
+        n_u = k[S.body_nu + body]
+        for i in range(n_u):
+            w[du + k[S.body_u + body] + i] += w[response + s * n_u + i] * force
