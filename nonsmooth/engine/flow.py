@@ -19,7 +19,7 @@ from nonsmooth.engine.runge_kutta import step_errors, stage_state
 from nonsmooth.model.layout import FRAME
 
 
-@kernel("void(S, F, I, f8, i8)")
+@room("void(S, F, I, f8, i8)")
 def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 

@@ -54,39 +54,54 @@ def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int
     return total
 
 
+@kernel("i8(S, F, I)")
+def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
+    """List the rows of the active contacts; return how many there are."""
+    n = 0
+    for a in range(S.n_active):
+        k[S.redundant + a] = 0
+        for r in range(1 + 2 * k[S.tangent_held + a]):
+            k[S.column + n] = 3 * a + r
+            k[S.row_contact + n] = k[S.active + a]
+            k[S.row_index + n] = r
+            n += 1
+    return n
+
+
+@kernel("void(S, F, I, i8)")
+def _reduce(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+    """Write the reduced matrix and what the rows lack to vanish without forces."""
+    for i in range(n):
+        c, r = k[S.row_contact + i], k[S.row_index + i]
+        w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
+        for j in range(n):
+            w[S.reduced + i * n + j] = _coupling(S, w, k, c, r, k[S.row_contact + j], k[S.row_index + j])
+
+
 @kernel("void(S, F, I, i8)")
 def hold_contacts(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write the forces ``f`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
 
     Rows and columns must be laid, the free accelerations stand in ``du``; ``y`` is the state.
     """
-    n = 0
-    for a in range(S.n_active):
-        k[S.redundant + a] = 0
-        for r in range(3 if k[S.tangent_held + a] == 1 else 1):
-            k[S.column + n] = 3 * a + r
-            n += 1
-    for i in range(n):
-        c, r = k[S.active + k[S.column + i] // 3], k[S.column + i] % 3
-        w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
-        for j in range(n):
-            d, s = k[S.active + k[S.column + j] // 3], k[S.column + j] % 3
-            w[S.reduced + i * n + j] = _coupling(S, w, k, c, r, d, s)
+    n = _list_rows(S, w, k)
+    _reduce(S, w, k, n)
     solve_unknowns(S, w, k, n)
-    for i in range(n):
-        a = k[S.column + i] // 3
-        _push(S, w, k, k[S.active + a], k[S.column + i] % 3, w[S.x + i], S.du)
-        w[S.f + k[S.column + i]] = w[S.x + i]
-        if k[S.tangent_held + a] == 0:
-            friction_of_slip(S, w, a)
+    first = 0
     for a in range(S.n_active):
         c = k[S.active + a]
+        sticks = k[S.tangent_held + a]
+        for r in range(1 + 2 * sticks):
+            force = w[S.x + first + r]
+            w[S.f + 3 * a + r] = force
+            _push(S, w, k, c, r, force, S.du)
+            # the power of what the coordinates do not move: that of the force less that on them
+            S.driven_power += force * row(S, w, k, c, r + 1 - sticks, y + S.n_q)
+        if sticks == 0:
+            friction_of_slip(S, w, a)
+        first += 1 + 2 * sticks
         for r in range(3):
             S.driven_power -= w[S.f + 3 * a + r] * w[S.rate + 3 * c + r]
-    for i in range(n):
-        a, r = k[S.column + i] // 3, k[S.column + i] % 3
-        along = r if k[S.tangent_held + a] == 1 else 1
-        S.driven_power += w[S.x + i] * row(S, w, k, k[S.active + a], along, y + S.n_q)
 
 
 @kernel("void(S, F, I, i8, i8, f8, i8)")

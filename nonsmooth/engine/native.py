@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import functools
+import gc
 import hashlib
 import importlib
 import inspect
 import os
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -74,7 +76,7 @@ def _cache_folder() -> Path:
             continue
         if os.access(root / name, os.W_OK):
             return root / name
-    return Path(tempfile.mkdtemp(prefix="nonsmooth-"))
+    raise OSError(f"No folder for the compiled engine: neither {home} nor {tempfile.gettempdir()} can be written to.")
 
 
 class _StampedLocator(_CacheLocator):
@@ -161,22 +163,35 @@ def _raw() -> Iterator[None]:
 @functools.cache
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
+    if not _marker().exists():
+        print("compiling the engine once for this machine (about 20 s) ...", file=sys.stderr, flush=True)
+        # in a process of its own: in this one the raw kernels would stand beside the optimised ones
+        command = "from nonsmooth.engine.native import compile_rooms; compile_rooms()"
+        subprocess.run([sys.executable, "-c", command], cwd=_PACKAGE.parent, check=False)
+    return tuple(int(room.address) for room in compile_rooms())
+
+
+def compile_rooms() -> list[Any]:
+    """Compile the rooms, or load them from the cache; return them in the order of ``ROOMS``."""
     importlib.import_module("nonsmooth.engine.hybrid")
-    marker = cache_folder() / "complete"
-    if not marker.exists():
-        print("compiling the engine once for this machine (about 30 s) ...", file=sys.stderr, flush=True)
+    if not _marker().exists():
+        # millions of small objects that live: looking for garbage among them is lost time
+        gc.disable()
         with _raw():
             for inner, typed in _pending:
                 inner.compile(typed)
-    addresses = []
     for name in ROOMS:
         function, signature = _rooms[name]
-        compiled = numba.cfunc(_signature(signature), cache=True, nopython=True, error_model="numpy")(function)
-        _alive.append(compiled)
-        addresses.append(int(compiled.address))
+        _alive.append(numba.cfunc(_signature(signature), cache=True, nopython=True, error_model="numpy")(function))
+    gc.enable()
     with contextlib.suppress(OSError):
-        marker.touch()
-    return tuple(addresses)
+        _marker().touch()
+    return _alive[-len(ROOMS) :]
+
+
+def _marker() -> Path:
+    """Return the file that says that the cache is complete."""
+    return cache_folder() / "complete"
 
 
 def call_room(name: str, memory: Memory, *arguments: float) -> Any:
