@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 import nonsmooth as ns
 from bodies import Dumbbell, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.engine.kernel import room_addresses
 
 settings.register_profile("tests", deadline=None, derandomize=True, print_blob=False)
 settings.load_profile("tests")
@@ -72,6 +73,12 @@ class Builders:
             "velocity": v1 + np.cross(omega, arm),
             "angular_velocity": axes.T @ omega,
         }
+
+
+@pytest.fixture(scope="session", autouse=True)
+def engine() -> None:
+    """Compile the engine before the first test, so that none has to see the message."""
+    room_addresses()
 
 
 @pytest.fixture(scope="session")

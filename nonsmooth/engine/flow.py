@@ -123,6 +123,6 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for i in range(S.n_q + S.n_u):
         scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
         error = abs(w[S.y_stage + i]) / (S.rtol * scale)
-        if not error <= worst:
+        if error > worst or error != error:
             worst = error
     return worst

@@ -382,7 +382,10 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
                 # locating takes the interpolant of the full step
                 try_impact_step(S, w, k, h)
                 write_impact_guards(S, w, k, S.impact_new)
-            if not locate_switch(S, w, k, h) <= _TRUSTED:
+            error = locate_switch(S, w, k, h)
+            if not error <= _TRUSTED:
+                if not error < _UNUSED and h < 1e-12 * shortest:
+                    return INVALID
                 h *= 0.25
                 continue
         if fired == 1:

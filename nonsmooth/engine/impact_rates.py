@@ -149,7 +149,7 @@ def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
                 error /= impulse_scale * S.speed_scale
             else:
                 error /= impulse_scale
-            if not error <= worst:
+            if error > worst or error != error:
                 worst = error
     return worst / float(S.impact_rtol)
 
