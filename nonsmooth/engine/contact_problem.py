@@ -161,6 +161,29 @@ def _search(S: Scalars, w: Floats, k: Integers) -> None:
             k[S.mode_tried + a] = STICK if k[S.tangent_held + a] == 1 else SLIDE
 
 
+@kernel("i8(S, F, I)")
+def _free_sliding(S: Scalars, w: Floats, k: Integers) -> int:
+    """Mark the contacts at rest whose mode under trial is sliding; return how many they are."""
+    freed = 0
+    for a in range(S.n_active):
+        k[S.freed + a] = 1 if k[S.at_rest + a] == 1 and k[S.mode_tried + a] == SLIDE else 0
+        freed += k[S.freed + a]
+    return freed
+
+
+@kernel("i8(S, F, I)")
+def _search_freed(S: Scalars, w: Floats, k: Integers) -> int:
+    """Find the modes while the marked contacts may not stick; return 1 if they are verified."""
+    for a in range(S.n_active):
+        w[S.mu_kept + a] = w[S.mu_static + a]
+        if k[S.freed + a] == 1:
+            w[S.mu_static + a] = 0.0
+    _search(S, w, k)
+    for a in range(S.n_active):
+        w[S.mu_static + a] = w[S.mu_kept + a]
+    return _verified(S, w, k)
+
+
 @room("i8(S, F, I)")
 def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     """Find modes and forces of the active contacts, ``mode_tried`` holding the past modes; return 1 if found.
@@ -175,22 +198,20 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     if _verified(S, w, k) == 1:
         return 1
     # where a contact has just broken away it must not stick again at the higher static bound
-    freed = 0
-    for a in range(S.n_active):
-        k[S.freed + a] = 1 if k[S.at_rest + a] == 1 and k[S.mode_tried + a] == SLIDE else 0
-        freed += k[S.freed + a]
-    if freed > 0:
-        for a in range(S.n_active):
-            w[S.mu_kept + a] = w[S.mu_static + a]
-            if k[S.freed + a] == 1:
-                w[S.mu_static + a] = 0.0
-        _search(S, w, k)
-        for a in range(S.n_active):
-            w[S.mu_static + a] = w[S.mu_kept + a]
-        if _verified(S, w, k) == 1:
-            return 1
+    if _free_sliding(S, w, k) > 0 and _search_freed(S, w, k) == 1:
+        return 1
     _search(S, w, k)
     if _verified(S, w, k) == 1:
+        return 1
+    # between the static and the kinetic bound the sweeps may alternate: who cannot stick is found first
+    for a in range(S.n_active):
+        w[S.mu_kept + a] = w[S.mu + a]
+        if k[S.at_rest + a] == 1:
+            w[S.mu + a] = w[S.mu_static + a]
+    _search(S, w, k)
+    for a in range(S.n_active):
+        w[S.mu + a] = w[S.mu_kept + a]
+    if _free_sliding(S, w, k) > 0 and _search_freed(S, w, k) == 1:
         return 1
     return _enumerate(S, w, k)
 

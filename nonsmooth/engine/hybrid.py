@@ -7,6 +7,7 @@ import math
 from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
+from nonsmooth.engine.instant_impulses import is_jammed
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies
 from nonsmooth.engine.location import first_crossing, locate
@@ -14,12 +15,12 @@ from nonsmooth.engine.modes import (
     DONE,
     EVENTS_ENDLESS,
     IMPACT,
+    JAM,
     LIFT_OFF,
     NOT_FINITE,
     OPEN,
     PAUSED,
     RUNNING,
-    SINGULAR_SLIDING,
     SLIDE,
     SLIP_TO_STICK,
     START,
@@ -151,15 +152,13 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
 
 @kernel("i8(S, F, I)")
 def _singular(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if the reduced normal coefficient of some sliding contact is next to zero."""
-    width = 3 * activate_closed(S, w, k)
+    """Return a contact that slides at the Painleve singularity, or -1."""
+    activate_closed(S, w, k)
     assemble_delassus(S, w, k)
     for a in range(S.n_active):
-        g = S.delassus + 3 * a * width + 3 * a
-        reduced = w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2])
-        if k[S.tangent_held + a] == 0 and reduced < 1e-3 * w[g]:
-            return 1
-    return 0
+        if is_jammed(S, w, k, a) == 1:
+            return k[S.active + a]
+    return -1
 
 
 @kernel("i8(S, F, I)")
@@ -183,8 +182,11 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
     status = _accepted_step(S, w, k)
-    if status == STEP_TOO_SMALL and _singular(S, w, k) == 1:
-        return SINGULAR_SLIDING
+    if status == STEP_TOO_SMALL:
+        contact = _singular(S, w, k)
+        if contact >= 0:
+            S.fresh = 0
+            return _settle_event(S, w, k, JAM, contact)
     if status != RUNNING:
         return status
     S.steps += 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 OPEN, STICK, SLIDE = 0, 1, 2
 """Mode of a contact between events."""
 
-START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END = range(8)
+START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM = range(9)
 """Cause of an event."""
 
 CAUSES = (
@@ -17,6 +17,7 @@ CAUSES = (
     "closing of an accumulation",
     "impact without collision",
     "end",
+    "jamming of a slip",
 )
 
 RUNNING, DONE, PAUSED = 0, 1, 2
@@ -32,8 +33,7 @@ REASONS = {
     IMPACT_ENDLESS: "an impact did not end within its steps",
     NO_CONTACT_SOLUTION: "the contact forces have no solution and the impact without collision did not help",
     SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
-    SINGULAR_SLIDING: "sliding ran into the Painleve singularity, where the normal force grows without bound; "
-    "passing it within the flow is not supported",
+    SINGULAR_SLIDING: "sliding ran into the Painleve singularity, and no pushing impulse stops it there",
     EVENTS_ENDLESS: "events repeat without end within the time tolerance",
 }
 

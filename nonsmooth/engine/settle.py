@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact_problem import accelerate, friction_coefficient, set_up, solve_contact
+from nonsmooth.engine.contact_problem import accelerate, set_up, solve_contact
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact_problem import ENDLESS, FINISHED, energetic_impact
-from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel, room
+from nonsmooth.engine.instant_impulses import jam_slips, map_impact, reduced_coefficient
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_geometry, evaluate_rates, row
 from nonsmooth.engine.modes import (
     CLOSING,
     IMPACT,
     IMPACT_ENDLESS,
+    JAM,
     LIFT_OFF,
     NO_CONTACT_SOLUTION,
     NOT_FINITE,
@@ -20,6 +22,7 @@ from nonsmooth.engine.modes import (
     PAINLEVE,
     RUNNING,
     SETTLE_ENDLESS,
+    SINGULAR_SLIDING,
     SLIDE,
     STICK,
     STICK_TO_SLIP,
@@ -68,32 +71,6 @@ def _activate_touching(S: Scalars, w: Floats, k: Integers) -> None:
     S.n_active = m
 
 
-@kernel("void(S, F, I)")
-def _map_impact(S: Scalars, w: Floats, k: Integers) -> None:
-    """Let a law that maps velocities to impulses treat the colliding set; split its loss by mean rates."""
-    m = S.n_active
-    width = 3 * m
-    for a in range(m):
-        c = k[S.active + a]
-        speed = _speed(S, w, k, c)
-        w[S.map_block + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
-        for i in range(1, S.map_width):
-            w[S.map_block + i * m + a] = w[k[S.map_parameters + c] + i - 1]
-    call_map(S.impact_map, m, at(w, S.delassus), at(w, S.impact_z0), at(w, S.map_block), at(w, S.impulse))
-    for a in range(m):
-        normal = tangential = 0.0
-        for r in range(3):
-            line = 3 * a + r
-            mean = w[S.impact_z0 + line]
-            for j in range(width):
-                mean += 0.5 * w[S.delassus + line * width + j] * w[S.impulse + j]
-            if r == 0:
-                normal -= w[S.impulse + line] * mean
-            else:
-                tangential -= w[S.impulse + line] * mean
-        w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = normal, 0.0, tangential
-
-
 @room("i8(S, F, I, i8)")
 def collide(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     """Run the impact law on the touching contacts, book its energies, record it; return the status."""
@@ -112,8 +89,11 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
         for r in range(3):
             w[S.impact_z0 + 3 * a + r] = w[S.rate + 3 * c + r]
     S.phases, S.truncated = 1, 0
-    if S.impact_map != 0:
-        _map_impact(S, w, k)
+    if cause == JAM:
+        if jam_slips(S, w, k) == 0:
+            return SINGULAR_SLIDING
+    elif S.impact_map != 0:
+        map_impact(S, w, k)
     else:
         outcome = energetic_impact(S, w, k)
         if outcome != FINISHED:
@@ -186,13 +166,10 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
 @kernel("i8(S, F, I)")
 def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
     """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
-    width = 3 * S.n_active
     for c in range(S.n_contacts):
         k[S.impacting + c] = 0
     for a in range(S.n_active):
-        line = S.delassus + 3 * a * width + 3 * a
-        reduced = w[line] - w[S.mu + a] * (w[S.d + 2 * a] * w[line + 1] + w[S.d + 2 * a + 1] * w[line + 2])
-        if k[S.at_rest + a] == 0 and reduced <= 0.0:
+        if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, a) <= 0.0:
             k[S.impacting + k[S.active + a]] = 1
             S.impact_seed = max(S.impact_seed, _speed(S, w, k, k[S.active + a]))
     S.painleve = 1
@@ -245,6 +222,11 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     S.recorded = 0
     resting = 0
     approaching = touch(S, w, k)
+    if cause == JAM:
+        status = collide(S, w, k, JAM)
+        if status != RUNNING:
+            return status
+        approaching = S.approaching
     for _attempt in range(_ATTEMPTS):
         if approaching == 1:
             status = collide(S, w, k, IMPACT)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.modes import IMPACT, PAINLEVE
+from nonsmooth.engine.modes import IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
@@ -90,7 +90,7 @@ class Solution:
         total = float(durations.sum())
         for word, duration in zip(self.events.words("after"), durations, strict=True):
             shares[word] = shares.get(word, 0.0) + (float(duration) / total if total > 0.0 else 0.0)
-        impacts = np.isin(self.events.cause, (IMPACT, PAINLEVE))
+        impacts = np.isin(self.events.cause, (IMPACT, PAINLEVE, JAM))
         for word in words(self.events.during[impacts]):
             shares.setdefault(word, 0.0)
         return dict(sorted(shares.items(), key=lambda item: -item[1]))

@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from bodies import Dumbbell
-from nonsmooth.engine.modes import PAINLEVE
+from nonsmooth.engine.modes import JAM, PAINLEVE
 
 BODY = Dumbbell(rod_mass_fraction=0.9)
+GRAVITY = 9.81
 TILT = math.radians(45.0)
 
 
@@ -36,7 +38,7 @@ def _run(build: Any, friction: float, slip: float, t_end: float = 5e-3, rate: fl
 def test_both_sides_of_the_critical_friction(build: Any, side: float) -> None:
     """Below it the contact slides on, above it no force exists: an impact without collision at once.
 
-    Below it the tilt grows until the coefficient vanishes, 74 us after the start: the run ends before.
+    Below it the tilt grows until the coefficient vanishes, 74 us after the start: the run ends before that.
     """
     solution = _run(build, _critical(TILT) * (1.0 + side), -1.0, t_end=5e-3 if side > 0.0 else 5e-5)
     assert solution.status == "done"
@@ -56,14 +58,51 @@ def test_both_sides_of_the_critical_friction(build: Any, side: float) -> None:
     assert energy.residual <= 1e-8
 
 
-def test_sliding_into_the_singularity_is_refused(build: Any) -> None:
-    """Where the normal force grows without bound the run stops, says why and keeps what it computed."""
-    with pytest.raises(ns.RunFailed, match="Painleve singularity") as caught:
-        _run(build, _critical(TILT) * 0.999, -1.0)
-    solution = caught.value.solution
-    assert isinstance(solution, ns.Solution)
-    assert 5e-5 < solution.t_end < 1e-4
-    assert solution.status == "failed"
+def _stopped_by_springs(friction: float, stiffness: float) -> tuple[float, float]:
+    """Return the mass centre's velocity [m/s] when the slip stops, the plate being a spring [N/m]; planar, by scipy."""
+    half, r, mass, inertia = BODY.centre_distance / 2.0, BODY.radius, BODY.total_mass, BODY.inertia[1]
+
+    def arm(beta: float) -> tuple[float, float]:
+        return -half * math.cos(beta), -half * math.sin(beta) - r
+
+    def slope(t: float, s: Any) -> list[float]:
+        y, z = arm(s[1])
+        force = stiffness * max(0.0, -(s[0] + z))
+        # the slip is towards -y, so that friction pushes towards +y
+        turning = (y * force - z * friction * force) / inertia
+        return [s[3], s[4], friction * force / mass, force / mass - GRAVITY, turning]
+
+    def slip(t: float, s: Any) -> float:
+        return float(s[2] - s[4] * arm(s[1])[1])
+
+    slip.terminal = True  # type: ignore[attr-defined]
+    # at rest on the springs
+    y, z = arm(TILT)
+    sunk = GRAVITY / (1.0 / mass + y * (y - friction * z) / inertia) / stiffness
+    start = [-z - sunk, TILT, -1.0, 0.0, 0.0]
+    done = solve_ivp(slope, (0.0, 1e-3), start, method="DOP853", events=slip, rtol=1e-10, atol=1e-14)
+    assert len(done.t_events[0]) == 1
+    return float(done.y[2, -1]), float(done.y[3, -1])
+
+
+def test_sliding_into_the_singularity_jams(build: Any) -> None:
+    """Where the normal force grows without bound the slip stops at once, as it does on ever stiffer springs."""
+    friction = _critical(TILT) * 0.999
+    solution = _run(build, friction, -1.0)
+    events = solution.events
+    event = int(np.flatnonzero(events.cause == JAM)[0])
+    assert 5e-5 < events.time[event] < 1e-4
+    assert events.causes()[event] == "jamming of a slip"
+    normal, *tangential = events.impulse[event, 0]
+    # at the singularity, sticking needs no less than the kinetic bound
+    np.testing.assert_allclose(math.hypot(*tangential), friction * normal, rtol=1e-3)
+    assert events.friction_loss[event] > 0.0
+    assert abs(events.restitution_loss[event]) <= 1e-9 * events.friction_loss[event]
+    assert solution.energy.residual <= 1e-8
+    stiffnesses = [1e9, 1e12, 1e15]
+    errors = [np.hypot(*(events.u_after[event, 1:3] - _stopped_by_springs(friction, k))) for k in stiffnesses]
+    assert errors[0] > 3.0 * errors[1] > 9.0 * errors[2]
+    assert errors[2] < 1e-4
 
 
 def test_the_other_way_there_is_no_paradox(build: Any) -> None:

@@ -1,0 +1,90 @@
+"""Impulses that need no integration: those of a law that maps velocities, and those that stop a jammed slip."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact_problem import friction_coefficient
+from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel
+from nonsmooth.engine.modes import SLIDE, STICK
+
+_NEXT_TO_ZERO = 1e-3
+"""A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
+
+
+@kernel("f8(S, F, i8)")
+def reduced_coefficient(S: Scalars, w: Floats, a: int) -> float:
+    """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
+    g = S.delassus + 3 * a * 3 * S.n_active + 3 * a
+    return float(w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2]))
+
+
+@kernel("i8(S, F, I, i8)")
+def is_jammed(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+    """Return 1 if the active contact ``a`` slides at the Painleve singularity, its slip direction being known."""
+    g = S.delassus + 3 * a * 3 * S.n_active + 3 * a
+    slides = k[S.mode + k[S.active + a]] == SLIDE
+    return 1 if slides and reduced_coefficient(S, w, a) < _NEXT_TO_ZERO * w[g] else 0
+
+
+@kernel("i8(S, F, I)")
+def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
+    """Stop the slips whose normal force grows without bound; return 1 if pushing impulses do that.
+
+    In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
+    impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
+    """
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+        speed = math.sqrt(v1 * v1 + v2 * v2)
+        w[S.mu + a] = 0.0
+        if k[S.mode + c] == SLIDE and speed > 0.0:
+            w[S.mu + a] = friction_coefficient(S, w, k, c, speed)
+            w[S.d + 2 * a], w[S.d + 2 * a + 1] = v1 / speed, v2 / speed
+        k[S.normal_held + a] = 1
+        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or is_jammed(S, w, k, a) == 1 else 0
+        for r in range(3):
+            w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
+    resolve(S, w, k)
+    for a in range(S.n_active):
+        if not w[S.f + 3 * a] >= 0.0:
+            return 0
+        for r in range(3):
+            w[S.impulse + 3 * a + r] = w[S.f + 3 * a + r]
+    _split_loss(S, w)
+    return 1
+
+
+@kernel()
+def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
+    """Let a law that maps velocities to impulses treat the colliding set."""
+    m = S.n_active
+    for a in range(m):
+        c = k[S.active + a]
+        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+        speed = math.sqrt(v1 * v1 + v2 * v2)
+        w[S.map_block + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+        for i in range(1, S.map_width):
+            w[S.map_block + i * m + a] = w[k[S.map_parameters + c] + i - 1]
+    call_map(S.impact_map, m, at(w, S.delassus), at(w, S.impact_z0), at(w, S.map_block), at(w, S.impulse))
+    _split_loss(S, w)
+
+
+@kernel("void(S, F)")
+def _split_loss(S: Scalars, w: Floats) -> None:
+    """Split the energy that the impulses take, contact by contact, by the mean rates they act on."""
+    width = 3 * S.n_active
+    for a in range(S.n_active):
+        normal = tangential = 0.0
+        for r in range(3):
+            line = 3 * a + r
+            mean = w[S.impact_z0 + line]
+            for j in range(width):
+                mean += 0.5 * w[S.delassus + line * width + j] * w[S.impulse + j]
+            if r == 0:
+                normal -= w[S.impulse + line] * mean
+            else:
+                tangential -= w[S.impulse + line] * mean
+        w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = normal, 0.0, tangential
