@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from nonsmooth.engine.kernel import call_room
-from nonsmooth.engine.modes import DONE, PAUSED, REASONS
+from nonsmooth.engine.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.model.assembly import Model, assemble
 from nonsmooth.model.options import Options
@@ -86,7 +86,7 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     except KeyboardInterrupt:
         _drain(model, rows, codes, samples)
         word = "interrupted"
-    if status not in (DONE, PAUSED):
+    if status not in (DONE, STOPPED, PAUSED):
         word = "failed"
     message = REASONS[status]
     if word == "failed":

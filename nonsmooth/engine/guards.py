@@ -6,6 +6,8 @@ Every contact has two guards, positive while its mode is valid:
 * closed: the normal force; and, sticking, the distance to the static bound, sliding, the slip
   velocity along its direction at the start of the step.
 
+Behind them stand the scenario's own, whatever the modes.
+
 An event lies in the half-open interval t0 < t* <= t1 of a step.  Of a guard that starts from zero (a gap
 just after an impact, a slip just begun) the growth is taken, divided by the elapsed time, so that its zero at
 the start does not fire while the next one does.
@@ -15,7 +17,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.flow import right_hand_side
 from nonsmooth.engine.forces import evaluate_margins
-from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_guard, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_driven_bodies, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import GEOMETRY
@@ -49,6 +51,10 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
             w[S.guard + 2 * c] = w[S.geometry + GEOMETRY * c]
             w[S.guard + 2 * c + 1] = 1.0
             w[S.gap_rate + c] = w[S.rate + 3 * c]
+    for g in range(S.n_own_guards):
+        w[S.guard + 2 * S.n_contacts + g] = call_guard(
+            k[S.own_guard_function + g], t, at(w, y), at(w, y + S.n_q), at(w, k[S.own_guard_parameters + g])
+        )
 
 
 @room("void(S, F, I, f8, i8, f8, i8)")
@@ -65,7 +71,7 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
 @kernel("void(S, F, I, f8)")
 def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
     """Divide the growth of the guards that started from zero by the time elapsed."""
-    for i in range(2 * S.n_contacts):
+    for i in range(2 * S.n_contacts + S.n_own_guards):
         if k[S.guard_deflated + i] == 1:
             w[S.guard + i] = (w[S.guard + i] - w[S.guard_start + i]) / elapsed
 
@@ -80,6 +86,8 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.guard_end + 2 * c + i] = w[S.guard + 2 * c + i]
         for r in range(3):
             w[S.rate_end + 3 * c + r] = w[S.rate + 3 * c + r]
+    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+        w[S.guard_end + i] = w[S.guard + i]
 
 
 @kernel()
@@ -101,6 +109,15 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.guard_first + first + 1] = 0.0
         for i in range(2):
             k[S.guard_armed + first + i] = 1 if w[S.guard_first + first + i] > 0.0 else 0
+    for g in range(S.n_own_guards):
+        i = 2 * S.n_contacts + g
+        w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
+        # one that has just fired starts from zero
+        k[S.guard_deflated + i] = k[S.own_guard_spent + g]
+        if k[S.own_guard_spent + g] == 1:
+            w[S.guard_first + i] = 0.0
+        k[S.own_guard_spent + g] = 0
+        k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
 
 
 @kernel("void(S, F, I, i8)")
@@ -108,6 +125,9 @@ def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
     """Arm the guards that have become positive within the step."""
     for i in range(2 * S.n_contacts):
         if w[S.guard + i] > 0.0 and (forces == 1 or k[S.mode + i // 2] == OPEN):
+            k[S.guard_armed + i] = 1
+    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+        if w[S.guard + i] > 0.0:
             k[S.guard_armed + i] = 1
 
 
@@ -120,4 +140,13 @@ def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> in
         value = w[S.guard + i]
         if i != but and ((value < 0.0 and k[S.guard_armed + i] == 1) or value < _WRONG):
             return i
+    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+        if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
+            return i
     return -1
+
+
+@kernel("i8(S, F, I, i8)")
+def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is a gap, whose rate is known."""
+    return 1 if i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN else 0

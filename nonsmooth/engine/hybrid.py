@@ -14,6 +14,7 @@ from nonsmooth.engine.location import first_crossing, locate
 from nonsmooth.engine.modes import (
     DONE,
     EVENTS_ENDLESS,
+    GUARD,
     IMPACT,
     JAM,
     LIFT_OFF,
@@ -27,9 +28,10 @@ from nonsmooth.engine.modes import (
     STEP_TOO_SMALL,
     STICK,
     STICK_TO_SLIP,
+    STOPPED,
 )
 from nonsmooth.engine.projection import activate_closed, normalise_quaternions, project_gaps, project_rates
-from nonsmooth.engine.record import record_samples
+from nonsmooth.engine.record import record_event, record_samples, remember
 from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
 
@@ -205,12 +207,24 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if h < 0.0:
         S.h_closed = 0.25 * S.h
         return RUNNING
+    if S.trigger >= 2 * S.n_contacts:
+        _commit(S, w, k, h)
+        return _own_event(S, w, k, S.trigger - 2 * S.n_contacts)
     cause = _cause(S, w, k)
     contact = S.trigger // 2
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, contact)
     _commit(S, w, k, h)
     return _settle_event(S, w, k, cause, contact)
+
+
+@kernel("i8(S, F, I, i8)")
+def _own_event(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Record the event of a guard of the scenario's own; return the status."""
+    remember(S, w, k)
+    record_event(S, w, k, GUARD, number, 0)
+    k[S.own_guard_spent + number] = 1
+    return STOPPED if k[S.own_guard_ends + number] == 1 else RUNNING
 
 
 @kernel("void(S, F, I, i8)")

@@ -48,6 +48,8 @@ call_scalar: Callable[[int, float, Floats], float] = _half.call_scalar
 """Call ``law(x, parameters)`` at an address."""
 call_body: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.call_body
 """Call ``body(t, q, u, parameters, out)`` at an address."""
+call_guard: Callable[[int, float, Floats, Floats, Floats], float] = _half.call_guard
+"""Call ``guard(t, q, u, parameters)`` at an address."""
 call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = _half.call_pair
 """Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
 call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.call_map
@@ -56,7 +58,7 @@ call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.cal
 jit: Callable[[Callable[..., Any]], Any] = _half.jit
 """Compile a plug-in's function on demand."""
 address_of: Callable[[Callable[..., Any], str], int] = _half.address_of
-"""Compile a shim of a form ("scalar", "body", "pair", "map") and return its address."""
+"""Compile a shim of a form ("scalar", "guard", "body", "pair", "map") and return its address."""
 COMPILATION_ERRORS: tuple[type[Exception], ...] = _half.COMPILATION_ERRORS
 """What :func:`address_of` may raise."""
 
@@ -70,6 +72,7 @@ __all__ = [
     "address_of",
     "at",
     "call_body",
+    "call_guard",
     "call_map",
     "call_pair",
     "call_room",

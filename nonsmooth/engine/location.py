@@ -7,7 +7,7 @@ between two samples at which a gap first falls and then rises, its minimum is lo
 from __future__ import annotations
 
 from nonsmooth.engine.flow import try_step
-from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, keep_end, write_guards
+from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, is_gap, keep_end, write_guards
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import dense_state
@@ -144,7 +144,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + 2 * c], w[S.guard_end + 2 * c]):
             S.suspect = 1
     forces = closed if S.suspect == 1 else 0
-    if forces == 0 and _far(S, w, k, h) == 1:
+    if forces == 0 and S.n_own_guards == 0 and _far(S, w, k, h) == 1:
         return 1.0 if fired >= 0 else 0.0
     _guards_within(S, w, k, h, _MIDDLE, forces)
     if first_fired(S, w, k, forces, -1) >= 0:
@@ -154,7 +154,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     arm_further(S, w, k, forces)
     for c in range(S.n_contacts):
         w[S.gap_rate_middle + c] = w[S.gap_rate + c]
-    for i in range(2 * S.n_contacts):
+    for i in range(2 * S.n_contacts + S.n_own_guards):
         w[S.guard_middle + i] = w[S.guard + i]
     theta = _dip(S, w, k, h, 0.0, _MIDDLE, 1)
     if theta > 0.0:
@@ -167,7 +167,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     if fired < 0:
         theta = _dip(S, w, k, h, _MIDDLE, 1.0, 0)
     if theta == 0.0:
-        for i in range(2 * S.n_contacts):
+        for i in range(2 * S.n_contacts + S.n_own_guards):
             w[S.guard + i] = w[S.guard_end + i]
         deflate(S, w, k, h)
         # guards armed only in the middle of the step count as well
@@ -192,7 +192,12 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(S, w, k, h, low, i, forces)
         if low < 1e-4 * high:
-            return low
+            if g_low > 0.0 or not w[S.guard_first + i] > 0.0 or k[S.guard_deflated + i] == 1:
+                return low
+            # it vanishes next to the start, where it was still positive
+            high, g_high = low, g_low
+            low, g_low = 0.0, w[S.guard_first + i]
+            break
     theta = high - g_high * (high - low) / (g_high - g_low)
     theta_before, g_before = high, g_high
     for _iteration in range(100):
@@ -200,7 +205,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
         if theta != theta_before:
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
-        if k[S.mode + i // 2] == OPEN:
+        if is_gap(S, w, k, i) == 1:
             S.guard_slope = w[S.gap_rate + i // 2]
             if k[S.guard_deflated + i] == 1:
                 S.guard_slope = (S.guard_slope - g) / (theta * h)
@@ -215,7 +220,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             g_high *= ratio if ratio > 0.0 else 0.5
             low, g_low = theta, g
         following = high - g_high * (high - low) / (g_high - g_low)
-        if k[S.mode + i // 2] == OPEN and S.guard_slope < 0.0:
+        if is_gap(S, w, k, i) == 1 and S.guard_slope < 0.0:
             newton = theta - g / (S.guard_slope * h)
             if low < newton < high:
                 following = newton
@@ -235,7 +240,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     first = first_fired(S, w, k, 1, -1)
     theta = high
     S.trigger = max(0, first)
-    for _other in range(2 * S.n_contacts):
+    for _other in range(2 * S.n_contacts + S.n_own_guards):
         if first < 0:
             break
         S.trigger = first
@@ -255,7 +260,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         slope = S.guard_slope
         if k[S.guard_deflated + i] == 1:
             value -= w[S.guard_start + i]
-        if k[S.mode + i // 2] == OPEN:
+        if is_gap(S, w, k, i) == 1:
             slope = w[S.gap_rate + i // 2]
         elif k[S.guard_deflated + i] == 1:
             value /= step

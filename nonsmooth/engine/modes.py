@@ -5,7 +5,7 @@ from __future__ import annotations
 OPEN, STICK, SLIDE = 0, 1, 2
 """Mode of a contact between events."""
 
-START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM = range(9)
+START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD = range(10)
 """Cause of an event."""
 
 CAUSES = (
@@ -18,14 +18,16 @@ CAUSES = (
     "impact without collision",
     "end",
     "jamming of a slip",
+    "guard of the scenario",
 )
 
 RUNNING, DONE, PAUSED = 0, 1, 2
 STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
-SINGULAR_SLIDING = 9
+SINGULAR_SLIDING, STOPPED = 9, 10
 """Status of the engine."""
 
 REASONS = {
+    STOPPED: "a guard of the scenario ended the run",
     DONE: "the end time was reached",
     PAUSED: "the run was interrupted",
     STEP_TOO_SMALL: "the step size fell below the time tolerance",

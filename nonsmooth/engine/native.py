@@ -251,7 +251,14 @@ def call_map(typingctx: Any, address: Any, n: Any, g: Any, z: Any, p: Any, out: 
     return _caller(types.void, (types.int64, FLOATS, FLOATS, FLOATS, FLOATS))
 
 
+@intrinsic
+def call_guard(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any) -> Any:
+    """Call ``float guard(t, q, u, parameters)`` at an address."""
+    return _caller(types.float64, (types.float64, FLOATS, FLOATS, FLOATS))
+
+
 _C_SIGNATURES = {
+    "guard": types.float64(types.float64, FLOATS, FLOATS, FLOATS),
     "scalar": types.float64(types.float64, FLOATS),
     "body": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
     "pair": types.void(FLOATS, FLOATS, FLOATS, FLOATS),

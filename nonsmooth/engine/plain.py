@@ -60,6 +60,11 @@ def call_body(address: int, t: float, q: Any, u: Any, p: Any, out: Any) -> None:
     _functions[address - 1](t, q, u, p, out)
 
 
+def call_guard(address: int, t: float, q: Any, u: Any, p: Any) -> Any:
+    """Call ``float guard(t, q, u, parameters)``."""
+    return _functions[address - 1](t, q, u, p)
+
+
 def call_pair(address: int, a: Any, b: Any, p: Any, out: Any) -> None:
     """Call ``void geometry(frame_a, frame_b, parameters, out)``."""
     _functions[address - 1](a, b, p, out)

@@ -3,6 +3,7 @@
 from nonsmooth.interfaces.body import Body
 from nonsmooth.interfaces.contact_kinematics import ContactKinematics
 from nonsmooth.interfaces.friction_law import FrictionLaw
+from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
 from nonsmooth.interfaces.motion import Motion
 from nonsmooth.interfaces.normal_law import NormalLaw
@@ -13,6 +14,7 @@ __all__ = [
     "Body",
     "ContactKinematics",
     "FrictionLaw",
+    "Guard",
     "ImpactLaw",
     "ImpactMap",
     "ImpactProcess",

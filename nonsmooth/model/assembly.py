@@ -118,6 +118,7 @@ def assemble(system: System, options: Options) -> Model:
     counts = {
         "n_bodies": len(bodies),
         "n_contacts": len(contacts),
+        "n_own_guards": len(system.guards),
         "n_q": n_q,
         "n_u": n_u,
         "n_y": n_q + n_u + N_ACCOUNTS,
@@ -128,6 +129,7 @@ def assemble(system: System, options: Options) -> Model:
     }
     size = sum(_block(body) + 40 for body in bodies)
     size += sum(12 * (c.first.n_u + c.second.n_u) + 80 for c in contacts)
+    size += sum(40 for _guard in system.guards)
     memory = allocate(counts, size)
     heap = _Heap(memory, size)
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
@@ -135,6 +137,7 @@ def assemble(system: System, options: Options) -> Model:
     _lay_bodies(model, heap)
     for number, contact in enumerate(contacts):
         _lay_contact(model, heap, number, contact)
+    _lay_guards(model, heap)
     _set_scalars(model, options)
     _check_start(model)
     return model
@@ -208,6 +211,14 @@ def _lay_contact(model: Model, heap: _Heap, number: int, contact: Contact) -> No
         memory.array(f"response_{side}", number + 1)[number] = heap.block(3 * body.n_u)
     memory.array("contact_time", number + 1)[number] = impact.contact_time
     memory.array("direction", 2 * number + 2)[2 * number] = 1.0
+
+
+def _lay_guards(model: Model, heap: _Heap) -> None:
+    for number, guard in enumerate(model.system.guards):
+        address, values = bind(guard.value, "guard", guard.parameters(), type(guard).__name__)
+        fields = {"function": address, "parameters": heap.store(values), "ends": int(guard.ends_run)}
+        for name, value in fields.items():
+            model.memory.array(f"own_guard_{name}", number + 1)[number] = value
 
 
 def _set_scalars(model: Model, options: Options) -> None:

@@ -75,6 +75,7 @@ ROOMS = (
 INTEGER_SCALARS = (
     "n_bodies",
     "n_contacts",
+    "n_own_guards",
     "n_q",
     "n_u",
     "n_y",
@@ -148,6 +149,10 @@ def _per(stride: int, count: str) -> _Size:
     return lambda n: stride * n[count]
 
 
+def _guards(n: Mapping[str, int]) -> int:
+    return 2 * n["n_contacts"] + n["n_own_guards"]
+
+
 _FLOAT_ARRAYS: dict[str, _Size] = {
     "stages": lambda n: 6 * N_STAGES,
     "error_weights": lambda n: N_STAGES,
@@ -165,17 +170,17 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "prescribed_rate": _per(3, "n_contacts"),
     "bias": _per(3, "n_contacts"),
     "direction": _per(2, "n_contacts"),
-    "guard": _per(2, "n_contacts"),
+    "guard": _guards,
     "least_force": _per(1, "n_contacts"),
-    "guard_middle": _per(2, "n_contacts"),
-    "guard_first": _per(2, "n_contacts"),
-    "guard_start": _per(2, "n_contacts"),
+    "guard_middle": _guards,
+    "guard_first": _guards,
+    "guard_start": _guards,
     "gap_rate": _per(1, "n_contacts"),
     "gap_rate_first": _per(1, "n_contacts"),
     "gap_rate_middle": _per(1, "n_contacts"),
     "gap_rate_end": _per(1, "n_contacts"),
     "gap_end": _per(1, "n_contacts"),
-    "guard_end": _per(2, "n_contacts"),
+    "guard_end": _guards,
     "rate_end": _per(3, "n_contacts"),
     "map_block": lambda n: n["map_width"] * n["n_contacts"],
     "contact_time": _per(1, "n_contacts"),
@@ -266,8 +271,12 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "phase": _per(1, "n_contacts"),
     "kept": _per(2, "n_contacts"),
     "armed": _per(3, "n_contacts"),
-    "guard_armed": _per(2, "n_contacts"),
-    "guard_deflated": _per(2, "n_contacts"),
+    "guard_armed": _guards,
+    "guard_deflated": _guards,
+    "own_guard_function": _per(1, "n_own_guards"),
+    "own_guard_parameters": _per(1, "n_own_guards"),
+    "own_guard_ends": _per(1, "n_own_guards"),
+    "own_guard_spent": _per(1, "n_own_guards"),
     "event_codes": lambda n: n["event_capacity"] * (4 + n["n_contacts"]),
 }
 
@@ -281,6 +290,7 @@ SCALARS = np.dtype(
 _COUNTS = (
     "n_bodies",
     "n_contacts",
+    "n_own_guards",
     "n_q",
     "n_u",
     "n_y",
@@ -324,7 +334,7 @@ def allocate(counts: Mapping[str, int], extra: int) -> Memory:
     Parameters
     ----------
     counts : mapping of str to int
-        n_bodies, n_contacts, n_q, n_u, n_y, map_width, event_capacity, event_width, sample_capacity.
+        n_bodies, n_contacts, n_own_guards, n_q, n_u, n_y, map_width, event_capacity, event_width, sample_capacity.
     extra : int
         Floats for body blocks, Jacobians and parameters; they start at ``Memory.floats[-extra:]``.
     """

@@ -12,6 +12,7 @@ from nonsmooth.errors import PluginError, UnknownName
 
 ROLES = {
     "scalar": ("x",),
+    "guard": ("t", "q", "u"),
     "body": ("t", "q", "u", "out"),
     "pair": ("a", "b", "out"),
     "map": ("n", "delassus", "rates", "out"),
@@ -20,6 +21,7 @@ ROLES = {
 
 _SHIMS = {
     "scalar": "def shim(x, p): return law(x{unpacked})",
+    "guard": "def shim(t, q, u, p): return law(t, q, u{unpacked})",
     "body": "def shim(t, q, u, p, out): law(t, q, u, out{unpacked})",
     "pair": "def shim(a, b, p, out): law(a, b, out{unpacked})",
     "map": "def shim(n, delassus, rates, p, out): law(n, delassus, rates, out{unpacked})",
@@ -41,7 +43,7 @@ def bind(
     function : callable
         A plain function whose first arguments are those of ``ROLES[form]``.
     form : str
-        "scalar", "body", "pair" or "map".
+        "scalar", "guard", "body", "pair" or "map".
     values : mapping of str to float
         The parameters that the law's object and its surroundings offer.
     owner : str

@@ -25,7 +25,8 @@ class Events:
     cause : array
         Index into :data:`nonsmooth.engine.modes.CAUSES`, shape [n].
     contact : array
-        The contact that caused it, counted from 0, -1 at the start; shape [n].
+        The contact that caused it, counted from 0, -1 at the start; the number of the guard where that is the
+        cause; shape [n].
     phases : array
         Changes of phase within an impact, else 0; shape [n].
     truncated : array

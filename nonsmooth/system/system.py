@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess, NormalLaw, Shape
+from nonsmooth.interfaces import Body, FrictionLaw, Guard, ImpactLaw, ImpactMap, ImpactProcess, NormalLaw, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
 from nonsmooth.plugins import registry
@@ -49,6 +49,7 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = float(gravity)
         self._contacts: list[Contact] = []
+        self._guards: list[Guard] = []
         self._starts: dict[int, tuple[Vector, Vector]] = {id(body): body.state() for body in bodies}
 
     @property
@@ -65,6 +66,23 @@ class System:
     def contacts(self) -> tuple[Contact, ...]:
         """The potential contacts, in the order declared."""
         return tuple(self._contacts)
+
+    @property
+    def guards(self) -> tuple[Guard, ...]:
+        """The guards of the scenario's own, in the order declared."""
+        return tuple(self._guards)
+
+    def guard(self, guard: Guard) -> None:
+        """Watch a condition of the scenario's own; its events carry its number, in the order declared.
+
+        Raises
+        ------
+        InvalidInput
+            If it is not a Guard.
+        """
+        if not isinstance(guard, Guard):
+            raise InvalidInput("System.guard", "needs a Guard", guard, "Subclass nonsmooth.interfaces.Guard.")
+        self._guards.append(guard)
 
     def start(self, body: Body) -> tuple[Vector, Vector]:
         """Return q and u of a body at t = 0."""
