@@ -12,7 +12,7 @@ from nonsmooth.engine.impact_problem import FINISHED
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
-from nonsmooth.model.layout import Memory, allocate
+from nonsmooth.model.layout import COUNTS, Memory, allocate
 from nonsmooth.plugins.compile import bind
 
 Floats = NDArray[np.float64]
@@ -147,9 +147,6 @@ def solve_impact(
 
 def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], tolerance: float) -> Memory:
     n = len(impact)
-    counts = dict.fromkeys(
-        ("n_bodies", "n_q", "n_u", "n_y", "map_width", "event_capacity", "event_width", "sample_capacity"), 0
-    )
     blocks = []
     for i in range(n):
         for name, law, function in (
@@ -159,7 +156,7 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
     size = sum(len(values) for *_, values in blocks)
-    memory = allocate(counts | {"n_contacts": n}, size)
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_contacts": n}, size)
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.scalars["impact_rtol"] = tolerance

@@ -15,7 +15,7 @@ from nonsmooth.engine.kinematics import (
     evaluate_rates,
 )
 from nonsmooth.engine.modes import OPEN, STICK
-from nonsmooth.engine.runge_kutta import step_errors, stage_state
+from nonsmooth.engine.runge_kutta import stage_state, step_errors
 from nonsmooth.model.layout import FRAME
 
 

@@ -14,7 +14,7 @@ import math
 from nonsmooth.engine.contact_problem import friction_coefficient
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
-from nonsmooth.engine.runge_kutta import step_errors, stage_state
+from nonsmooth.engine.runge_kutta import stage_state, step_errors
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""

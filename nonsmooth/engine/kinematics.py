@@ -90,12 +90,7 @@ def _side_row(w: Floats, frame: int, point: int, ax: float, ay: float, az: float
         v = frame + FRAME + j
         o = v + 3 * n_u
         w[out + j] = (
-            ax * w[v]
-            + ay * w[v + n_u]
-            + az * w[v + 2 * n_u]
-            + mx * w[o]
-            + my * w[o + n_u]
-            + mz * w[o + 2 * n_u]
+            ax * w[v] + ay * w[v + n_u] + az * w[v + 2 * n_u] + mx * w[o] + my * w[o + n_u] + mz * w[o + 2 * n_u]
         )
 
 

@@ -35,9 +35,10 @@ class Heap(types.Type):  # type: ignore[misc]
 
 
 class Table(types.Type):  # type: ignore[misc]
-    """A pointer to the record ``S``."""
+    """A pointer to the record ``S``, whose fields are all eight bytes long."""
 
 
+_NAMES = SCALARS.names or ()
 FLOATS = Heap("Floats", types.float64)
 INTEGERS = Heap("Integers", types.int64)
 TABLE = Table("Scalars")
@@ -64,7 +65,7 @@ def _tag(access: Any, name: str) -> None:
     access.set_metadata("tbaa", module.add_metadata([kind, kind, zero]))
 
 
-@type_callable(operator.getitem)
+@type_callable(operator.getitem)  # type: ignore[untyped-decorator]
 def _type_getitem(context: Any) -> Any:
     def typer(heap: Any, index: Any) -> Any:
         return heap.dtype if isinstance(heap, Heap) and isinstance(index, types.Integer) else None
@@ -72,7 +73,7 @@ def _type_getitem(context: Any) -> Any:
     return typer
 
 
-@type_callable(operator.setitem)
+@type_callable(operator.setitem)  # type: ignore[untyped-decorator]
 def _type_setitem(context: Any) -> Any:
     def typer(heap: Any, index: Any, value: Any) -> Any:
         if isinstance(heap, Heap) and isinstance(index, types.Integer):
@@ -102,8 +103,7 @@ def _field_type(name: str) -> Any:
 
 
 def _field(context: Any, builder: Any, table: Any, name: str) -> Any:
-    words = SCALARS.fields[name][1] // 8
-    place = builder.gep(table, [ir.Constant(ir.IntType(64), words)])
+    place = builder.gep(table, [ir.Constant(ir.IntType(64), _NAMES.index(name))])
     return builder.bitcast(place, context.get_value_type(_field_type(name)).as_pointer())
 
 
@@ -112,7 +112,7 @@ class _TableFields(AttributeTemplate):  # type: ignore[misc]
     key = Table
 
     def generic_resolve(self, table: Table, name: str) -> Any:
-        return _field_type(name) if name in SCALARS.fields else None
+        return _field_type(name) if name in _NAMES else None
 
 
 @lower_getattr_generic(Table)  # type: ignore[untyped-decorator]

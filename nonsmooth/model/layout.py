@@ -287,7 +287,7 @@ SCALARS = np.dtype(
     align=True,
 )
 """The record ``S``."""
-_COUNTS = (
+COUNTS = (
     "n_bodies",
     "n_contacts",
     "n_own_guards",
@@ -299,7 +299,8 @@ _COUNTS = (
     "event_width",
     "sample_capacity",
 )
-CONSTANT_SCALARS = frozenset((*_COUNTS, *_FLOAT_ARRAYS, *_INTEGER_ARRAYS))
+"""The run-time sizes that :func:`allocate` takes."""
+CONSTANT_SCALARS = frozenset((*COUNTS, *_FLOAT_ARRAYS, *_INTEGER_ARRAYS))
 """What never changes once the memory is laid out."""
 
 
@@ -334,7 +335,7 @@ def allocate(counts: Mapping[str, int], extra: int) -> Memory:
     Parameters
     ----------
     counts : mapping of str to int
-        n_bodies, n_contacts, n_own_guards, n_q, n_u, n_y, map_width, event_capacity, event_width, sample_capacity.
+        All of ``COUNTS``.
     extra : int
         Floats for body blocks, Jacobians and parameters; they start at ``Memory.floats[-extra:]``.
     """

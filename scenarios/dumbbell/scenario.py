@@ -197,7 +197,7 @@ class DumbbellScenario(Scenario):
         return Dumbbell(self.radius, aspect_ratio, self.density, self.rod_mass_fraction)
 
     def _hertz_time(self, aspect_ratio: float) -> float:
-        """Return the duration of the slightest impact of a ball on the plate under gravity, the dumbbell being level."""
+        """Return how long the slightest impact of a ball lasts under gravity [s], the dumbbell being level."""
         dumbbell = self._quietly(lambda: self._dumbbell_of(aspect_ratio))
         arm, across = dumbbell.centre_distance / 2.0, dumbbell.inertia[1]
         mass = 1.0 / (1.0 / dumbbell.total_mass + arm**2 / across)

@@ -13,16 +13,13 @@ from hypothesis import strategies as st
 from laws import Coulomb, Unilateral
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
-from nonsmooth.model.layout import Memory, allocate
+from nonsmooth.model.layout import COUNTS, Memory, allocate
 
 
 def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:
     """Lay out one contact problem; ``slip`` holds unit vectors of sliding contacts, zeros at rest."""
     n = len(mu)
-    counts = dict.fromkeys(
-        ("n_bodies", "n_q", "n_u", "n_y", "map_width", "event_capacity", "event_width", "sample_capacity"), 0
-    )
-    memory = allocate(counts | {"n_contacts": n}, 0)
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_contacts": n}, 0)
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.array("active", n)[:] = np.arange(n)
