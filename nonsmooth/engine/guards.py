@@ -23,7 +23,7 @@ from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import GEOMETRY
 
 _ROUND_OFF = 1e-3
-"""A growth of this part of the tolerance below zero is not told from zero."""
+"""Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
 _WRONG = -1e-9
 """A guard that is not armed fires below this all the same."""
 
@@ -101,7 +101,8 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
         if k[S.mode + c] == OPEN:
             if w[S.guard_first + first] <= S.gap_tolerance:
                 k[S.guard_deflated + first] = 1
-                w[S.guard_start + first] -= _ROUND_OFF * S.gap_tolerance
+                if w[S.gap_rate_end + c] <= S.velocity_tolerance:
+                    w[S.guard_start + first] -= _ROUND_OFF * S.gap_tolerance
                 w[S.guard_first + first] = w[S.gap_rate_end + c]
         elif k[S.mode + c] != STICK and w[S.guard_first + first + 1] <= S.velocity_tolerance:
             k[S.guard_deflated + first + 1] = 1

@@ -24,6 +24,7 @@ from nonsmooth.engine.modes import (
     SETTLE_ENDLESS,
     SINGULAR_SLIDING,
     SLIDE,
+    START,
     STICK,
     STICK_TO_SLIP,
 )
@@ -154,6 +155,9 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
             k[S.active + m] = c
             # a slip about to start from rest is found anew, not remembered
             mode = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
+            # one that touches without having closed parts again
+            if k[S.mode + c] == OPEN and c != contact and cause != START:
+                mode = OPEN
             if cause == LIFT_OFF and (c == contact or _force_gone(S, w, k, c) == 1):
                 mode = OPEN
             if c == contact and cause == STICK_TO_SLIP:
