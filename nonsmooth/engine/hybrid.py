@@ -110,7 +110,7 @@ def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     normalise_quaternions(S, w, k)
     if _drifted(S, w, k) == 1 and activate_closed(S, w, k) > 0:
         S.closing_loss += project_rates(S, w, k)
-        project_gaps(S, w, k)
+        S.closing_loss += project_gaps(S, w, k)
 
 
 @kernel("i8(S, F, I)")

@@ -26,7 +26,7 @@ def _stop_slips(S: Scalars, w: Floats, k: Integers) -> None:
     """
     for a in range(S.n_active):
         k[S.normal_held + a] = 0
-        k[S.tangent_held + a] = 1 if k[S.at_rest + a] == 1 and w[S.mu_static + a] > 0.0 else 0
+        k[S.tangent_held + a] = k[S.at_rest + a]
         w[S.f + 3 * a] = w[S.mu + a] = 0.0
         for r in range(3):
             w[S.b + 3 * a + r] = w[S.impact_z + 3 * a + r]
@@ -48,8 +48,10 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     for a in range(S.n_active):
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         speed = math.sqrt(v1 * v1 + v2 * v2)
-        k[S.at_rest + a] = 1 if speed <= S.rest_speed or k[S.tangent_held + a] == 1 else 0
         w[S.mu_static + a] = friction_coefficient(S, w, k, k[S.active + a], 0.0)
+        slow = speed <= S.rest_speed or k[S.tangent_held + a] == 1
+        # without friction nothing can stop a slip, however slow
+        k[S.at_rest + a] = 1 if slow and (w[S.mu_static + a] > 0.0 or speed == 0.0) else 0
         open_question = max(open_question, k[S.at_rest + a])
     if open_question == 1:
         _stop_slips(S, w, k)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact
+from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_free_bodies, inverse_mass
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import FRAME, GEOMETRY
 
@@ -58,15 +58,29 @@ def project_rates(S: Scalars, w: Floats, k: Integers) -> float:
     return loss
 
 
-@kernel()
-def project_gaps(S: Scalars, w: Floats, k: Integers) -> None:
-    """Bring the gaps of the active contacts to zero by one Newton step along M^-1 W."""
+@kernel("f8(S, F, I)")
+def _potential_energy(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return the potential energy of the bodies as evaluated [J]."""
+    total = 0.0
+    for body in range(S.n_bodies):
+        n_u = k[S.body_nu + body]
+        if n_u > 0:
+            total += w[inverse_mass(S, w, k, body) + n_u * n_u + 1]
+    return total
+
+
+@kernel("f8(S, F, I)")
+def project_gaps(S: Scalars, w: Floats, k: Integers) -> float:
+    """Bring the gaps of the active contacts to zero by one Newton step along M^-1 W.
+
+    Returns the potential energy it removes [J].
+    """
     m = S.n_active
     worst = 0.0
     for a in range(m):
         worst = max(worst, abs(w[S.geometry + GEOMETRY * k[S.active + a]]))
     if worst <= 1e-16:
-        return
+        return 0.0
     assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
@@ -79,11 +93,14 @@ def project_gaps(S: Scalars, w: Floats, k: Integers) -> None:
     for i in range(S.n_y):
         w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
     add_response(S, w, k, S.f, S.y_stage + S.n_q)
+    before = _potential_energy(S, w, k)
     evaluate_bodies(S, w, k, S.t, S.y_stage)
     for body in range(S.n_bodies):
         rates = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body]
         for i in range(k[S.body_nq + body]):
             w[S.y + k[S.body_q + body] + i] += w[rates + i]
+    evaluate_free_bodies(S, w, k, S.t, S.y)
+    return before - _potential_energy(S, w, k)
 
 
 @kernel()

@@ -282,7 +282,7 @@ def _finish(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
     """Put the closed contacts exactly on their constraints and write the event."""
     if activate_closed(S, w, k) > 0:
         S.closing_loss += project_rates(S, w, k)
-        project_gaps(S, w, k)
+        S.closing_loss += project_gaps(S, w, k)
     if S.recorded > 0:
         amend_last(S, w, k)
         return

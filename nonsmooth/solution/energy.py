@@ -50,9 +50,11 @@ class EnergyAccount:
     def residual(self) -> float:
         """What the account does not explain, relative to the energy exchanged.
 
-        Where next to none is, as in free tumbling or at rest, a millionth of the energy present takes its place.
+        Where next to none is, the kinetic energy takes its place, as in free tumbling, or a millionth of the
+        potential energy, as at rest.
         """
         unexplained = abs(self.change - self.driven_work + self.loss)
-        present = self.kinetic_start + self.kinetic_end + abs(self.potential_start) + abs(self.potential_end)
-        scale = max(self.exchanged, 1e-6 * present)
+        kinetic = max(self.kinetic_start, self.kinetic_end)
+        potential = max(abs(self.potential_start), abs(self.potential_end))
+        scale = max(self.exchanged, kinetic, 1e-6 * potential)
         return unexplained / scale if scale > 0.0 else unexplained

@@ -32,8 +32,7 @@ starts = st.fixed_dictionaries(
 contacts = st.fixed_dictionaries(
     {
         "restitution": st.floats(0.0, 0.9),
-        # strong friction is left to the documented limits: a spatial slip that ends next to rest is stiff there
-        "friction": st.one_of(st.just(0.0), st.floats(0.02, 0.3)),
+        "friction": st.one_of(st.just(0.0), st.floats(0.02, 1.0)),
         "extra": st.sampled_from([1.0, 1.5]),
     }
 )
@@ -86,7 +85,7 @@ def _energy(body: Any, q: Any, u: Any) -> Any:
     return kinetic + body.total_mass * G * q[:, 2]
 
 
-@settings(derandomize=True, max_examples=40, phases=PHASES)
+@settings(derandomize=False, max_examples=300, phases=PHASES)
 @given(start=starts, laws=contacts, gamma=gammas)
 def test_energy_gaps_and_impulses(build: Any, start: Any, laws: Any, gamma: float) -> None:
     """Residual <= 1e-8; nothing penetrates; impulses push and lie in the friction disc; losses are losses."""
