@@ -64,8 +64,8 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
     speed = math.sqrt(v1 * v1 + v2 * v2)
     if speed > S.velocity_tolerance:
-        sign = 1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0
-        d1, d2 = sign * v1 / speed, sign * v2 / speed
+        inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+        d1, d2 = inverse * v1, inverse * v2
     w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
     w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
 

@@ -92,8 +92,8 @@ def _slide(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
     speed = math.sqrt(v1 * v1 + v2 * v2)
     if speed > S.rest_speed:
-        sign = 1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0
-        d1, d2 = sign * v1 / speed, sign * v2 / speed
+        inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+        d1, d2 = inverse * v1, inverse * v2
     mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
     w[S.mu + a] = mu
     w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
@@ -119,7 +119,7 @@ def write_impact_slope(S: Scalars, w: Floats, k: Integers, out: int) -> None:
         phase = k[S.phase + a]
         w[o + 3] = 0.0
         if phase == COMPRESSION:
-            w[o + 3] = -rate / efficiency(S, w, k, a, min(rate, 0.0))
+            w[o + 3] = -rate
         elif phase == EXPANSION:
             w[o + 3] = -rate / efficiency(S, w, k, a, max(rate, 1e-300))
         w[o + 6] = w[f] * w[o + 3]

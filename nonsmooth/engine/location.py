@@ -1,20 +1,25 @@
 """Finding events within a step, and stepping exactly to the first of them.
 
 Guards are sampled in the middle and at the end of every step, the middle unless all gaps are far from closing;
-between two samples at which a gap first falls and then rises, its minimum is located, so that no dip is missed.
+between two samples a gap that first falls and then rises, by its rates or by its cubic, is followed to its minimum.
 """
 
 from __future__ import annotations
+
+import math
 
 from nonsmooth.engine.flow import try_step
 from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, is_gap, keep_end, write_guards
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import dense_state
+from nonsmooth.model.layout import GEOMETRY
 
 _MIDDLE = 0.5
 _NEAR = 0.2
 """A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
+_DEEP = 0.5
+"""A gap whose cubic falls below this part of its ends is looked at more closely."""
 _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
 _NEGLIGIBLE = 0.01
@@ -63,17 +68,48 @@ def _least_gap(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: f
     return 0.0
 
 
+@kernel("f8(f8, f8, f8, f8)")
+def _cubic_minimum(g0: float, r0: float, g1: float, r1: float) -> float:
+    """Return where the cubic with these values and slopes at 0 and 1 has a minimum well below both values, or 0."""
+    square, cube = 3.0 * (g1 - g0) - 2.0 * r0 - r1, r0 + r1 - 2.0 * (g1 - g0)
+    discriminant = square * square - 3.0 * cube * r0
+    if discriminant <= 0.0:
+        return 0.0
+    root = math.sqrt(discriminant)
+    s = (root - square) / (3.0 * cube) if square < 0.0 else -r0 / (root + square)
+    if not 0.0 < s < 1.0 or g0 + s * (r0 + s * (square + s * cube)) > _DEEP * min(g0, g1):
+        return 0.0
+    return s
+
+
 @kernel("f8(S, F, I, f8, f8, f8, i8)")
 def _dip(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, middle: int) -> float:
     """Look for a dip of an open gap between two samples; ``middle`` 1 if the later one is the middle of the step."""
     for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            continue
         before = w[S.gap_rate_middle + c] if middle == 0 else w[S.gap_rate_first + c]
         after = w[S.gap_rate_middle + c] if middle == 1 else w[S.gap_rate_end + c]
-        if k[S.mode + c] == OPEN and before < 0.0 and after > 0.0:
-            theta = _least_gap(S, w, k, h, low, high, c)
-            if theta > 0.0:
-                _guards_within(S, w, k, h, theta, _any_closed(S, w, k))
-                return theta
+        g_before = w[S.gap_middle + c] if middle == 0 else w[S.guard_start + 2 * c]
+        g_after = w[S.gap_middle + c] if middle == 1 else w[S.gap_end + c]
+        start = low
+        if before >= 0.0 or after <= 0.0:
+            # both rates have one sign, and yet the gap may fall and rise between them
+            span = (high - low) * h
+            s = _cubic_minimum(g_before, before * span, g_after, after * span)
+            if s == 0.0:
+                continue
+            start = low + s * (high - low)
+            _guards_within(S, w, k, h, start, 0)
+            before = w[S.gap_rate + c]
+        theta = 0.0
+        if start > low and w[S.guard + 2 * c] < 0.0:
+            theta = start
+        elif before < 0.0 and after > 0.0:
+            theta = _least_gap(S, w, k, h, start, high, c)
+        if theta > 0.0:
+            _guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+            return theta
     return 0.0
 
 
@@ -154,6 +190,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     arm_further(S, w, k, forces)
     for c in range(S.n_contacts):
         w[S.gap_rate_middle + c] = w[S.gap_rate + c]
+        w[S.gap_middle + c] = w[S.geometry + GEOMETRY * c]
     for i in range(2 * S.n_contacts + S.n_own_guards):
         w[S.guard_middle + i] = w[S.guard + i]
     theta = _dip(S, w, k, h, 0.0, _MIDDLE, 1)

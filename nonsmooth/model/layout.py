@@ -179,6 +179,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "gap_rate_first": _per(1, "n_contacts"),
     "gap_rate_middle": _per(1, "n_contacts"),
     "gap_rate_end": _per(1, "n_contacts"),
+    "gap_middle": _per(1, "n_contacts"),
     "gap_end": _per(1, "n_contacts"),
     "guard_end": _guards,
     "rate_end": _per(3, "n_contacts"),
