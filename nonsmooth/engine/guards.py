@@ -9,8 +9,8 @@ Every contact has two guards, positive while its mode is valid:
 Behind them stand the scenario's own, whatever the modes.
 
 An event lies in the half-open interval t0 < t* <= t1 of a step.  Of a guard that starts from zero (a gap
-just after an impact, a slip just begun) the growth is taken, divided by the elapsed time, so that its zero at
-the start does not fire while the next one does.
+just after an impact, a slip just begun) the growth from there is taken, divided by the elapsed time, so that its
+zero at the start does not fire while the next one does.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
 
 @kernel("void(S, F, I, f8)")
 def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
-    """Divide the growth of the guards that started from zero by the time elapsed."""
+    """Divide the growth of the guards that started from zero, or below it by round-off, by the time elapsed."""
     for i in range(2 * S.n_contacts + S.n_own_guards):
         if k[S.guard_deflated + i] == 1:
             w[S.guard + i] = (w[S.guard + i] - w[S.guard_start + i]) / elapsed
@@ -101,12 +101,13 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
         if k[S.mode + c] == OPEN:
             if w[S.guard_first + first] <= S.gap_tolerance:
                 k[S.guard_deflated + first] = 1
+                w[S.guard_start + first] = min(0.0, w[S.guard_start + first])
                 if w[S.gap_rate_end + c] <= S.velocity_tolerance:
                     w[S.guard_start + first] -= _ROUND_OFF * S.gap_tolerance
                 w[S.guard_first + first] = w[S.gap_rate_end + c]
         elif k[S.mode + c] != STICK and w[S.guard_first + first + 1] <= S.velocity_tolerance:
             k[S.guard_deflated + first + 1] = 1
-            w[S.guard_start + first + 1] -= _ROUND_OFF * S.velocity_tolerance
+            w[S.guard_start + first + 1] = min(0.0, w[S.guard_start + first + 1]) - _ROUND_OFF * S.velocity_tolerance
             w[S.guard_first + first + 1] = 0.0
         for i in range(2):
             k[S.guard_armed + first + i] = 1 if w[S.guard_first + first + i] > 0.0 else 0

@@ -1,8 +1,8 @@
 """Guards inside an impact, and stepping exactly to the first that ends its phase.
 
 Guards are positive while a phase is valid: the gap rate (its sign in compression and expansion, the
-approach of an idle contact, the force of a held one), the stored energy, and the friction (the slip along
-its direction, or the distance to the static bound).
+approach of an idle contact, the force of a held one), the deformation or stored energy, and the friction (the
+slip along its direction, or the distance to the static bound).
 """
 
 from __future__ import annotations
@@ -24,6 +24,8 @@ from nonsmooth.engine.impact_rates import (
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import dense_state
 
+_SLACK = 1e-9
+"""A compression that comes to nothing, of round-off, ends at this deformation below zero, relative to a full one."""
 TOGETHER = 1e-13
 """Guards within this of zero fire together."""
 _WRONG = -1e-7
@@ -57,6 +59,8 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
         w[guard + 1] = 1.0
         if phase == COMPRESSION:
             w[guard] = NOISE - rate
+            if a != S.lone:
+                w[guard + 1] = _SLACK + w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
         elif phase == HELD:
             w[guard] = NOISE + w[S.f + 3 * a] / force_scale
         else:

@@ -117,7 +117,8 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     for a in range(S.n_active):
         guard = S.impact_guard + 3 * a
         phase = k[S.phase + a]
-        if phase == EXPANSION and (S.trigger == 3 * a + 1 or w[guard + 1] < TOGETHER):
+        loaded = phase == EXPANSION or phase == COMPRESSION
+        if loaded and (S.trigger == 3 * a + 1 or w[guard + 1] < TOGETHER):
             _account(S, w, k, a)
             k[S.phase + a] = IDLE
             w[S.impact_y + STRIDE * a + 3] = w[S.impact_y + STRIDE * a + 6] = 0.0

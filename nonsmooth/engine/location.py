@@ -304,6 +304,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         if not slope < 0.0:
             return step
         correction = min(0.2 * theta * h, max(-0.2 * theta * h, -value / slope))
+        if step + correction <= 0.0:
+            return -1.0
         if abs(correction) <= _SHORT * h:
             # so short a way is straight
             for j in range(S.n_y):

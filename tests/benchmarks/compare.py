@@ -19,7 +19,7 @@ from nonsmooth import simulate
 from scenarios.dumbbell.scenario import DumbbellScenario
 from tests.benchmarks.engines import Motion, MuJoCo, PyBullet, damping_ratio
 
-T_END = 4.0
+T_END = 10.0
 REPETITIONS = 9
 MUJOCO_STEP, PYBULLET_STEP = 1e-4, 1e-3
 
