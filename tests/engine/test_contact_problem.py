@@ -153,6 +153,28 @@ def test_breakaway_of_one_contact(side: float, static: float) -> None:
     np.testing.assert_allclose(forces[0], (1.0, -0.6 * size, -0.8 * size), rtol=0, atol=1e-12)
 
 
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_breakaway_where_normal_and_tangent_are_coupled(side: float) -> None:
+    """Sticking needs 1.002 of the static bound here, and sliding changes the normal force: it slides, one way only."""
+    delassus = np.array([[228.454549, -90.392349, -19.640517], [-90.392349, 217.275552, -79.72869], [0.0, 0.0, 0.0]])
+    delassus[2] = -19.640517, -79.72869, 566.890631
+    bias = np.array([[-13.597983, 2.144279, 0.472366]])
+    mu, static = 0.2, 0.300600 + side * 1e-3
+    found, forces, modes = _solve(_memory(delassus, bias, [mu], [static], np.zeros((1, 2))), 1)
+    assert found
+    assert modes[0] == (SLIDE if side < 0.0 else STICK)
+    acceleration = delassus @ forces[0] + bias[0]
+    assert abs(acceleration[0]) <= 1e-12
+    friction = forces[0, 1:]
+    if side > 0.0:
+        np.testing.assert_allclose(acceleration, 0.0, atol=1e-12)
+        assert np.hypot(*friction) <= static * forces[0, 0]
+    else:
+        assert np.hypot(*friction) == pytest.approx(mu * forces[0, 0], rel=1e-12)
+        slip = acceleration[1:]
+        assert friction @ slip == pytest.approx(-np.hypot(*friction) * np.hypot(*slip), rel=1e-12)
+
+
 @pytest.mark.parametrize("side", [-1e-9, 1e-9])
 def test_lift_off_of_one_contact(side: float) -> None:
     """The contact opens iff the free acceleration points away."""

@@ -27,7 +27,8 @@ _SYMBOLS = {
     "restitution": ("e", 1.0, ""),
     "friction": ("µ", 1.0, ""),
     "static_friction": ("µ$_s$", 1.0, ""),
-    "contact_time": ("T$_c$", 1e6, "µs"),
+    "young_modulus": ("E", 1e-9, "GPa"),
+    "poisson_ratio": ("$\\nu$", 1.0, ""),
 }
 
 
