@@ -51,6 +51,8 @@ _LONG = 6
 _UNUSED = 1e300
 _TRUSTED = 2.0
 """The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
+_FIRST = 0.25
+"""The first step of an impact is the tolerance to this power, in units of the shortest compression."""
 _SHARE = 0.7
 """The most of its deformation that a contact loses in one step of its expansion,"""
 _LAST = 2.0
@@ -351,7 +353,7 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
     _start(S, w, k, 1e-2 * shortest)
     prepare_guards(S, w, k)
     write_impact_slope(S, w, k, S.impact_slopes)
-    h = shortest * (_FAR if m == 1 else S.impact_rtol**0.4)
+    h = shortest * (_FAR if m == 1 else S.impact_rtol**_FIRST)
     for _step in range(_MOST_STEPS):
         if _finished(S, w, k) == 1:
             _finish(S, w, k)
@@ -390,7 +392,7 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
                 h *= 0.25
                 continue
         if fired == 1:
-            grown = max(h, shortest * S.impact_rtol**0.4)
+            grown = max(h, shortest * S.impact_rtol**_FIRST)
             if S.lone >= 0:
                 grown = _FAR * _impulse_scale(S, w, S.lone)
         for i in range(n):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
@@ -114,6 +116,6 @@ def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
         square = 0.0
         for i in range(4):
             square += w[q + i] * w[q + i]
-        factor = square**-0.5
+        factor = 1.0 / math.sqrt(square)
         for i in range(4):
             w[q + i] *= factor

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from nonsmooth.engine.kernel import Floats, Scalars, kernel
 
-SAFETY, SHRINK, GROW = 0.9, 0.2, 8.0
+SAFETY, SHRINK, GROW = 0.92, 0.2, 8.0
 _EXPONENT = -0.2
+_TINY = (SAFETY / GROW) ** 5
+"""Below this error the step grows by the most it may."""
 
 
 @kernel("void(S, F, i8, i8, i8, i8, f8, i8)")
 def stage_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, stage: int, h: float, out: int) -> None:
     """Write the state at which the slope of ``stage`` is evaluated."""
+    weight = h * w[S.stages + 6 * stage]
     for i in range(n):
-        w[out + i] = w[start + i]
-    for j in range(stage):
+        w[out + i] = w[start + i] + weight * w[slopes + i]
+    for j in range(1, stage):
         weight = h * w[S.stages + 6 * stage + j]
         for i in range(n):
             w[out + i] += weight * w[slopes + j * n + i]
@@ -35,9 +38,10 @@ def dense_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, h: float
 @kernel("void(S, F, i8, i8, f8, i8)")
 def step_errors(S: Scalars, w: Floats, slopes: int, n: int, h: float, out: int) -> None:
     """Write the estimated errors of the components of the step."""
+    weight = h * w[S.error_weights]
     for i in range(n):
-        w[out + i] = 0.0
-    for j in range(7):
+        w[out + i] = weight * w[slopes + i]
+    for j in range(1, 7):
         weight = h * w[S.error_weights + j]
         for i in range(n):
             w[out + i] += weight * w[slopes + j * n + i]
@@ -46,6 +50,6 @@ def step_errors(S: Scalars, w: Floats, slopes: int, n: int, h: float, out: int) 
 @kernel("f8(f8)")
 def step_factor(error: float) -> float:
     """Return by how much the next step may differ, the error being relative to its tolerance."""
-    if error <= 0.0:
+    if error <= _TINY:
         return GROW
     return float(min(GROW, max(SHRINK, SAFETY * error**_EXPONENT)))

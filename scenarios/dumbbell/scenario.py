@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Dumbbell, Harmonic, Plate
-from laws import Coulomb, Unilateral
-from laws.impact.hertz import closing_time, plane_strain_modulus
+from laws import Coulomb, Unilateral, closing_time, plane_strain_modulus
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ImpactLaw, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules

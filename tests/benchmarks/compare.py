@@ -60,7 +60,7 @@ def main() -> None:
 
     system = scenario.build()
     tasks: dict[str, Callable[[], object]] = {
-        "nonsmooth, default tolerances": lambda: simulate(system, T_END, sample_interval=scenario.sample_interval),
+        "nonsmooth, default tolerances": lambda: simulate(system, T_END, sample_interval=T_END),
         "MuJoCo 1e-4 s, bouncing contact": reset_and_run(bouncing),
         "MuJoCo 1e-4 s, default contact": reset_and_run(soft),
         "PyBullet 1e-3 s": reset_and_run(bullet),

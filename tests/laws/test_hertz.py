@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from scipy.integrate import solve_ivp
 
-from laws.impact.hertz import closing_time, contact_time, plane_strain_modulus
+from laws import closing_time, contact_time, plane_strain_modulus
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 MASS, RADIUS, MODULUS = 3.5e-3, 4.76e-3, 1.15e11
