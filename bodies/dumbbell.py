@@ -17,7 +17,8 @@ from nonsmooth.parameters import parameter
 class Dumbbell(FreeBody):
     """The paper's body (Fig. 1): balls 1 and 2 at -l/2 and +l/2 on the first body axis.
 
-    The rod is thin, of length l - 2 r, and touches nothing.
+    The rod is thin, of length l - 2 r, and touches nothing.  Of the material, only the density moves the body; the
+    elastic constants say how long its impacts last.
     """
 
     radius: float = parameter(
@@ -30,6 +31,11 @@ class Dumbbell(FreeBody):
     rod_mass_fraction: float = parameter(
         0.15, doc="share of the rod in the total mass", minimum=0.0, maximum=0.99, assumed=True
     )
+
+    young_modulus: float = parameter(
+        210e9, doc="Young's modulus E of the balls", unit="Pa", above=0.0, usual=(1e5, 2e12), assumed=True
+    )
+    poisson_ratio: float = parameter(0.3, doc="Poisson's ratio nu of the balls", minimum=0.0, maximum=0.5, assumed=True)
 
     @property
     def centre_distance(self) -> float:
@@ -49,6 +55,11 @@ class Dumbbell(FreeBody):
         across = m * ((1.0 - x) * (length * length / 4.0 + 0.4 * r * r) + x * (length - 2.0 * r) ** 2 / 12.0)
         along = m * (1.0 - x) * 0.4 * r * r
         return along, across, across
+
+    @property
+    def level_mass(self) -> float:
+        """Effective mass 1 / (n . G n) of one ball against a wall below the level dumbbell, m* [kg]."""
+        return 1.0 / (1.0 / self.total_mass + (self.centre_distance / 2.0) ** 2 / self.inertia[1])
 
     @property
     def shapes(self) -> tuple[Shape, ...]:

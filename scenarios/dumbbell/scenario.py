@@ -193,15 +193,15 @@ class DumbbellScenario(Scenario):
         return self._dumbbell_of(self.resolved()["aspect_ratio"])
 
     def _dumbbell_of(self, aspect_ratio: float) -> Dumbbell:
-        return Dumbbell(self.radius, aspect_ratio, self.density, self.rod_mass_fraction)
+        return Dumbbell(
+            self.radius, aspect_ratio, self.density, self.rod_mass_fraction, self.young_modulus, self.poisson_ratio
+        )
 
     def _hertz_time(self, aspect_ratio: float) -> float:
         """Return how long the slightest impact of a ball lasts under gravity [s], the dumbbell being level."""
         dumbbell = self._quietly(lambda: self._dumbbell_of(aspect_ratio))
-        arm, across = dumbbell.centre_distance / 2.0, dumbbell.inertia[1]
-        mass = 1.0 / (1.0 / dumbbell.total_mass + arm**2 / across)
-        modulus = plane_strain_modulus(self.young_modulus, self.poisson_ratio)
-        return closing_time(mass, self.radius, modulus, GRAVITY)
+        modulus = plane_strain_modulus(dumbbell.young_modulus, dumbbell.poisson_ratio)
+        return closing_time(dumbbell.level_mass, dumbbell.radius, modulus, GRAVITY)
 
     def _impact_law(self) -> ImpactLaw:
         used = self.resolved()
