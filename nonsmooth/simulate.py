@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from nonsmooth.system.system import System
 _STEPS_AT_ONCE = 2000
 _DEFAULT_SAMPLES = 2000
 Progress = Callable[[float, float], None]
+_Chunks: TypeAlias = dict[tuple[int, int], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 def simulate(
@@ -72,19 +74,17 @@ def simulate(
 def _run(model: Model, progress: Progress | None) -> Solution:
     scalars = model.memory.scalars
     start = model.energy()
-    rows: list[np.ndarray] = []
-    codes: list[np.ndarray] = []
-    samples: list[np.ndarray] = []
+    chunks: _Chunks = {}
     began = time.perf_counter()
     status, word = PAUSED, "done"
     try:
         while status == PAUSED:
             status = int(call_room("advance", model.memory, _STEPS_AT_ONCE))
-            _drain(model, rows, codes, samples)
+            _drain(model, chunks)
             if progress is not None:
                 progress(float(scalars["t"][0]), float(scalars["t_end"][0]))
     except KeyboardInterrupt:
-        _drain(model, rows, codes, samples)
+        _drain(model, chunks)
         word = "interrupted"
     if status not in (DONE, STOPPED, PAUSED):
         word = "failed"
@@ -92,39 +92,44 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     if word == "failed":
         message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {culprit(model, status)}".strip()
     wall = time.perf_counter() - began
-    solution = _solution(model, start, rows, codes, samples, word, message, wall)
+    solution = _solution(model, start, chunks, word, message, wall)
     if word == "failed":
         raise RunFailed(f"{message} What was computed is in the error's `solution`.", solution)
     return solution
 
 
-def _drain(model: Model, rows: list[np.ndarray], codes: list[np.ndarray], samples: list[np.ndarray]) -> None:
+def _drain(model: Model, chunks: _Chunks) -> None:
+    """Empty the engine's buffers into a chunk of events, codes and samples, keyed by the steps taken.
+
+    An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
+    """
     scalars, memory = model.memory.scalars, model.memory
-    n_events, n_samples = int(scalars["n_events"][0]), int(scalars["n_samples"][0])
-    width = model.n_y + 1
-    found = memory.array("events", n_events * model.event_width)
-    rows.append(found.reshape(n_events, model.event_width).copy())
-    marks = memory.array("event_codes", n_events * model.code_width)
-    codes.append(marks.reshape(n_events, model.code_width).copy())
-    samples.append(memory.array("samples", n_samples * width).reshape(n_samples, width).copy())
+    key = int(scalars["steps"][0]), int(scalars["impacts"][0])
+    if key not in chunks:
+        n_events, n_samples = int(scalars["n_events"][0]), int(scalars["n_samples"][0])
+        width = model.n_y + 1
+        found = memory.array("events", n_events * model.event_width)
+        marks = memory.array("event_codes", n_events * model.code_width)
+        samples = memory.array("samples", n_samples * width)
+        chunks[key] = (
+            found.reshape(n_events, model.event_width).copy(),
+            marks.reshape(n_events, model.code_width).copy(),
+            samples.reshape(n_samples, width).copy(),
+        )
     scalars["n_events"] = scalars["n_samples"] = 0
 
 
 def _solution(
     model: Model,
     start: tuple[float, float],
-    rows: list[np.ndarray],
-    codes: list[np.ndarray],
-    samples: list[np.ndarray],
+    chunks: _Chunks,
     word: str,
     message: str,
     wall: float,
 ) -> Solution:
     memory, scalars = model.memory, model.memory.scalars
     n_q, n_u = model.n_q, model.n_u
-    table = np.concatenate([s.reshape(-1, model.n_y + 1) for s in samples])
-    all_rows = np.concatenate([r.reshape(-1, model.event_width) for r in rows])
-    all_codes = np.concatenate([c.reshape(-1, model.code_width) for c in codes])
+    all_rows, all_codes, table = (np.concatenate(parts) for parts in zip(*chunks.values(), strict=True))
     y = memory.array("y", model.n_y).copy()
     end = model.energy()
     energy = EnergyAccount(
