@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.flow import right_hand_side
 from nonsmooth.engine.forces import evaluate_margins
-from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_guard, kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_guard, kernel
 from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_driven_bodies, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import GEOMETRY
@@ -57,7 +57,7 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
         )
 
 
-@room("void(S, F, I, f8, i8, f8, i8)")
+@kernel("void(S, F, I, f8, i8, f8, i8)")
 def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapsed: float, forces: int) -> None:
     """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step."""
     if forces == 1:

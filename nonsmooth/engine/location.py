@@ -38,15 +38,16 @@ def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
     return 0
 
 
-@kernel("void(S, F, I, f8, f8, i8)")
-def _guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
+@room("void(S, F, I, f8, f8, i8)")
+def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
+    """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
 def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
-    _guards_within(S, w, k, h, theta, forces)
+    guards_within(S, w, k, h, theta, forces)
     return w[S.guard + i]
 
 
@@ -55,7 +56,7 @@ def _least_gap(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: f
     """Return a fraction of the step between ``low`` and ``high`` where the gap of ``c`` is negative, or 0."""
     for _iteration in range(40):
         middle = 0.5 * (low + high)
-        _guards_within(S, w, k, h, middle, 0)
+        guards_within(S, w, k, h, middle, 0)
         if w[S.guard + 2 * c] < 0.0:
             return middle
         if w[S.gap_rate + c] < 0.0:
@@ -73,7 +74,7 @@ def _cubic_minimum(g0: float, r0: float, g1: float, r1: float) -> float:
     """Return where the cubic with these values and slopes at 0 and 1 has a minimum well below both values, or 0."""
     square, cube = 3.0 * (g1 - g0) - 2.0 * r0 - r1, r0 + r1 - 2.0 * (g1 - g0)
     discriminant = square * square - 3.0 * cube * r0
-    if discriminant <= 0.0:
+    if discriminant <= 0.0 or (square < 0.0 and cube <= 0.0):
         return 0.0
     root = math.sqrt(discriminant)
     s = (root - square) / (3.0 * cube) if square < 0.0 else -r0 / (root + square)
@@ -100,7 +101,7 @@ def _dip(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, 
             if s == 0.0:
                 continue
             start = low + s * (high - low)
-            _guards_within(S, w, k, h, start, 0)
+            guards_within(S, w, k, h, start, 0)
             before = w[S.gap_rate + c]
         theta = 0.0
         if start > low and w[S.guard + 2 * c] < 0.0:
@@ -108,7 +109,7 @@ def _dip(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, 
         elif before < 0.0 and after > 0.0:
             theta = _least_gap(S, w, k, h, start, high, c)
         if theta > 0.0:
-            _guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+            guards_within(S, w, k, h, theta, _any_closed(S, w, k))
             return theta
     return 0.0
 
@@ -182,10 +183,10 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     forces = closed if S.suspect == 1 else 0
     if forces == 0 and S.n_own_guards == 0 and _far(S, w, k, h) == 1:
         return 1.0 if fired >= 0 else 0.0
-    _guards_within(S, w, k, h, _MIDDLE, forces)
+    guards_within(S, w, k, h, _MIDDLE, forces)
     if first_fired(S, w, k, forces, -1) >= 0:
         if forces != closed:
-            _guards_within(S, w, k, h, _MIDDLE, closed)
+            guards_within(S, w, k, h, _MIDDLE, closed)
         return _MIDDLE
     arm_further(S, w, k, forces)
     for c in range(S.n_contacts):

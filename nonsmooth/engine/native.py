@@ -10,7 +10,6 @@ import hashlib
 import importlib
 import inspect
 import os
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -22,7 +21,7 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core.caching import CacheImpl, _CacheLocator
-from numba.core.codegen import CPUCodeLibrary
+from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
 from numba.extending import intrinsic
 
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
@@ -149,44 +148,56 @@ def _room_caller(signature: Any) -> Any:
     return intrinsic(scope["typed"])
 
 
+_LATER = (
+    (CPUCodeLibrary, "_optimize_final_module"),
+    (JITCodeLibrary, "_finalize_specific"),
+    (JITCPUCodegen, "_add_module"),
+    (JITCPUCodegen, "set_env"),
+)
+"""The steps of numba that optimise a function and make machine code of it."""
+
+
 @contextlib.contextmanager
 def _raw() -> Iterator[None]:
-    """Leave what is compiled inside as it is: the rooms that take it in optimise it once, not every caller anew."""
-    optimise = CPUCodeLibrary._optimize_final_module
-    CPUCodeLibrary._optimize_final_module = lambda library: None
-    try:
+    """Leave what is compiled inside as intermediate code: only the rooms that take it in go on with it, once each."""
+    with contextlib.ExitStack() as stack:
+        for owner, name in _LATER:
+            stack.callback(setattr, owner, name, getattr(owner, name))
+            setattr(owner, name, lambda *_: None)
         yield
-    finally:
-        CPUCodeLibrary._optimize_final_module = optimise
 
 
 @functools.cache
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
-    if not _marker().exists():
-        print("compiling the engine once for this machine (about 20 s) ...", file=sys.stderr, flush=True)
-        # in a process of its own: in this one the raw kernels would stand beside the optimised ones
-        command = "from nonsmooth.engine.native import compile_rooms; compile_rooms()"
-        subprocess.run([sys.executable, "-c", command], cwd=_PACKAGE.parent, check=False)
-    return tuple(int(room.address) for room in compile_rooms())
-
-
-def compile_rooms() -> list[Any]:
-    """Compile the rooms, or load them from the cache; return them in the order of ``ROOMS``."""
     importlib.import_module("nonsmooth.engine.hybrid")
     if not _marker().exists():
+        print("compiling the engine once for this machine (about 20 s) ...", file=sys.stderr, flush=True)
         # millions of small objects that live: looking for garbage among them is lost time
+        collecting = gc.isenabled()
         gc.disable()
+        try:
+            return _compile_rooms()
+        finally:
+            if collecting:
+                gc.enable()
+    return _compile_rooms()
+
+
+def _compile_rooms() -> tuple[int, ...]:
+    if not _marker().exists():
         with _raw():
             for inner, typed in _pending:
                 inner.compile(typed)
+    addresses = []
     for name in ROOMS:
         function, signature = _rooms[name]
-        _alive.append(numba.cfunc(_signature(signature), cache=True, nopython=True, error_model="numpy")(function))
-    gc.enable()
+        compiled = numba.cfunc(_signature(signature), cache=True, nopython=True, error_model="numpy")(function)
+        _alive.append(compiled)
+        addresses.append(int(compiled.address))
     with contextlib.suppress(OSError):
         _marker().touch()
-    return _alive[-len(ROOMS) :]
+    return tuple(addresses)
 
 
 def _marker() -> Path:

@@ -57,7 +57,7 @@ ROOMS = (
     "slope",
     "evaluate_contact",
     "evaluate_at",
-    "evaluate_guards",
+    "guards_within",
     "settle",
     "advance",
     "try_step",
