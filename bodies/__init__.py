@@ -2,6 +2,7 @@
 
 from bodies.ball import Ball
 from bodies.contacts.plane_sphere import PlaneSphere
+from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.dumbbell import Dumbbell
 from bodies.free import FreeBody
 from bodies.motions.harmonic import Harmonic
@@ -10,4 +11,15 @@ from bodies.plate import Plate
 from bodies.shapes.plane import Plane
 from bodies.shapes.sphere import Sphere
 
-__all__ = ["Ball", "Dumbbell", "FreeBody", "Harmonic", "Plane", "PlaneSphere", "Plate", "Rest", "Sphere"]
+__all__ = [
+    "Ball",
+    "Dumbbell",
+    "FreeBody",
+    "Harmonic",
+    "Plane",
+    "PlaneSphere",
+    "Plate",
+    "Rest",
+    "Sphere",
+    "SphereSphere",
+]
