@@ -1,0 +1,139 @@
+"""A row of balls at rest, struck by others: what each of them does after one multiple impact."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import Ball
+from laws import EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress, simulate
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+
+Floats = NDArray[np.float64]
+
+_SAMPLES = 400
+
+
+@final
+@dataclass(frozen=True)
+class NewtonsCradle(Scenario):
+    """Balls in a line without gravity: ``n_strikers`` that touch fly at ``speed`` into the others, which touch too.
+
+    References
+    ----------
+    C. Liu, Z. Zhao, B. Brogliato, "Frictionless multiple impacts in multibody systems. II. Numerical algorithm and
+    simulation results", Proc. R. Soc. A 465 (2009) 1-23.
+    """
+
+    title: ClassVar[str] = "Newton's cradle"
+
+    n_balls: float = parameter(5.0, doc="number of balls, strikers included", minimum=2.0, maximum=100.0)
+    n_strikers: float = parameter(1.0, doc="number of balls that strike", minimum=1.0, maximum=99.0)
+    radius: float = parameter(0.01, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0))
+    density: float = parameter(7780.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
+    mass_ratio: float = parameter(1.0, doc="mass of a striker over that of another ball", above=0.0, usual=(1e-3, 1e3))
+    stiffness_ratio: float = parameter(
+        1.0, doc="stiffness of a contact over that of the one before it", above=0.0, usual=(1e-3, 1e3)
+    )
+    restitution: float = parameter(1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
+    speed: float = parameter(1.0, doc="speed of the strikers", unit="m/s", above=0.0, usual=(1e-3, 1e2))
+    distance: float = parameter(0.01, doc="way to the strike", unit="m", above=0.0, usual=(1e-6, 10.0))
+    t_end: float = parameter(0.04, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
+
+    def _check(self) -> None:
+        for name in ("n_balls", "n_strikers"):
+            value = getattr(self, name)
+            if value != int(value):
+                raise InvalidInput(
+                    f"NewtonsCradle.{name}", "must be a whole number", value, "Balls do not come in parts."
+                )
+        if self.n_strikers >= self.n_balls:
+            raise InvalidInput(
+                "NewtonsCradle.n_strikers",
+                f"must be less than the number of balls {self.n_balls:g}",
+                self.n_strikers,
+                "Leave at least one ball to be struck.",
+            )
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A four-hundredth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    def build(self) -> System:
+        """Return balls and contacts at their start."""
+        n, strikers = int(self.n_balls), int(self.n_strikers)
+        balls = [Ball(self.radius, self.density * (self.mass_ratio if i < strikers else 1.0)) for i in range(n)]
+        system = System(balls, gravity=0.0)
+        stiffness = 1.0
+        for one, two in itertools.pairwise(balls):
+            impact = EnergeticImpact(self.restitution, stiffness, self.exponent)
+            system.contact(one, two, normal=Unilateral(), friction=Frictionless(), impact=impact)
+            stiffness *= self.stiffness_ratio
+        for i, ball in enumerate(balls):
+            place = 2.0 * self.radius * (i - strikers) - (self.distance if i < strikers else 0.0)
+            system.place(ball, position=(place, 0.0, 0.0), velocity=(self.speed if i < strikers else 0.0, 0.0, 0.0))
+        return system
+
+    def positions(self, solution: Solution) -> Floats:
+        """Return the balls' centres along the row [m], shape [n_samples, n_balls]."""
+        return solution.q.reshape(len(solution.t), -1, 7)[:, :, 0]
+
+    def velocities(self, solution: Solution) -> Floats:
+        """Return the balls' velocities along the row at the end [m/s], shape [n_balls]."""
+        return solution.u_end.reshape(-1, 6)[:, 0]
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return x_1 ... x_n [m] over the samples."""
+        return {f"x_{i + 1}": x for i, x in enumerate(self.positions(solution).T)}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u}: centres [m] and velocities [m/s] along the row at the end."""
+        return {"q": solution.q_end.reshape(-1, 7)[:, 0].tolist(), "u": self.velocities(solution).tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the velocities over that of the strikers, the share of energy kept, and the number of impacts."""
+        account = solution.energy
+        return {
+            "relative_velocity": (self.velocities(solution) / self.speed).tolist(),
+            "energy_kept": account.kinetic_end / account.kinetic_start,
+            "impacts": solution.counters.impacts,
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the velocities after the strike."""
+        from scenarios.newtons_cradle.figures import velocities
+
+        kept = {f"{self.n_balls:g} balls, e = {self.restitution:g}, η = {self.exponent:g}": (self, solution)}
+        return {"velocities": velocities(kept, "Not only the last ball flies off: the others follow, or come back")}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the velocities after the strike for rows of 3, 5 and 10 balls, linear and Hertzian."""
+        from scenarios.newtons_cradle.figures import velocities
+
+        drawn = {}
+        for exponent, word in ((1.0, "linear"), (1.5, "hertz")):
+            runs = {}
+            for n in (3.0, 5.0, 10.0):
+                scenario = cls(n_balls=n, exponent=exponent)
+                run = simulate(scenario.build(), scenario.t_end, progress=progress)
+                runs[f"{n:g} balls"] = scenario, run
+            title = f"Not only the last ball flies off: the others follow, or come back (η = {exponent:g})"
+            drawn[f"velocities_{word}"] = velocities(runs, title)
+        return drawn

@@ -1,0 +1,111 @@
+"""Newton's cradle against an independent compliant model, in its limits, and with wrong input."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import nonsmooth as ns
+from scenarios.newtons_cradle.scenario import NewtonsCradle
+
+EXACT = ns.Options(impact_tolerance=1e-11)
+
+
+def _velocities(scenario: NewtonsCradle, options: ns.Options = EXACT) -> Any:
+    solution = ns.simulate(scenario.build(), scenario.t_end, options=options)
+    assert solution.counters.impacts == 1
+    return scenario.velocities(solution)
+
+
+def _on_springs(scenario: NewtonsCradle) -> Any:
+    """Return the velocities after the same strike on elastic springs k x^eta, in real time by scipy, in own units."""
+    n, strikers = int(scenario.n_balls), int(scenario.n_strikers)
+    masses = np.where(np.arange(n) < strikers, scenario.mass_ratio, 1.0)
+    stiffness = scenario.stiffness_ratio ** np.arange(n - 1)
+
+    def slope(t: float, y: Any) -> Any:
+        force = stiffness * np.maximum(y[: n - 1] - y[1:n], 0.0) ** scenario.exponent
+        push = np.concatenate([[0.0], force]) - np.concatenate([force, [0.0]])
+        return np.concatenate([y[n:], push / masses])
+
+    start = np.concatenate([np.zeros(n), np.where(np.arange(n) < strikers, scenario.speed, 0.0)])
+    done = solve_ivp(slope, (0.0, 40.0 * n), start, method="DOP853", rtol=1e-12, atol=1e-13, max_step=0.05)
+    assert np.all(np.diff(done.y[:n, -1]) >= -1e-12)
+    return done.y[n:, -1]
+
+
+CASES: list[dict[str, float]] = [
+    *({"n_balls": float(n), "exponent": eta} for n, eta in itertools.product((3, 5, 10), (1.0, 1.5))),
+    {"n_strikers": 2.0},
+    {"n_balls": 6.0, "n_strikers": 3.0, "exponent": 1.0},
+    {"n_balls": 3.0, "mass_ratio": 0.5},
+    {"n_balls": 4.0, "stiffness_ratio": 2.0},
+]
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_against_springs_in_real_time(case: dict[str, float]) -> None:
+    """The multiple impact is the limit of springs, whatever their scale: the same velocities to 1e-8."""
+    scenario = NewtonsCradle(**case)
+    np.testing.assert_allclose(_velocities(scenario), _on_springs(scenario), rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize(("ratio", "expected"), [(1e-6, (0.0, 0.0, 1.0)), (1e6, (-1 / 3, 2 / 3, 2 / 3))])
+@pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
+def test_limits_of_the_stiffness_ratio(ratio: float, expected: Any) -> None:
+    """Ever softer contacts behind: one collision after the other.  Ever stiffer: the struck balls move as one."""
+    after = _velocities(NewtonsCradle(n_balls=3.0, stiffness_ratio=ratio, exponent=1.0))
+    np.testing.assert_allclose(after, expected, rtol=0, atol=2e-3)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 0.9])
+def test_losses(restitution: float) -> None:
+    """Momentum stays, energy does not, and no ball overtakes another."""
+    scenario = NewtonsCradle(restitution=restitution)
+    solution = ns.simulate(scenario.build(), scenario.t_end)
+    after = scenario.velocities(solution)
+    assert float(np.sum(after)) == pytest.approx(1.0, abs=1e-12)
+    assert np.all(np.diff(after) >= -1e-9)
+    summary = scenario.summarise(solution)
+    assert summary["energy_kept"] == pytest.approx(float(np.sum(after**2)), rel=1e-9)
+    assert summary["energy_kept"] < 1.0
+    assert summary["relative_velocity"] == after.tolist()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"n_balls": 2.5}, ("NewtonsCradle.n_balls", "whole number", "2.5")),
+        ({"n_strikers": 5.0}, ("NewtonsCradle.n_strikers", "less than the number of balls 5", "5.0")),
+        ({"n_balls": 1.0}, ("NewtonsCradle.n_balls", ">= 2", "1.0")),
+        ({"mass_ratio": -1.0}, ("NewtonsCradle.mass_ratio", "> 0", "-1.0")),
+        ({"speed": float("nan")}, ("NewtonsCradle.speed", "finite", "nan")),
+    ],
+)
+def test_wrong_input(wrong: dict[str, float], words: tuple[str, ...]) -> None:
+    """The message names the parameter, the rule and the value."""
+    with pytest.raises(ns.InvalidInput) as caught:
+        NewtonsCradle(**wrong)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_figures(tmp_path: Path) -> None:
+    """One figure of a run, two of the gallery, with title, axes and one line per row of balls."""
+    pytest.importorskip("matplotlib")
+    scenario = NewtonsCradle(n_balls=4.0)
+    solution = ns.simulate(scenario.build(), scenario.t_end)
+    drawn = {**scenario.figures(solution), **NewtonsCradle.gallery(None)}
+    assert sorted(drawn) == ["velocities", "velocities_hertz", "velocities_linear"]
+    for name, figure in drawn.items():
+        axis = figure.axes[0]
+        assert axis.get_title()
+        assert axis.get_xlabel()
+        assert axis.get_ylabel()
+        assert len(axis.get_legend().get_texts()) == (1 if name == "velocities" else 3)
+        figure.savefig(tmp_path / f"{name}.png")
