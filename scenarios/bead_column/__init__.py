@@ -1,0 +1,1 @@
+"""A column of beads that falls on a wall."""
