@@ -195,6 +195,9 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     S.steps += 1
     h = S.h
     high = first_crossing(S, w, k, h)
+    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+        if not abs(w[S.guard_end + i]) < 1e300:
+            return NOT_FINITE
     if high == 0.0:
         _commit(S, w, k, h)
         contact = _stopping(S, w, k)

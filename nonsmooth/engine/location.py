@@ -314,6 +314,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             return float(step + correction)
         step += correction
     S.h = step
-    try_step(S, w, k, step)
+    if not try_step(S, w, k, step) <= _TRUSTED:
+        return -1.0
     write_guards(S, w, k, S.t + step, S.y_new, 1)
     return float(step)

@@ -19,6 +19,7 @@ from typing import Any
 import numba
 import numpy as np
 from llvmlite import ir
+from llvmlite.binding import get_host_cpu_name
 from numba import types
 from numba.core.caching import CacheImpl, _CacheLocator
 from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
@@ -54,15 +55,15 @@ _STUB = "def stub({names}): return call(k[S.rooms + {index}], {names})"
 def cache_folder() -> Path:
     """Return the folder of the compiled engine, named after a hash over all of its sources.
 
-    An edit of any source file, another numba or another Python gives another folder: a stale
-    cache cannot be met.  Falls back to a temporary folder where the user's cache is not writable.
+    An edit of any source file, another numba, another Python or another kind of processor gives another folder: a
+    stale cache cannot be met.  Falls back to a temporary folder where the user's cache is not writable.
     """
     return _cache_folder()
 
 
 @functools.cache
 def _cache_folder() -> Path:
-    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}".encode())
+    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{get_host_cpu_name()}".encode())
     for folder in ("engine", "model"):
         for source in sorted((_PACKAGE / folder).glob("*.py")):
             digest.update(source.name.encode() + source.read_bytes())

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Component
 
 
@@ -27,3 +29,13 @@ class Guard(Component, ABC):
     @abstractmethod
     def ends_run(self) -> bool:
         """Whether the run ends at the first such event."""
+
+
+def guard_value(guard: Guard, t: float, q: Vector, u: Vector) -> float | Exception:
+    """Return the value of a guard at time t [s] and the state q, u, computed by Python, or what it raises."""
+    names = tuple(inspect.signature(guard.value).parameters)[3:]
+    offered = guard.parameters()
+    try:
+        return float(guard.value(t, q, u, *[offered[name] for name in names if name in offered]))
+    except Exception as error:
+        return error

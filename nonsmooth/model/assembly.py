@@ -11,6 +11,7 @@ from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, ImpactMap, ImpactProcess
+from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.layout import FRAME, GEOMETRY, Memory, allocate
 from nonsmooth.model.options import Options
 from nonsmooth.plugins.compile import bind, parameter_names
@@ -214,7 +215,16 @@ def _lay_contact(model: Model, heap: _Heap, number: int, contact: Contact) -> No
 
 
 def _lay_guards(model: Model, heap: _Heap) -> None:
+    y = model.memory.array("y", model.n_y)
     for number, guard in enumerate(model.system.guards):
+        value = guard_value(guard, 0.0, y[: model.n_q], y[model.n_q : model.n_q + model.n_u])
+        if not isinstance(value, float) or not math.isfinite(value):
+            raise InvalidInput(
+                f"{type(guard).__name__}.value",
+                "must return a finite number at the start",
+                value,
+                f"Look at {guard.value.__qualname__} with t = 0 and the q and u of the start.",
+            )
         address, values = bind(guard.value, "guard", guard.parameters(), type(guard).__name__)
         fields = {"function": address, "parameters": heap.store(values), "ends": int(guard.ends_run)}
         for name, value in fields.items():

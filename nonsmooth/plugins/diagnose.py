@@ -10,6 +10,7 @@ import numpy as np
 
 from nonsmooth.engine.modes import NOT_FINITE
 from nonsmooth.interfaces import ImpactProcess
+from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.assembly import Model
 from nonsmooth.plugins.compile import parameter_names
 
@@ -31,9 +32,25 @@ def culprit(model: Model, status: int) -> str:
             found = _probe(law, function, probes)
             if found:
                 return f"{found} ({contact.name})"
+    found = _guard_without_value(model)
+    if found:
+        return found
     state = model.memory.array("y", model.n_y)
     if not np.all(np.isfinite(state)):
         return "The state itself is not finite: check the motions and the bodies."
+    return ""
+
+
+def _guard_without_value(model: Model) -> str:
+    """Look at the guards at the end of the step that failed."""
+    scalars, state = model.memory.scalars[0], model.memory.array("y_new", model.n_y)
+    q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]
+    for guard in model.system.guards:
+        value = guard_value(guard, float(scalars["t"] + scalars["h"]), q, u)
+        if not isinstance(value, float) or not math.isfinite(value):
+            return (
+                f"{type(guard).__name__}: {guard.value.__qualname__} gives {value!r} within {float(scalars['h']):g} s."
+            )
     return ""
 
 

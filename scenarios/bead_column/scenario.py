@@ -33,7 +33,7 @@ class BeadColumn(Scenario):
 
     References
     ----------
-    N. S. Nguyen, B. Brogliato, *Multiple Impacts in Dissipative Granular Chains*, Springer (2014), chapter 5.
+    N. S. Nguyen, B. Brogliato, *Multiple Impacts in Dissipative Granular Chains*, Springer (2014).
     """
 
     title: ClassVar[str] = "Column of beads on a wall"

@@ -129,6 +129,58 @@ def test_a_guard_ends_the_run(build: Any) -> None:
     np.testing.assert_allclose(solution.q_end[2], 0.03, atol=1e-12)
 
 
+def _logarithm(t: float, q: Floats, u: Floats, level: float) -> float:
+    return math.log(q[2] - level) if q[2] > level else math.nan
+
+
+def _broken(t: float, q: Floats, u: Floats, level: float) -> float:
+    raise ArithmeticError("no value at all")
+
+
+@final
+@dataclass(frozen=True)
+class Wrong(Guard):
+    """A guard that has no value below its level, or none anywhere."""
+
+    level: float = parameter(doc="height", unit="m")
+    raises: bool = False
+
+    @property
+    def value(self) -> Callable[..., float]:
+        """No number everywhere."""
+        return _broken if self.raises else _logarithm
+
+    @property
+    def ends_run(self) -> bool:
+        """Never."""
+        return False
+
+    def parameters(self) -> dict[str, float]:
+        """Return the number only."""
+        return {"level": self.level}
+
+
+@pytest.mark.parametrize(("guard", "word"), [(Wrong(2.0), "nan"), (Wrong(0.5, raises=True), "no value at all")])
+def test_a_guard_without_a_value_at_the_start_is_refused(guard: Wrong, word: str) -> None:
+    """Before anything runs, by name and value."""
+    system = _thrown()
+    system.guard(guard)
+    with pytest.raises(ns.InvalidInput, match=r"Wrong\.value must return a finite number at the start") as caught:
+        ns.simulate(system, 1.0)
+    assert word in str(caught.value)
+
+
+def test_a_guard_that_loses_its_value_ends_the_run() -> None:
+    """The error names it, and what was computed is kept."""
+    system = _thrown()
+    system.guard(Wrong(0.9))
+    with pytest.raises(ns.RunFailed, match="Wrong: _logarithm") as caught:
+        ns.simulate(system, 1.0)
+    solution = caught.value.solution
+    assert isinstance(solution, ns.Solution)
+    assert solution.status == "failed"
+
+
 def test_other_things_are_refused() -> None:
     """A guard is a Guard."""
     with pytest.raises(ns.InvalidInput, match=r"System\.guard needs a Guard"):
