@@ -65,6 +65,6 @@ class PlaneSphere(ContactKinematics):
         return _evaluate
 
     @property
-    def feature(self) -> str:
-        """Always the same."""
-        return "plane-sphere"
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("plane-sphere",)

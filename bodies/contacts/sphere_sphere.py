@@ -87,6 +87,6 @@ class SphereSphere(ContactKinematics):
         return _evaluate
 
     @property
-    def feature(self) -> str:
-        """Always the same."""
-        return "sphere-sphere"
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("sphere-sphere",)

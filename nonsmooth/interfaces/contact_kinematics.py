@@ -36,5 +36,5 @@ class ContactKinematics(Component, ABC):
 
     @property
     @abstractmethod
-    def feature(self) -> str:
-        """Name of the pair of features in contact ("sphere-plane")."""
+    def features(self) -> tuple[str, ...]:
+        """Names of the pairs of features that can touch ("sphere-plane"); the geometry block numbers the present one."""

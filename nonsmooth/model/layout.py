@@ -28,7 +28,8 @@ The geometry block of a contact holds gap, normal (from the first body to the se
 tangent, witness points on both bodies and, for either surface, the matrices ``slide`` and ``turn`` of
 ``slide @ u = turn @ nu``: the witness sliding at u over the body turns the normal by nu (both in the
 tangent plane; they commute).  A sphere of radius r has slide 1, turn r; a plane slide 0, turn 1; a vertex slide 1,
-turn 0.  A point contact needs a curved or sharp side: two planes have none.
+turn 0.  A point contact needs a curved or sharp side: two planes have none.  Last comes the number of the pair of
+features that are in contact, out of the kinematics' ``features``.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ from nonsmooth.model import tableau
 
 FRAME = 24
 """Floats of frame motion at the head of a body's output block."""
-GEOMETRY = 29
+GEOMETRY = 30
 """Floats of a contact's geometry block."""
 N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair."""
