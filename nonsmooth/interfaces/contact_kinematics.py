@@ -37,4 +37,4 @@ class ContactKinematics(Component, ABC):
     @property
     @abstractmethod
     def features(self) -> tuple[str, ...]:
-        """Names of the pairs of features that can touch ("sphere-plane"); the geometry block numbers the present one."""
+        """Names of the pairs of features that can touch; the geometry block holds the number of the present one."""
