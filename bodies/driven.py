@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,6 +13,7 @@ from bodies.motions.rest import Rest
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Motion
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import Value
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Driven(Body, ABC):
             )
         super().__post_init__()
 
-    def parameters(self) -> dict[str, float]:
+    def parameters(self) -> Mapping[str, Value]:
         """Return the motion's parameters."""
         return self.motion.parameters()
 

@@ -34,6 +34,6 @@ class DrivenBody(Driven):
             )
 
     @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """As given."""
-        return self.carried
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with the shapes as given."""
+        return (self.carried,)

@@ -11,7 +11,7 @@ import numpy as np
 
 from bodies.inertia import check_inertia, tensor_of
 from bodies.values import Word, read_start, unit_quaternion
-from nonsmooth.interfaces import Body
+from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.types import Floats
 
@@ -136,6 +136,16 @@ class FreeBody(Body):
             **{f"inertia_{name}": value for name, value in zip(names, (*moments, *products), strict=True)},
             **{f"mobility_{name}": value for name, value in zip(names, mobility, strict=True)},
         }
+
+    @property
+    @abstractmethod
+    def shapes(self) -> tuple[Shape, ...]:
+        """The shapes that the body carries."""
+
+    @property
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with all shapes."""
+        return (self.shapes,)
 
     @property
     def n_q(self) -> int:

@@ -101,9 +101,9 @@ class LineBody(Body):
         return {"mass": float(self.mass)} | direction | pose_parameters(self.origin, self.orientation)
 
     @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """As given."""
-        return self.carried
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with the shapes as given."""
+        return (self.carried,)
 
     @property
     def n_q(self) -> int:
@@ -133,7 +133,7 @@ class LineBody(Body):
     @property
     def scales(self) -> tuple[Vector, Vector]:
         """The length of the body, 1 m without shapes, and the speed of a fall through it."""
-        length = max((shape.length for shape in self.shapes), default=0.0) or 1.0
+        length = max((shape.length for shape in self.carried), default=0.0) or 1.0
         return np.array([length]), np.array([math.sqrt(9.81 * length)])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:

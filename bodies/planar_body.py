@@ -83,9 +83,9 @@ class PlanarBody(Body):
         object.__setattr__(self, "carried", check_carried("PlanarBody.carried", self.carried))
 
     @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """As given."""
-        return self.carried
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with the shapes as given."""
+        return (self.carried,)
 
     @property
     def n_q(self) -> int:
@@ -115,7 +115,7 @@ class PlanarBody(Body):
     @property
     def scales(self) -> tuple[Vector, Vector]:
         """The length of the body, at least its radius of gyration, and the speed of a fall through it."""
-        length = max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.shapes)])
+        length = max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.carried)])
         speed = math.sqrt(9.81 * length)
         return np.array([length, length, 1.0]), np.array([speed, speed, speed / length])
 

@@ -16,6 +16,6 @@ class Plate(Driven):
     """An unbounded plate with the normal (0, 0, 1) in its own frame, moving as ``motion`` says."""
 
     @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """The plane through the origin of the frame."""
-        return (Plane(),)
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with the plane through its origin."""
+        return ((Plane(),),)
