@@ -34,7 +34,7 @@ class RigidBody(FreeBody):
     """
 
     mass: float = parameter(doc="mass", unit="kg", above=0.0)
-    tensor: Any = field()
+    tensor: Any = field()  # type: ignore[misc]
     carried: tuple[Shape, ...] = ()
 
     def _check(self) -> None:
