@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, final
 
@@ -121,8 +121,8 @@ class Table(Motion):
         If a shape is wrong, a number not finite, times do not increase, or the position jumps.
     """
 
-    times: Any
-    positions: Any
+    times: Sequence[float]
+    positions: Sequence[Sequence[float]]
     periodic: bool = False
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
     _coefficients: tuple[float, ...] = field(init=False, repr=False, compare=False)
@@ -147,7 +147,7 @@ class Table(Motion):
         """Return times, coefficients of the spline and rotation matrix."""
         return {
             "count": float(len(self.times)),
-            "times": self.times,
+            "times": tuple(self.times),
             "coefficients": self._coefficients,
             **pose_parameters((0.0, 0.0, 0.0), self.orientation),
         }
