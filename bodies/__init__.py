@@ -1,4 +1,4 @@
-"""Built-in bodies, shapes, motions and contact pairs."""
+"""Built-in bodies, shapes, motions, contact pairs, joints and loads."""
 
 from bodies.ball import Ball
 from bodies.box_body import BoxBody
@@ -12,7 +12,16 @@ from bodies.driven_body import DrivenBody
 from bodies.dumbbell import Dumbbell
 from bodies.ellipsoid_body import EllipsoidBody
 from bodies.free import FreeBody
+from bodies.joints.ball_joint import BallJoint
+from bodies.joints.distance import Distance
+from bodies.joints.fixed import Fixed
+from bodies.joints.hinge import Hinge
+from bodies.joints.slider import Slider
 from bodies.line_body import LineBody
+from bodies.loads.bushing import Bushing
+from bodies.loads.function_load import FunctionLoad
+from bodies.loads.spring import Spring
+from bodies.loads.torsion_spring import TorsionSpring
 from bodies.motions.constant_velocity import ConstantVelocity
 from bodies.motions.function_motion import FunctionMotion
 from bodies.motions.harmonic import Harmonic
@@ -27,18 +36,24 @@ from bodies.shapes.sphere import Sphere
 
 __all__ = [
     "Ball",
+    "BallJoint",
     "BoxBody",
+    "Bushing",
     "CapsuleBody",
     "Compound",
     "ConstantVelocity",
     "CylinderBody",
     "DiscBody",
+    "Distance",
     "DrivenBody",
     "Dumbbell",
     "EllipsoidBody",
+    "Fixed",
     "FreeBody",
+    "FunctionLoad",
     "FunctionMotion",
     "Harmonic",
+    "Hinge",
     "LineBody",
     "Part",
     "PlanarBody",
@@ -48,7 +63,10 @@ __all__ = [
     "Rest",
     "RigidBody",
     "Rod",
+    "Slider",
     "Sphere",
     "SphereSphere",
+    "Spring",
     "Table",
+    "TorsionSpring",
 ]

@@ -118,7 +118,7 @@ class System:
             If it is not a Joint, a body is not of this system, they are the same or both driven, or a frame is unknown.
         """
         if not isinstance(joint, Joint):
-            raise InvalidInput("System.joint", "needs a Joint", joint, "See `nonsmooth list bodies`.")
+            raise InvalidInput("System.joint", "needs a Joint", joint, "See `nonsmooth list joints`.")
         tie = self._tie("System.joint", joint, first, second, frames)
         if first.n_u == 0 and second.n_u == 0:
             raise InvalidInput(tie.name, "needs a body that can move", "both are driven", "Take the joint out.")
@@ -133,7 +133,7 @@ class System:
             If it is not a Load, a body is not of this system, they are the same, or a frame is unknown.
         """
         if not isinstance(load, Load):
-            raise InvalidInput("System.load", "needs a Load", load, "Subclass nonsmooth.interfaces.Load.")
+            raise InvalidInput("System.load", "needs a Load", load, "See `nonsmooth list loads`.")
         self._loads.append(self._tie("System.load", load, first, second, frames))
 
     def _tie(self, where: str, component: Joint | Load, first: Body, second: Body, frames: tuple[int, int]) -> Tie:
