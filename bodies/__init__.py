@@ -4,6 +4,16 @@ from bodies.ball import Ball
 from bodies.box_body import BoxBody
 from bodies.capsule_body import CapsuleBody
 from bodies.compound import Compound, Part
+from bodies.contacts.box_sphere import BoxSphere
+from bodies.contacts.capsule_capsule import CapsuleCapsule
+from bodies.contacts.capsule_sphere import CapsuleSphere
+from bodies.contacts.cylinder_sphere import CylinderSphere
+from bodies.contacts.disc_sphere import DiscSphere
+from bodies.contacts.plane_box import PlaneBox
+from bodies.contacts.plane_capsule import PlaneCapsule
+from bodies.contacts.plane_cylinder import PlaneCylinder
+from bodies.contacts.plane_disc import PlaneDisc
+from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.cylinder_body import CylinderBody
@@ -31,22 +41,37 @@ from bodies.planar_body import PlanarBody
 from bodies.plate import Plate
 from bodies.rigid_body import RigidBody
 from bodies.rod import Rod
+from bodies.shapes.box import Box
+from bodies.shapes.capsule import Capsule
+from bodies.shapes.cylinder import Cylinder
+from bodies.shapes.disc import Disc
+from bodies.shapes.ellipsoid import Ellipsoid
 from bodies.shapes.plane import Plane
 from bodies.shapes.sphere import Sphere
 
 __all__ = [
     "Ball",
     "BallJoint",
+    "Box",
     "BoxBody",
+    "BoxSphere",
     "Bushing",
+    "Capsule",
     "CapsuleBody",
+    "CapsuleCapsule",
+    "CapsuleSphere",
     "Compound",
     "ConstantVelocity",
+    "Cylinder",
     "CylinderBody",
+    "CylinderSphere",
+    "Disc",
     "DiscBody",
+    "DiscSphere",
     "Distance",
     "DrivenBody",
     "Dumbbell",
+    "Ellipsoid",
     "EllipsoidBody",
     "Fixed",
     "FreeBody",
@@ -58,6 +83,11 @@ __all__ = [
     "Part",
     "PlanarBody",
     "Plane",
+    "PlaneBox",
+    "PlaneCapsule",
+    "PlaneCylinder",
+    "PlaneDisc",
+    "PlaneEllipsoid",
     "PlaneSphere",
     "Plate",
     "Rest",
