@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
@@ -56,9 +57,11 @@ def check_turn(functions: Sequence[Any], duration: float, scale: float) -> None:
 
 
 def _label(name: str, function: Any) -> str:
-    if not callable(function):
-        raise InvalidInput(f"FunctionMotion.{name}", "must be a function of time", function, "Give a def or a lambda.")
-    return f"FunctionMotion.{name} ({getattr(function, '__qualname__', type(function).__name__)})"
+    if not inspect.isfunction(function):
+        raise InvalidInput(
+            f"FunctionMotion.{name}", "must be a plain function of time", function, "Give a def or a lambda."
+        )
+    return f"FunctionMotion.{name} ({function.__qualname__})"
 
 
 def _reader(label: str, function: Function, size: int) -> Callable[[float], Vector]:

@@ -81,9 +81,9 @@ class FunctionMotion(Motion):
     _evaluator: Evaluator = field(init=False, repr=False, compare=False)
 
     def _check(self) -> None:
-        evaluator = _translation(self.position, self.velocity, self.acceleration)
         span = self.duration, self.shortest_change
         check_linear((self.position, self.velocity, self.acceleration), *span)
+        evaluator = _translation(self.position, self.velocity, self.acceleration)
         turn: Any = self.orientation, self.angular_velocity, self.angular_acceleration
         if any(function is not None for function in turn):
             for name, function in zip(("orientation", "angular_velocity", "angular_acceleration"), turn, strict=True):
