@@ -1,4 +1,4 @@
-"""Built-in bodies, shapes, motions and contact pairs."""
+"""Built-in bodies, shapes, motions, contact pairs, joints and loads."""
 
 from bodies.ball import Ball
 from bodies.contacts.box_sphere import BoxSphere
@@ -15,6 +15,15 @@ from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.dumbbell import Dumbbell
 from bodies.free import FreeBody
+from bodies.joints.ball_joint import BallJoint
+from bodies.joints.distance import Distance
+from bodies.joints.fixed import Fixed
+from bodies.joints.hinge import Hinge
+from bodies.joints.slider import Slider
+from bodies.loads.bushing import Bushing
+from bodies.loads.function_load import FunctionLoad
+from bodies.loads.spring import Spring
+from bodies.loads.torsion_spring import TorsionSpring
 from bodies.motions.harmonic import Harmonic
 from bodies.motions.rest import Rest
 from bodies.plate import Plate
@@ -28,8 +37,10 @@ from bodies.shapes.sphere import Sphere
 
 __all__ = [
     "Ball",
+    "BallJoint",
     "Box",
     "BoxSphere",
+    "Bushing",
     "Capsule",
     "CapsuleCapsule",
     "CapsuleSphere",
@@ -37,10 +48,14 @@ __all__ = [
     "CylinderSphere",
     "Disc",
     "DiscSphere",
+    "Distance",
     "Dumbbell",
     "Ellipsoid",
+    "Fixed",
     "FreeBody",
+    "FunctionLoad",
     "Harmonic",
+    "Hinge",
     "Plane",
     "PlaneBox",
     "PlaneCapsule",
@@ -50,6 +65,9 @@ __all__ = [
     "PlaneSphere",
     "Plate",
     "Rest",
+    "Slider",
     "Sphere",
     "SphereSphere",
+    "Spring",
+    "TorsionSpring",
 ]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.interfaces import Body
+from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.types import Floats
 
@@ -102,6 +102,16 @@ class FreeBody(Body):
         """Return mass and principal moments."""
         x, y, z = self.inertia
         return {"mass": self.total_mass, "inertia_x": x, "inertia_y": y, "inertia_z": z}
+
+    @property
+    @abstractmethod
+    def shapes(self) -> tuple[Shape, ...]:
+        """The shapes that the body carries."""
+
+    @property
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with all shapes."""
+        return (self.shapes,)
 
     @property
     def n_q(self) -> int:

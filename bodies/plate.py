@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, final
 
@@ -13,6 +13,7 @@ from bodies.shapes.plane import Plane
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Motion, Shape
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import Value
 
 
 @final
@@ -26,14 +27,14 @@ class Plate(Body):
         if not isinstance(self.motion, Motion):
             raise InvalidInput("Plate.motion", "must be a Motion", self.motion, "For example Harmonic(...) or Rest().")
 
-    def parameters(self) -> dict[str, float]:
+    def parameters(self) -> Mapping[str, Value]:
         """Return the motion's parameters."""
         return self.motion.parameters()
 
     @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """The plane through the origin of the frame."""
-        return (Plane(),)
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with the plane through its origin."""
+        return ((Plane(),),)
 
     @property
     def n_q(self) -> int:

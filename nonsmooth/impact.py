@@ -12,7 +12,7 @@ from nonsmooth.engine.impact_problem import FINISHED
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
-from nonsmooth.model.layout import COUNTS, Memory, allocate
+from nonsmooth.model.layout import COUNTS, Heap, Memory, allocate
 from nonsmooth.plugins.compile import bind
 
 Floats = NDArray[np.float64]
@@ -155,17 +155,14 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
             ("friction", friction[i], friction[i].coefficient),
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
-    size = sum(len(values) for *_, values in blocks)
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_contacts": n}, size)
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_contacts": n})
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.scalars["impact_rtol"] = tolerance
     memory.array("active", n)[:] = np.arange(n)
     memory.array("direction", 2 * n)[::2] = 1.0
-    offset = len(memory.floats) - max(size, 1)
+    heap = Heap(memory)
     for i, name, address, values in blocks:
         memory.array(f"{name}_function", n)[i] = address
-        memory.array(f"{name}_parameters", n)[i] = offset
-        memory.floats[offset : offset + len(values)] = values
-        offset += len(values)
-    return memory
+        memory.array(f"{name}_parameters", n)[i] = heap.store(values)
+    return heap.close()

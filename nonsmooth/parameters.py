@@ -7,7 +7,7 @@ import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, get_type_hints
+from typing import Any, TypeAlias, get_type_hints
 
 from nonsmooth.errors import InvalidInput, UnknownName
 
@@ -87,6 +87,10 @@ def check_number(thing: str, value: Any, rule: Rule) -> None:
         )
 
 
+Value: TypeAlias = float | tuple[float, ...]
+"""A parameter of a compiled function."""
+
+
 class Component:
     """Base of everything that has parameters: checks them when it is made."""
 
@@ -105,8 +109,12 @@ class Component:
     def _check(self) -> None:
         """Check what no single parameter can tell; nothing by default."""
 
-    def parameters(self) -> dict[str, float]:
-        """Return the numbers that the component's compiled functions may ask for, by name."""
+    def parameters(self) -> Mapping[str, Value]:
+        """Return what the component's compiled functions may ask for, by name."""
+        return self.numbers()
+
+    def numbers(self) -> dict[str, float]:
+        """Return the declared numbers by name."""
         numbers = {}
         for name, (_, rule) in rules(type(self)).items():
             if rule.unit != "" and getattr(self, name) is not None:

@@ -12,7 +12,8 @@ import numpy as np
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.model.assembly import Model, assemble
+from nonsmooth.model.assembly import assemble
+from nonsmooth.model.model import Model
 from nonsmooth.model.options import Options
 from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.solution.energy import EnergyAccount
@@ -140,6 +141,7 @@ def _solution(
         friction_loss=float(scalars["friction_loss"][0]) + float(y[n_q + n_u + 1]),
         closing_loss=float(scalars["closing_loss"][0]),
         exchanged_in_flow=float(y[n_q + n_u + 2]),
+        load_work=float(y[n_q + n_u + 3]),
     )
     counters = Counters(
         steps=int(scalars["steps"][0]),

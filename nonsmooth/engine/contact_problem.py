@@ -13,6 +13,7 @@ from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import evaluate_margins, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.kinematics import row
+from nonsmooth.engine.linkages import constrain
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 
 _TOLERANCE = 1e-9
@@ -28,10 +29,10 @@ def friction_coefficient(S: Scalars, w: Floats, k: Integers, c: int, speed: floa
 
 @kernel("void(S, F, I)")
 def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write M^-1 h of all bodies to ``du``."""
+    """Write M^-1 h of all bodies to ``du``, and what the joints leave of it."""
     for body in range(S.n_bodies):
         n_u = k[S.body_nu + body]
-        force = k[S.body_out + body] + 24 + 6 * n_u + k[S.body_nq + body]
+        force = k[S.body_tail + body] + k[S.body_nq + body]
         for i in range(n_u):
             total = 0.0
             for j in range(n_u):
@@ -39,6 +40,10 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
                 if entry != 0.0:
                     total += entry * w[force + j]
             w[S.du + k[S.body_u + body] + i] = total
+    if S.n_joints > 0:
+        for linkage in range(S.n_linkages):
+            if k[S.linkage_rows + linkage] > 0:
+                constrain(S, w, k, linkage)
 
 
 @room()

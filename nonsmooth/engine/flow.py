@@ -4,19 +4,13 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies import evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
 from nonsmooth.engine.held_contacts import hold_contacts, lay_rows
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.kinematics import (
-    evaluate_bias,
-    evaluate_driven_bodies,
-    evaluate_free_bodies,
-    evaluate_geometry,
-    evaluate_rates,
-)
+from nonsmooth.engine.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import stage_state, step_errors
-from nonsmooth.model.layout import FRAME
 
 
 @room("void(S, F, I, f8, i8)")
@@ -31,7 +25,6 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
             k[S.active + m] = c
             m += 1
     S.n_active = m
-    S.driven_power = 0.0
     evaluate_free_bodies(S, w, k, t, y)
     free_acceleration(S, w, k)
     if m == 0:
@@ -44,7 +37,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
         evaluate_bias(S, w, k, c, 3 if k[S.mode + c] == STICK else 1)
         _set_friction(S, w, k, a)
         lay_rows(S, w, k, a)
-    hold_contacts(S, w, k, y)
+    hold_contacts(S, w, k)
 
 
 @kernel("void(S, F, I, i8)")
@@ -72,17 +65,20 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 
 @room("void(S, F, I, f8, i8, i8)")
 def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> None:
-    """Write dy/dt: coordinate rates, accelerations; power of the driven bodies, lost to friction, exchanged in all."""
+    """Write dy/dt: coordinate rates, accelerations, and four powers.
+
+    These are of the driven bodies, lost to friction, exchanged in all, and of the loads.
+    """
     right_hand_side(S, w, k, t, y)
     for body in range(S.n_bodies):
-        rates = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body]
+        rates = k[S.body_tail + body]
         for i in range(k[S.body_nq + body]):
             w[out + k[S.body_q + body] + i] = w[rates + i]
     for i in range(S.n_u):
         w[out + S.n_q + i] = w[S.du + i]
     lost = own = 0.0
     for body in range(S.n_bodies):
-        h = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body] + k[S.body_nq + body]
+        h = k[S.body_tail + body] + k[S.body_nq + body]
         for i in range(k[S.body_nu + body]):
             own += w[h + i] * w[y + S.n_q + k[S.body_u + body] + i]
     for a in range(S.n_active):
@@ -98,6 +94,7 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
     w[out + S.n_q + S.n_u] = S.driven_power
     w[out + S.n_q + S.n_u + 1] = lost
     w[out + S.n_q + S.n_u + 2] = abs(own) + abs(S.driven_power) + abs(lost)
+    w[out + S.n_q + S.n_u + 3] = S.load_power
 
 
 @room("f8(S, F, I, f8)")

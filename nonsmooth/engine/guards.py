@@ -15,10 +15,11 @@ zero at the start does not fire while the next one does.
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.flow import right_hand_side
 from nonsmooth.engine.forces import evaluate_margins
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_guard, kernel
-from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_driven_bodies, evaluate_geometry, evaluate_rates
+from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.model.layout import GEOMETRY
 

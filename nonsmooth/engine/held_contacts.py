@@ -1,7 +1,7 @@
 """Forces that hold the closed contacts in their modes during smooth motion.
 
 Every closed contact contributes rows, what it holds, and columns, along what it pushes: a sticking one holds and
-pushes along n, t1, t2; a sliding one holds n and pushes along n - mu d, friction included.  Rows times M^-1
+pushes along n, t1, t2; a sliding one holds n and pushes along n - mu d, friction included.  Rows times K
 times columns is the reduced matrix whose unknowns are the forces; no more of G than that is needed.
 """
 
@@ -42,13 +42,13 @@ def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int
     """Return what a unit force in column ``s`` of contact ``d`` does to row ``r`` of contact ``c``."""
     total = 0.0
     for side in range(2):
-        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
-        n_u = k[S.body_nu + body]
+        linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
+        n_u = k[S.linkage_nu + linkage]
         jacobian = (k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]) + r * n_u
-        if n_u > 0 and k[S.body_a + d] == body:
+        if n_u > 0 and k[S.linkage_a + d] == linkage:
             for i in range(n_u):
                 total += w[jacobian + i] * w[k[S.response_a + d] + s * n_u + i]
-        if n_u > 0 and k[S.body_b + d] == body:
+        if n_u > 0 and k[S.linkage_b + d] == linkage:
             for i in range(n_u):
                 total += w[jacobian + i] * w[k[S.response_b + d] + s * n_u + i]
     return total
@@ -78,11 +78,11 @@ def _reduce(S: Scalars, w: Floats, k: Integers, n: int) -> None:
             w[S.reduced + i * n + j] = _coupling(S, w, k, c, r, k[S.row_contact + j], k[S.row_index + j])
 
 
-@kernel("void(S, F, I, i8)")
-def hold_contacts(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+@kernel("void(S, F, I)")
+def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the forces ``f`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
 
-    Rows and columns must be laid, the free accelerations stand in ``du``; ``y`` is the state.
+    Rows and columns must be laid, the free accelerations stand in ``du``.
     """
     n = _list_rows(S, w, k)
     _reduce(S, w, k, n)
@@ -96,7 +96,7 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers, y: int) -> None:
             w[S.f + 3 * a + r] = force
             _push(S, w, k, c, r, force, S.du)
             # the power of what the coordinates do not move: that of the force less that on them
-            S.driven_power += force * row(S, w, k, c, r + 1 - sticks, y + S.n_q)
+            S.driven_power += force * row(S, w, k, c, r + 1 - sticks, S.own)
         if sticks == 0:
             friction_of_slip(S, w, a)
         first += 1 + 2 * sticks
@@ -108,8 +108,8 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers, y: int) -> None:
 def _push(S: Scalars, w: Floats, k: Integers, c: int, s: int, force: float, du: int) -> None:
     """Add the accelerations that a force in column ``s`` of contact ``c`` gives to ``du``."""
     for side in range(2):
-        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
         response = k[S.response_a + c] if side == 0 else k[S.response_b + c]
-        n_u = k[S.body_nu + body]
+        n_u = k[S.linkage_nu + linkage]
         for i in range(n_u):
-            w[du + k[S.body_u + body] + i] += w[response + s * n_u + i] * force
+            w[du + k[S.linkage_u + linkage] + i] += w[response + s * n_u + i] * force

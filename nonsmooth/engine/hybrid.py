@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
 from nonsmooth.engine.instant_impulses import is_jammed
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.kinematics import evaluate_bodies
 from nonsmooth.engine.location import first_crossing, locate
 from nonsmooth.engine.modes import (
     DONE,
@@ -30,7 +30,13 @@ from nonsmooth.engine.modes import (
     STICK_TO_SLIP,
     STOPPED,
 )
-from nonsmooth.engine.projection import activate_closed, normalise_quaternions, project_gaps, project_rates
+from nonsmooth.engine.projection import (
+    activate_closed,
+    normalise_quaternions,
+    project_gaps,
+    project_joints,
+    project_rates,
+)
 from nonsmooth.engine.record import record_event, record_samples, remember
 from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
@@ -108,6 +114,8 @@ def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         w[S.y + i] = w[S.y_new + i]
     S.t += h
     normalise_quaternions(S, w, k)
+    if S.n_joints > 0:
+        project_joints(S, w, k)
     if _drifted(S, w, k) == 1 and activate_closed(S, w, k) > 0:
         S.closing_loss += project_rates(S, w, k)
         # the gap that goes here is the error of the step, which no energy paid for

@@ -50,6 +50,8 @@ call_body: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.
 """Call ``body(t, q, u, parameters, out)`` at an address."""
 call_guard: Callable[[int, float, Floats, Floats, Floats], float] = _half.call_guard
 """Call ``guard(t, q, u, parameters)`` at an address."""
+call_load: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.call_load
+"""Call ``load(t, frame_a, frame_b, parameters, out)`` at an address."""
 call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = _half.call_pair
 """Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
 call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.call_map
@@ -58,7 +60,7 @@ call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.cal
 jit: Callable[[Callable[..., Any]], Any] = _half.jit
 """Compile a plug-in's function on demand."""
 address_of: Callable[[Callable[..., Any], str], int] = _half.address_of
-"""Compile a shim of a form ("scalar", "guard", "body", "pair", "map") and return its address."""
+"""Compile a shim of a form ("scalar", "guard", "body", "load", "pair", "map") and return its address."""
 COMPILATION_ERRORS: tuple[type[Exception], ...] = _half.COMPILATION_ERRORS
 """What :func:`address_of` may raise."""
 
@@ -73,6 +75,7 @@ __all__ = [
     "at",
     "call_body",
     "call_guard",
+    "call_load",
     "call_map",
     "call_pair",
     "call_room",

@@ -1,48 +1,9 @@
-"""Bodies and contacts at a state: frames, gaps, relative rates, Jacobians, second-order terms."""
+"""Contacts at a state: gaps, relative rates, Jacobians, second-order terms."""
 
 from __future__ import annotations
 
-from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_body, call_pair, kernel, room
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_pair, kernel, room
 from nonsmooth.model.layout import FRAME, GEOMETRY
-
-
-@kernel("void(S, F, I, f8, i8, i8)")
-def evaluate_body(S: Scalars, w: Floats, k: Integers, t: float, y: int, body: int) -> None:
-    """Let one body write its output block at time ``t`` and the state at offset ``y``."""
-    call_body(
-        k[S.body_function + body],
-        t,
-        at(w, y + k[S.body_q + body]),
-        at(w, y + S.n_q + k[S.body_u + body]),
-        at(w, k[S.body_parameters + body]),
-        at(w, k[S.body_out + body]),
-    )
-
-
-@kernel("void(S, F, I, f8, i8)")
-def evaluate_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
-    """Let every body write its output block at time ``t`` and the state at offset ``y``."""
-    evaluate_driven_bodies(S, w, k, t, y)
-    evaluate_free_bodies(S, w, k, t, y)
-
-
-@kernel("void(S, F, I, f8, i8)")
-def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
-    """Let the bodies without coordinates write their output blocks, unless they stand there already."""
-    if t == S.driven_t:
-        return
-    S.driven_t = t
-    for body in range(S.n_bodies):
-        if k[S.body_nu + body] == 0:
-            evaluate_body(S, w, k, t, y, body)
-
-
-@kernel("void(S, F, I, f8, i8)")
-def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
-    """Let the bodies that have coordinates write their output blocks; for free flight."""
-    for body in range(S.n_bodies):
-        if k[S.body_nu + body] > 0:
-            evaluate_body(S, w, k, t, y, body)
 
 
 @kernel("void(S, F, I, i8)")
@@ -50,8 +11,8 @@ def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write gap, witness points, curvature and the axes n, t1, t2 of contact ``c``."""
     call_pair(
         k[S.geometry_function + c],
-        at(w, k[S.body_out + k[S.body_a + c]]),
-        at(w, k[S.body_out + k[S.body_b + c]]),
+        at(w, k[S.frame_a + c]),
+        at(w, k[S.frame_b + c]),
         at(w, k[S.geometry_parameters + c]),
         at(w, S.geometry + GEOMETRY * c),
     )
@@ -69,7 +30,7 @@ def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
     vx = vy = vz = 0.0
     for side in range(2):
-        frame = k[S.body_out + (k[S.body_a + c] if side == 0 else k[S.body_b + c])]
+        frame = k[S.frame_a + c] if side == 0 else k[S.frame_b + c]
         point = S.geometry + GEOMETRY * c + 7 + 3 * side
         x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
         ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
@@ -82,7 +43,7 @@ def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
 
 
 @kernel("void(F, i8, i8, f8, f8, f8, i8, i8)")
-def _side_row(w: Floats, frame: int, point: int, ax: float, ay: float, az: float, n_u: int, out: int) -> None:
+def side_row(w: Floats, frame: int, point: int, ax: float, ay: float, az: float, n_u: int, out: int) -> None:
     """Write the row of one body: (axis, rho x axis) . frame Jacobian."""
     x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
     mx, my, mz = y * az - z * ay, z * ax - x * az, x * ay - y * ax
@@ -98,28 +59,24 @@ def _side_row(w: Floats, frame: int, point: int, ax: float, ay: float, az: float
 def evaluate_row(S: Scalars, w: Floats, k: Integers, c: int, r: int, ax: float, ay: float, az: float) -> None:
     """Write row ``r`` of the Jacobians of contact ``c``: of the relative velocity along the axis given."""
     point = S.geometry + GEOMETRY * c + 7
-    a, b = k[S.body_a + c], k[S.body_b + c]
-    n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
-    _side_row(w, k[S.body_out + a], point, -ax, -ay, -az, n_a, k[S.jacobian_a + c] + r * n_a)
-    _side_row(w, k[S.body_out + b], point + 3, ax, ay, az, n_b, k[S.jacobian_b + c] + r * n_b)
-
-
-@kernel("i8(S, F, I, i8)")
-def inverse_mass(S: Scalars, w: Floats, k: Integers, body: int) -> int:
-    """Return the offset of a body's M^-1 in its output block."""
-    n_u = k[S.body_nu + body]
-    return k[S.body_out + body] + FRAME + 6 * n_u + k[S.body_nq + body] + n_u
+    row_a = k[S.jacobian_a + c] + r * k[S.linkage_nu + k[S.linkage_a + c]] + k[S.shift_a + c]
+    row_b = k[S.jacobian_b + c] + r * k[S.linkage_nu + k[S.linkage_b + c]] + k[S.shift_b + c]
+    side_row(w, k[S.frame_a + c], point, -ax, -ay, -az, k[S.nu_a + c], row_a)
+    side_row(w, k[S.frame_b + c], point + 3, ax, ay, az, k[S.nu_b + c], row_b)
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
 def evaluate_row_response(S: Scalars, w: Floats, k: Integers, c: int, r: int, s: int) -> None:
-    """Write response ``s`` of contact ``c``: M^-1 times row ``r`` of its Jacobians, whose zeros are skipped."""
+    """Write response ``s`` of contact ``c``: K times row ``r`` of its Jacobians, whose zeros are skipped.
+
+    K is M^-1, less what the joints take.
+    """
     for side in range(2):
-        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
-        n_u = k[S.body_nu + body]
+        linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
+        n_u = k[S.linkage_nu + linkage]
         jacobian = (k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]) + r * n_u
         response = (k[S.response_a + c] if side == 0 else k[S.response_b + c]) + s * n_u
-        matrix = inverse_mass(S, w, k, body)
+        matrix = k[S.linkage_inverse + linkage]
         for i in range(n_u):
             total = 0.0
             for j in range(n_u):
@@ -133,23 +90,23 @@ def evaluate_row_response(S: Scalars, w: Floats, k: Integers, c: int, r: int, s:
 def row(S: Scalars, w: Floats, k: Integers, c: int, r: int, du: int) -> float:
     """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
     total = 0.0
-    a, b = k[S.body_a + c], k[S.body_b + c]
-    n_a, n_b = k[S.body_nu + a], k[S.body_nu + b]
+    a, b = k[S.linkage_a + c], k[S.linkage_b + c]
+    n_a, n_b = k[S.linkage_nu + a], k[S.linkage_nu + b]
     for i in range(n_a):
-        total += w[k[S.jacobian_a + c] + r * n_a + i] * w[du + k[S.body_u + a] + i]
+        total += w[k[S.jacobian_a + c] + r * n_a + i] * w[du + k[S.linkage_u + a] + i]
     for i in range(n_b):
-        total += w[k[S.jacobian_b + c] + r * n_b + i] * w[du + k[S.body_u + b] + i]
+        total += w[k[S.jacobian_b + c] + r * n_b + i] * w[du + k[S.linkage_u + b] + i]
     return total
 
 
-@kernel("void(S, F, I, i8, i8)")
-def evaluate_jacobian(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> None:
-    """Write W^T and N^T of contact ``c`` (rows n, t1, t2), M^-1 times them, and the prescribed rates."""
+@kernel("void(S, F, I, i8)")
+def evaluate_jacobian(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+    """Write W^T and N^T of contact ``c`` (rows n, t1, t2), K times them, and the prescribed rates."""
     for r in range(3):
         axis = S.axes + 9 * c + 3 * r
         evaluate_row(S, w, k, c, r, w[axis], w[axis + 1], w[axis + 2])
         evaluate_row_response(S, w, k, c, r, r)
-        w[S.prescribed_rate + 3 * c + r] = w[S.rate + 3 * c + r] - row(S, w, k, c, r, y + S.n_q)
+        w[S.prescribed_rate + 3 * c + r] = w[S.rate + 3 * c + r] - row(S, w, k, c, r, S.own)
 
 
 @kernel("void(S, F, I, i8, i8)")
@@ -166,7 +123,7 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     geometry = S.geometry + GEOMETRY * c
     n = S.axes + 9 * c
     t1, t2 = n + 3, n + 6
-    a, b = k[S.body_out + k[S.body_a + c]], k[S.body_out + k[S.body_b + c]]
+    a, b = k[S.frame_a + c], k[S.frame_b + c]
     gap = w[geometry]
     # turning of the normal with the first body, (omega_A x n) in the tangent plane; rho likewise for B - A
     turn_a1 = w[a + 15] * w[t2] + w[a + 16] * w[t2 + 1] + w[a + 17] * w[t2 + 2]
@@ -220,18 +177,10 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
         w[S.bias + 3 * c + 2] += -spin * v1 - n2 * rate
 
 
-@room("void(S, F, I, i8, i8, i8)")
-def evaluate_contact(S: Scalars, w: Floats, k: Integers, c: int, y: int, rows: int) -> None:
-    """Write everything about contact ``c`` at the state ``y``, the bodies being evaluated; ``rows`` of the bias."""
+@room("void(S, F, I, i8, i8)")
+def evaluate_contact(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None:
+    """Write everything about contact ``c``, the bodies being evaluated; ``rows`` of the bias."""
     evaluate_geometry(S, w, k, c)
     evaluate_rates(S, w, k, c)
-    evaluate_jacobian(S, w, k, c, y)
+    evaluate_jacobian(S, w, k, c)
     evaluate_bias(S, w, k, c, rows)
-
-
-@room()
-def evaluate_at(S: Scalars, w: Floats, k: Integers) -> None:
-    """Evaluate all bodies and contacts at the present time and state."""
-    evaluate_bodies(S, w, k, S.t, S.y)
-    for c in range(S.n_contacts):
-        evaluate_contact(S, w, k, c, S.y, 3)

@@ -252,6 +252,12 @@ def call_body(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any, out:
 
 
 @intrinsic
+def call_load(typingctx: Any, address: Any, t: Any, a: Any, b: Any, p: Any, out: Any) -> Any:
+    """Call ``void load(t, frame_a, frame_b, parameters, out)`` at an address."""
+    return _caller(types.void, (types.float64, FLOATS, FLOATS, FLOATS, FLOATS))
+
+
+@intrinsic
 def call_pair(typingctx: Any, address: Any, a: Any, b: Any, p: Any, out: Any) -> Any:
     """Call ``void geometry(frame_a, frame_b, parameters, out)`` at an address."""
     return _caller(types.void, (FLOATS, FLOATS, FLOATS, FLOATS))
@@ -273,6 +279,7 @@ _C_SIGNATURES = {
     "guard": types.float64(types.float64, FLOATS, FLOATS, FLOATS),
     "scalar": types.float64(types.float64, FLOATS),
     "body": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
+    "load": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
     "pair": types.void(FLOATS, FLOATS, FLOATS, FLOATS),
     "map": types.void(types.int64, FLOATS, FLOATS, FLOATS, FLOATS),
 }

@@ -65,6 +65,11 @@ def call_guard(address: int, t: float, q: Any, u: Any, p: Any) -> Any:
     return _functions[address - 1](t, q, u, p)
 
 
+def call_load(address: int, t: float, a: Any, b: Any, p: Any, out: Any) -> None:
+    """Call ``void load(t, frame_a, frame_b, parameters, out)``."""
+    _functions[address - 1](t, a, b, p, out)
+
+
 def call_pair(address: int, a: Any, b: Any, p: Any, out: Any) -> None:
     """Call ``void geometry(frame_a, frame_b, parameters, out)``."""
     _functions[address - 1](a, b, p, out)

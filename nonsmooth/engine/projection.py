@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies import evaluate_bodies, evaluate_free_bodies
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_free_bodies, inverse_mass
+from nonsmooth.engine.kinematics import evaluate_contact
 from nonsmooth.engine.modes import OPEN, STICK
-from nonsmooth.model.layout import FRAME, GEOMETRY
+from nonsmooth.model.layout import GEOMETRY
+
+_MOST_ITERATIONS = 5
+_CLOSED = 1e-3
+"""A residual of the joints below this part of the gap tolerance counts as none."""
 
 
 @kernel("i8(S, F, I)")
@@ -24,7 +29,7 @@ def activate_closed(S: Scalars, w: Floats, k: Integers) -> int:
     if m > 0:
         evaluate_bodies(S, w, k, S.t, S.y)
         for a in range(m):
-            evaluate_contact(S, w, k, k[S.active + a], S.y, 1)
+            evaluate_contact(S, w, k, k[S.active + a], 1)
     return m
 
 
@@ -67,13 +72,13 @@ def _potential_energy(S: Scalars, w: Floats, k: Integers) -> float:
     for body in range(S.n_bodies):
         n_u = k[S.body_nu + body]
         if n_u > 0:
-            total += w[inverse_mass(S, w, k, body) + n_u * n_u + 1]
+            total += w[k[S.body_tail + body] + k[S.body_nq + body] + n_u + n_u * n_u + 1]
     return total
 
 
 @kernel("f8(S, F, I)")
 def project_gaps(S: Scalars, w: Floats, k: Integers) -> float:
-    """Bring the gaps of the active contacts to zero by one Newton step along M^-1 W.
+    """Bring the gaps of the active contacts to zero by one Newton step along K W.
 
     Returns the potential energy it removes [J].
     """
@@ -98,9 +103,8 @@ def project_gaps(S: Scalars, w: Floats, k: Integers) -> float:
     before = _potential_energy(S, w, k)
     evaluate_bodies(S, w, k, S.t, S.y_stage)
     for body in range(S.n_bodies):
-        rates = k[S.body_out + body] + FRAME + 6 * k[S.body_nu + body]
         for i in range(k[S.body_nq + body]):
-            w[S.y + k[S.body_q + body] + i] += w[rates + i]
+            w[S.y + k[S.body_q + body] + i] += w[k[S.body_tail + body] + i]
     evaluate_free_bodies(S, w, k, S.t, S.y)
     return before - _potential_energy(S, w, k)
 
@@ -119,3 +123,36 @@ def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
         factor = 1.0 / math.sqrt(square)
         for i in range(4):
             w[q + i] *= factor
+
+
+@room()
+def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
+    """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
+    for _iteration in range(_MOST_ITERATIONS):
+        evaluate_bodies(S, w, k, S.t, S.y)
+        for i in range(S.n_y):
+            w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
+        worst = 0.0
+        for linkage in range(S.n_linkages):
+            worst = max(worst, _add_correction(S, w, k, linkage, S.linkage_residual, S.y_stage + S.n_q))
+        if worst <= _CLOSED * S.gap_tolerance:
+            for linkage in range(S.n_linkages):
+                _add_correction(S, w, k, linkage, S.linkage_rate, S.y + S.n_q)
+            return
+        evaluate_bodies(S, w, k, S.t, S.y_stage)
+        for body in range(S.n_bodies):
+            for i in range(k[S.body_nq + body]):
+                w[S.y + k[S.body_q + body] + i] += w[k[S.body_tail + body] + i]
+
+
+@kernel("f8(S, F, I, i8, i8, i8)")
+def _add_correction(S: Scalars, w: Floats, k: Integers, linkage: int, which: int, out: int) -> float:
+    """Subtract Y^T times the residuals or rates of a linkage from velocities; return the largest of them."""
+    n, first = k[S.linkage_nu + linkage], out + k[S.linkage_u + linkage]
+    worst = 0.0
+    for line in range(k[S.linkage_rows + linkage]):
+        value = w[k[which + linkage] + line]
+        worst = max(worst, abs(value))
+        for i in range(n):
+            w[first + i] -= w[k[S.linkage_y + linkage] + line * n + i] * value
+    return worst

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.contact_problem import accelerate, set_up, solve_contact
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact_problem import ENDLESS, FINISHED, energetic_impact
 from nonsmooth.engine.instant_impulses import jam_slips, map_impact, reduced_coefficient
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.kinematics import evaluate_bodies, evaluate_contact, evaluate_geometry, evaluate_rates, row
+from nonsmooth.engine.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates, row
 from nonsmooth.engine.modes import (
     CLOSING,
     IMPACT,
@@ -50,7 +51,7 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c] > near:
             k[S.touching + c] = 0
             continue
-        evaluate_contact(S, w, k, c, S.y, 3)
+        evaluate_contact(S, w, k, c, 3)
         if rate < -S.velocity_tolerance:
             approaching = 1
     return approaching

@@ -5,6 +5,8 @@ from nonsmooth.interfaces.contact_kinematics import ContactKinematics
 from nonsmooth.interfaces.friction_law import FrictionLaw
 from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
+from nonsmooth.interfaces.joint import Joint
+from nonsmooth.interfaces.load import Load
 from nonsmooth.interfaces.motion import Motion
 from nonsmooth.interfaces.normal_law import NormalLaw
 from nonsmooth.interfaces.scenario import Scenario
@@ -18,6 +20,8 @@ __all__ = [
     "ImpactLaw",
     "ImpactMap",
     "ImpactProcess",
+    "Joint",
+    "Load",
     "Motion",
     "NormalLaw",
     "Scenario",

@@ -1,4 +1,4 @@
-"""Body: coordinates, dynamics and the motion of a frame that carries shapes."""
+"""Body: coordinates, dynamics and the motion of frames that carry shapes."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ class Body(Component, ABC):
        surroundings (gravity_x, gravity_y, gravity_z [m/s^2]).
     2. M du/dt = h + contact forces, dq/dt = B(q) u; the Jacobian maps u to the velocity of the frame
        origin and its angular velocity, both in world axes.
-    3. A driven body has no coordinates and writes the frame motion only.
+    3. A driven body has no coordinates and writes the motion of its frames only.
     4. ``state`` turns what a user says of the start into q and u, or raises InvalidInput.
     """
 
     @property
     @abstractmethod
-    def shapes(self) -> tuple[Shape, ...]:
-        """The shapes that the frame carries."""
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """The shapes that each frame carries."""
 
     @property
     @abstractmethod

@@ -16,6 +16,10 @@ class Shape(Component, ABC):
     2. knows no body and no contact: pairs of shapes are the business of ContactKinematics.
     """
 
+    def parameters(self) -> dict[str, float]:
+        """Return the declared numbers by name."""
+        return self.numbers()
+
     @property
     @abstractmethod
     def length(self) -> float:

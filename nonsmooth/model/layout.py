@@ -6,7 +6,8 @@ of contact ``c`` and ``k[S.mode + c]`` its mode.  All sizes are run-time counts:
 bodies or contacts is another set of offsets, never another compilation.
 
 Every body owns an output block, written by its ``evaluate`` function, with the parts below in this
-order; :data:`FRAME` floats of frame motion come first and are all that a driven body writes.
+order.  The parts down to the Jacobian belong to a frame and are repeated for every frame of the body; :data:`FRAME`
+floats of frame motion are all that a driven body writes.
 
 ======================  ===============  =======================================================
 part                    size             meaning
@@ -30,11 +31,20 @@ tangent, witness points on both bodies and, for either surface, the matrices ``s
 tangent plane; they commute).  A sphere of radius r has slide 1, turn r; a plane slide 0, turn 1; a vertex slide 1,
 turn 0.  A point contact needs a curved or sharp side: two planes have none.  Last comes the number of the pair of
 features that are in contact, out of the kinematics' ``features``.
+
+A joint writes :data:`JOINT_ROW` floats per row: residual [m or 1], axis and moment, a point on either body, bias.
+The row's rate is axis . (velocity of the second body at its point - of the first at its own) + moment . (difference
+of the angular velocities); the bias is its derivative while u' = 0.
+
+A load writes force [N] on the second body, the point where it acts [m], and moment [N m]; the first body gets the
+opposite.
+
+Bodies tied by joints form a linkage, every other body is a linkage of its own; its bodies stand next to each other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,6 +55,10 @@ FRAME = 24
 """Floats of frame motion at the head of a body's output block."""
 GEOMETRY = 30
 """Floats of a contact's geometry block."""
+JOINT_ROW = 14
+"""Floats of one row of a joint."""
+LOAD = 9
+"""Floats that a load writes."""
 N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair."""
 
@@ -65,6 +79,7 @@ ROOMS = (
     "collide",
     "touch",
     "project_rates",
+    "project_joints",
     "set_up",
     "first_crossing",
     "locate",
@@ -77,6 +92,10 @@ INTEGER_SCALARS = (
     "n_bodies",
     "n_contacts",
     "n_own_guards",
+    "n_loads",
+    "n_joints",
+    "n_linkages",
+    "own",
     "n_q",
     "n_u",
     "n_y",
@@ -132,6 +151,7 @@ FLOAT_SCALARS = (
     "next_sample",
     "driven_work",
     "driven_power",
+    "load_power",
     "friction_loss",
     "restitution_loss",
     "closing_loss",
@@ -226,6 +246,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "rubbed": _per(1, "n_contacts"),
     "impulse": _per(3, "n_contacts"),
     "u_before": _per(1, "n_u"),
+    "u_own": _per(1, "n_u"),
     # output
     "events": lambda n: n["event_capacity"] * n["event_width"],
     "samples": lambda n: n["sample_capacity"] * (n["n_y"] + 1),
@@ -239,9 +260,51 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "body_function": _per(1, "n_bodies"),
     "body_parameters": _per(1, "n_bodies"),
     "body_out": _per(1, "n_bodies"),
+    "body_tail": _per(1, "n_bodies"),
     "body_quaternion": _per(1, "n_bodies"),
-    "body_a": _per(1, "n_contacts"),
-    "body_b": _per(1, "n_contacts"),
+    "linkage_u": _per(1, "n_linkages"),
+    "linkage_nu": _per(1, "n_linkages"),
+    "linkage_body": _per(1, "n_linkages"),
+    "linkage_bodies": _per(1, "n_linkages"),
+    "linkage_inverse": _per(1, "n_linkages"),
+    "linkage_joint": _per(1, "n_linkages"),
+    "linkage_joints": _per(1, "n_linkages"),
+    "linkage_rows": _per(1, "n_linkages"),
+    "linkage_driven": _per(1, "n_linkages"),
+    "linkage_jacobian": _per(1, "n_linkages"),
+    "linkage_r": _per(1, "n_linkages"),
+    "linkage_y": _per(1, "n_linkages"),
+    "linkage_factor": _per(1, "n_linkages"),
+    "linkage_residual": _per(1, "n_linkages"),
+    "linkage_rate": _per(1, "n_linkages"),
+    "linkage_bias": _per(1, "n_linkages"),
+    "linkage_x": _per(1, "n_linkages"),
+    "joint_function": _per(1, "n_joints"),
+    "joint_parameters": _per(1, "n_joints"),
+    "joint_frame_a": _per(1, "n_joints"),
+    "joint_frame_b": _per(1, "n_joints"),
+    "joint_nu_a": _per(1, "n_joints"),
+    "joint_nu_b": _per(1, "n_joints"),
+    "joint_shift_a": _per(1, "n_joints"),
+    "joint_shift_b": _per(1, "n_joints"),
+    "joint_first": _per(1, "n_joints"),
+    "joint_rows": _per(1, "n_joints"),
+    "joint_out": _per(1, "n_joints"),
+    "load_function": _per(1, "n_loads"),
+    "load_parameters": _per(1, "n_loads"),
+    "load_frame_a": _per(1, "n_loads"),
+    "load_frame_b": _per(1, "n_loads"),
+    "load_body_a": _per(1, "n_loads"),
+    "load_body_b": _per(1, "n_loads"),
+    "load_out": _per(1, "n_loads"),
+    "frame_a": _per(1, "n_contacts"),
+    "frame_b": _per(1, "n_contacts"),
+    "nu_a": _per(1, "n_contacts"),
+    "nu_b": _per(1, "n_contacts"),
+    "shift_a": _per(1, "n_contacts"),
+    "shift_b": _per(1, "n_contacts"),
+    "linkage_a": _per(1, "n_contacts"),
+    "linkage_b": _per(1, "n_contacts"),
     "geometry_function": _per(1, "n_contacts"),
     "geometry_parameters": _per(1, "n_contacts"),
     "friction_function": _per(1, "n_contacts"),
@@ -293,6 +356,9 @@ COUNTS = (
     "n_bodies",
     "n_contacts",
     "n_own_guards",
+    "n_loads",
+    "n_joints",
+    "n_linkages",
     "n_q",
     "n_u",
     "n_y",
@@ -304,6 +370,31 @@ COUNTS = (
 """The run-time sizes that :func:`allocate` takes."""
 CONSTANT_SCALARS = frozenset((*COUNTS, *_FLOAT_ARRAYS, *_INTEGER_ARRAYS))
 """What never changes once the memory is laid out."""
+
+
+class Heap:
+    """The blocks that come behind the fixed arrays: output blocks, Jacobians, parameters."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+        self._blocks: list[np.ndarray] = []
+        self._next = len(memory.floats)
+
+    def block(self, size: int) -> int:
+        """Reserve floats; return their offset."""
+        return self.store(np.zeros(size))
+
+    def store(self, values: Sequence[float] | np.ndarray) -> int:
+        """Append values; return their offset."""
+        start = self._next
+        self._blocks.append(np.asarray(values, dtype=float))
+        self._next += len(values)
+        return start
+
+    def close(self) -> Memory:
+        """Return the memory with all blocks in it."""
+        old = self._memory
+        return Memory(old.scalars, np.concatenate([old.floats, *self._blocks, np.zeros(1)]), old.integers)
 
 
 @dataclass(frozen=True)
@@ -331,16 +422,8 @@ class Memory:
         return heap[start : start + size]
 
 
-def allocate(counts: Mapping[str, int], extra: int) -> Memory:
-    """Lay out the arrays for the given counts, with ``extra`` floats appended to the float heap.
-
-    Parameters
-    ----------
-    counts : mapping of str to int
-        All of ``COUNTS``.
-    extra : int
-        Floats for body blocks, Jacobians and parameters; they start at ``Memory.floats[-extra:]``.
-    """
+def allocate(counts: Mapping[str, int]) -> Memory:
+    """Lay out the arrays for the given counts, all of ``COUNTS``; blocks are appended by :class:`Heap`."""
     scalars = np.zeros(1, SCALARS)
     totals: list[int] = []
     for table in (_FLOAT_ARRAYS, _INTEGER_ARRAYS):
@@ -351,7 +434,7 @@ def allocate(counts: Mapping[str, int], extra: int) -> Memory:
         totals.append(total)
     for name, value in counts.items():
         scalars[name] = value
-    memory = Memory(scalars, np.zeros(totals[0] + max(extra, 1)), np.zeros(max(totals[1], 1), np.int64))
+    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
     memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
     memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
     memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)

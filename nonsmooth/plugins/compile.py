@@ -9,11 +9,13 @@ from typing import Any
 
 from nonsmooth.engine.kernel import COMPILATION_ERRORS, address_of, at, jit
 from nonsmooth.errors import PluginError, UnknownName
+from nonsmooth.parameters import Value
 
 ROLES = {
     "scalar": ("x",),
     "guard": ("t", "q", "u"),
     "body": ("t", "q", "u", "out"),
+    "load": ("t", "a", "b", "out"),
     "pair": ("a", "b", "out"),
     "map": ("n", "delassus", "rates", "out"),
 }
@@ -23,6 +25,7 @@ _SHIMS = {
     "scalar": "def shim(x, p): return law(x{unpacked})",
     "guard": "def shim(t, q, u, p): return law(t, q, u{unpacked})",
     "body": "def shim(t, q, u, p, out): law(t, q, u, out{unpacked})",
+    "load": "def shim(t, a, b, p, out): law(t, a, b, out{unpacked})",
     "pair": "def shim(a, b, p, out): law(a, b, out{unpacked})",
     "map": "def shim(n, delassus, rates, p, out): law(n, delassus, rates, out{unpacked})",
 }
@@ -34,7 +37,7 @@ def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
 
 
 def bind(
-    function: Callable[..., Any], form: str, values: Mapping[str, float], owner: str
+    function: Callable[..., Any], form: str, values: Mapping[str, Value], owner: str
 ) -> tuple[int, tuple[float, ...]]:
     """Compile a law function and pick its parameters out of ``values`` by name.
 
@@ -43,16 +46,17 @@ def bind(
     function : callable
         A plain function whose first arguments are those of ``ROLES[form]``.
     form : str
-        "scalar", "guard", "body", "pair" or "map".
-    values : mapping of str to float
-        The parameters that the law's object and its surroundings offer.
+        "scalar", "guard", "body", "load", "pair" or "map".
+    values : mapping of str to float or tuple of float
+        The parameters that the law's object and its surroundings offer; the function gets a tuple as a heap.
     owner : str
         The law, for messages.
 
     Returns
     -------
     tuple of int and tuple of float
-        The address and the parameters in the order of the function's signature.
+        The address, and what the function's parameters need on the heap: one number each, in the order of the
+        signature, then the tuples; the number of a tuple says where it begins.
 
     Raises
     ------
@@ -65,14 +69,24 @@ def bind(
     for name in names:
         if name not in values:
             raise UnknownName(f"{owner}: {function.__qualname__} asks for a parameter whose", name, values)
-    return _address(function, form, owner), tuple(float(values[name]) for name in names)
+    vectors = tuple(isinstance(values[name], tuple) for name in names)
+    heap: list[float] = [0.0] * len(names)
+    for i, name in enumerate(names):
+        value = values[name]
+        if isinstance(value, tuple):
+            heap[i] = float(len(heap))
+            heap += [float(x) for x in value]
+        else:
+            heap[i] = float(value)
+    return _address(function, form, owner, vectors), tuple(heap)
 
 
 @functools.cache
-def _address(function: Callable[..., Any], form: str, owner: str) -> int:
+def _address(function: Callable[..., Any], form: str, owner: str, vectors: tuple[bool, ...]) -> int:
     names = parameter_names(function, form)
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
-    unpacked = "".join(", " + item.format(i) for i in range(len(names)))
+    items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
+    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items))
     scope: dict[str, Any] = {"law": jit(function), "at": at}
     exec(_SHIMS[form].format(unpacked=unpacked), scope)  # the shim's text is ours, never the user's
     try:

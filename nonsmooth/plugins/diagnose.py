@@ -11,7 +11,7 @@ import numpy as np
 from nonsmooth.engine.modes import NOT_FINITE
 from nonsmooth.interfaces import ImpactProcess
 from nonsmooth.interfaces.guard import guard_value
-from nonsmooth.model.assembly import Model
+from nonsmooth.model.model import Model
 from nonsmooth.plugins.compile import parameter_names
 
 _PROBES = (0.0, 1e-12, 1e-6, 1e-3, 1e-1, 1.0)

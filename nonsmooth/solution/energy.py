@@ -17,6 +17,8 @@ class EnergyAccount:
         Work that the driven bodies did on the others.
     restitution_loss, friction_loss, closing_loss : float
         Losses in impacts, to friction in impacts and sustained slip, and in closing steps and projections.
+    load_work : float
+        Work of the loads on the bodies; springs count here, not in the potential energy.
     exchanged_in_flow : float
         Gross energy that gravity, driven bodies and friction exchanged between events, each counted as positive.
     """
@@ -30,6 +32,7 @@ class EnergyAccount:
     friction_loss: float
     closing_loss: float
     exchanged_in_flow: float
+    load_work: float
 
     @property
     def change(self) -> float:
@@ -53,7 +56,7 @@ class EnergyAccount:
         Where next to none is, the kinetic energy takes its place, as in free tumbling, or a millionth of the
         potential energy, as at rest.
         """
-        unexplained = abs(self.change - self.driven_work + self.loss)
+        unexplained = abs(self.change - self.driven_work - self.load_work + self.loss)
         kinetic = max(self.kinetic_start, self.kinetic_end)
         potential = max(abs(self.potential_start), abs(self.potential_end))
         scale = max(self.exchanged, kinetic, 1e-6 * potential)

@@ -1,10 +1,10 @@
-"""Contact: kinematics, normal law, friction law, impact law, composed."""
+"""What ties two bodies together: contacts, joints, loads, each between a frame of either."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, NormalLaw
+from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, Joint, Load, NormalLaw
 
 
 @dataclass(frozen=True)
@@ -17,8 +17,12 @@ class Contact:
         Number in the system and bodies, for messages.
     first, second : Body
         The bodies; the normal points from the first to the second.
+    frames : tuple of int
+        Number of the frame on either body.
     kinematics : ContactKinematics
         Geometry of the pair of shapes.
+    size : float
+        Distance of the farthest point of either shape from its frame [m].
     normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw
         The laws.
     """
@@ -26,7 +30,32 @@ class Contact:
     name: str
     first: Body
     second: Body
+    frames: tuple[int, int]
     kinematics: ContactKinematics
+    size: float
     normal: NormalLaw
     friction: FrictionLaw
     impact: ImpactLaw
+
+
+@dataclass(frozen=True)
+class Tie:
+    """A joint or a load between two bodies of a system.
+
+    Attributes
+    ----------
+    name : str
+        Kind and bodies, for messages.
+    first, second : Body
+        The bodies.
+    frames : tuple of int
+        Number of the frame on either body.
+    component : Joint or Load
+        What ties them.
+    """
+
+    name: str
+    first: Body
+    second: Body
+    frames: tuple[int, int]
+    component: Joint | Load

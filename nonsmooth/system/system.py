@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body, FrictionLaw, Guard, ImpactLaw, ImpactMap, ImpactProcess, NormalLaw, Shape
+from nonsmooth.interfaces import (
+    Body,
+    FrictionLaw,
+    Guard,
+    ImpactLaw,
+    ImpactMap,
+    ImpactProcess,
+    Joint,
+    Load,
+    NormalLaw,
+    Shape,
+)
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
 from nonsmooth.plugins import registry
-from nonsmooth.system.contact import Contact
+from nonsmooth.system.contact import Contact, Tie
 
 _LARGEST_GRAVITY = 1e4
+_Side: TypeAlias = tuple[Body, int, Shape]
 
 
 class System:
@@ -49,6 +62,8 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = float(gravity)
         self._contacts: list[Contact] = []
+        self._joints: list[Tie] = []
+        self._loads: list[Tie] = []
         self._guards: list[Guard] = []
         self._starts: dict[int, tuple[Vector, Vector]] = {id(body): body.state() for body in bodies}
 
@@ -83,6 +98,59 @@ class System:
         if not isinstance(guard, Guard):
             raise InvalidInput("System.guard", "needs a Guard", guard, "Subclass nonsmooth.interfaces.Guard.")
         self._guards.append(guard)
+
+    @property
+    def joints(self) -> tuple[Tie, ...]:
+        """The joints, in the order declared."""
+        return tuple(self._joints)
+
+    @property
+    def loads(self) -> tuple[Tie, ...]:
+        """The loads, in the order declared."""
+        return tuple(self._loads)
+
+    def joint(self, joint: Joint, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0)) -> None:
+        """Tie two bodies by a joint; ``frames`` says which frame of either.
+
+        Raises
+        ------
+        InvalidInput
+            If it is not a Joint, a body is not of this system, they are the same or both driven, or a frame is unknown.
+        """
+        if not isinstance(joint, Joint):
+            raise InvalidInput("System.joint", "needs a Joint", joint, "See `nonsmooth list joints`.")
+        tie = self._tie("System.joint", joint, first, second, frames)
+        if first.n_u == 0 and second.n_u == 0:
+            raise InvalidInput(tie.name, "needs a body that can move", "both are driven", "Take the joint out.")
+        self._joints.append(tie)
+
+    def load(self, load: Load, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0)) -> None:
+        """Let a load act on the second body, and its opposite on the first; ``frames`` says which frame of either.
+
+        Raises
+        ------
+        InvalidInput
+            If it is not a Load, a body is not of this system, they are the same, or a frame is unknown.
+        """
+        if not isinstance(load, Load):
+            raise InvalidInput("System.load", "needs a Load", load, "See `nonsmooth list loads`.")
+        self._loads.append(self._tie("System.load", load, first, second, frames))
+
+    def _tie(self, where: str, component: Joint | Load, first: Body, second: Body, frames: tuple[int, int]) -> Tie:
+        self._require(first, where)
+        self._require(second, where)
+        if first is second:
+            raise InvalidInput(where, "needs two different bodies", type(first).__name__, "Name the other body.")
+        for body, frame in zip((first, second), frames, strict=True):
+            if frame not in range(len(body.frames)):
+                raise InvalidInput(
+                    f"{where}: frames",
+                    f"must be below {len(body.frames)} for {type(body).__name__}",
+                    frame,
+                    "Count from 0.",
+                )
+        name = f"{type(component).__name__} of {type(first).__name__} and {type(second).__name__}"
+        return Tie(name, first, second, frames, component)
 
     def start(self, body: Body) -> tuple[Vector, Vector]:
         """Return q and u of a body at t = 0."""
@@ -129,45 +197,47 @@ class System:
             raise InvalidInput(
                 "System.contact", "needs two different bodies", type(first).__name__, "Name the other body."
             )
-        added = []
-        for a in first.shapes:
-            for b in second.shapes:
-                added += self._pair(first, a, second, b, normal, friction, impact)
+        added: list[Contact] = []
+        for i, carried in enumerate(first.frames):
+            for j, others in enumerate(second.frames):
+                for a, b in itertools.product(carried, others):
+                    added += self._pair((first, i, a), (second, j, b), len(added), normal, friction, impact)
         self._contacts += added
         return tuple(added)
 
     def _pair(
         self,
-        first: Body,
-        a: Shape,
-        second: Body,
-        b: Shape,
+        first: _Side,
+        second: _Side,
+        n_added: int,
         normal: NormalLaw,
         friction: FrictionLaw,
         impact: ImpactLaw,
     ) -> list[Contact]:
         known = registry.load_all("kinematics").values()
-        number = len(self._contacts)
+        number = len(self._contacts) + n_added + 1
         for kinematics in known:
-            for one, shape_one, two, shape_two in ((first, a, second, b), (second, b, first, a)):
-                if kinematics.pair == (type(shape_one), type(shape_two)):
+            for (one, i, a), (two, j, b) in ((first, second), (second, first)):
+                if kinematics.pair == (type(a), type(b)):
                     return [
                         Contact(
-                            f"contact of {type(one).__name__} and {type(two).__name__} (from number {number + 1})",
+                            f"contact of {type(one).__name__} and {type(two).__name__} (from number {number})",
                             one,
                             two,
+                            (i, j),
                             geometry,
+                            max(a.length, b.length),
                             normal,
                             friction,
                             impact,
                         )
-                        for geometry in kinematics.between(shape_one, shape_two)
+                        for geometry in kinematics.between(a, b)
                     ]
         pairs = sorted(f"{k.pair[0].__name__}-{k.pair[1].__name__}" for k in known)
         raise InvalidInput(
             "System.contact",
             "needs shapes whose contact kinematics is known",
-            f"{type(a).__name__}-{type(b).__name__}",
+            f"{type(first[2]).__name__}-{type(second[2]).__name__}",
             f"Known pairs: {', '.join(pairs)}.",
         )
 

@@ -1,0 +1,25 @@
+"""Load: a force and a moment between two frames."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+
+from nonsmooth.parameters import Component
+
+
+class Load(Component, ABC):
+    """An applied force: a spring, a damper, drag, a drive.
+
+    The contract:
+
+    1. ``evaluator`` is a plain function ``evaluate(t, a, b, out, ...)`` of time [s] and the frame blocks of the two
+       bodies that writes force, point and moment (:mod:`nonsmooth.model.layout`); its further arguments are parameters
+       of the load.
+    2. It is smooth in its arguments; the first body gets the opposite.
+    """
+
+    @property
+    @abstractmethod
+    def evaluator(self) -> Callable[..., None]:
+        """The function of point 1."""

@@ -1,0 +1,59 @@
+"""What must hold at the start: nothing overlaps, every joint is closed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.model.linkages import linkages
+from nonsmooth.model.model import Model
+from nonsmooth.system.contact import Tie
+
+_OPEN = 1e-9
+
+
+def check_start(model: Model) -> None:
+    """Look at gaps and joints at the start.
+
+    Raises
+    ------
+    InvalidInput
+        If bodies overlap, or a joint is open or opening.
+    """
+    for contact, gap in zip(model.system.contacts, model.gaps(), strict=True):
+        if not gap >= -max(_OPEN, 1e-6 * contact.size):
+            raise InvalidInput(
+                f"start of the {contact.name}",
+                "must not overlap",
+                float(gap),
+                "Place the bodies apart or touching (gap >= 0 [m]).",
+            )
+    _check_joints(model)
+
+
+def _check_joints(model: Model) -> None:
+    """Look at residual and rate of every row of every joint."""
+    memory = model.memory
+    # speeds of a joint are judged by those of its bodies
+    scale = max(1.0, float(np.max(np.abs(memory.array("y", model.n_q + model.n_u)), initial=0.0)))
+    number = 0
+    for index, linkage in enumerate(linkages(model.system)):
+        for tie in linkage.joints:
+            _check_joint(model, tie, number, index, _OPEN * scale)
+            number += 1
+
+
+def _check_joint(model: Model, tie: Tie, number: int, linkage: int, allowed: float) -> None:
+    memory = model.memory
+    rows = int(memory.array("joint_rows", number + 1)[number])
+    first = int(memory.array("joint_first", number + 1)[number])
+    for what, unit in (("residual", "m or rad"), ("rate", "m/s or rad/s")):
+        start = int(memory.array(f"linkage_{what}", linkage + 1)[linkage]) + first
+        values = memory.floats[start : start + rows]
+        if not float(np.max(np.abs(values))) <= allowed:
+            raise InvalidInput(
+                f"start of the {tie.name}",
+                f"must have the {what} 0 [{unit}] in each of its rows",
+                values.tolist(),
+                "Place the bodies where the joint is closed; joints that contradict each other cannot all be.",
+            )

@@ -1,0 +1,216 @@
+"""Bodies, joints, loads, contacts and guards, each laid into the engine's memory."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import ImpactMap, ImpactProcess, Joint, Load
+from nonsmooth.interfaces.guard import guard_value
+from nonsmooth.model.layout import FRAME, JOINT_ROW, LOAD, Heap, Memory
+from nonsmooth.model.linkages import Linkage
+from nonsmooth.parameters import Value
+from nonsmooth.plugins.compile import bind, parameter_names
+from nonsmooth.system.contact import Contact, Tie
+from nonsmooth.system.system import System
+
+
+@dataclass
+class Place:
+    """Where a body stands: its number, first velocity, frames on the heap, and its linkage."""
+
+    number: int
+    u: int
+    frames: tuple[int, ...]
+    linkage: int = -1
+    shift: int = 0
+    linkage_nu: int = 0
+
+
+Places = Mapping[int, Place]
+
+
+def _write(memory: Memory, kind: str, number: int, values: Mapping[str, float]) -> None:
+    for name, value in values.items():
+        memory.array(f"{kind}_{name}", number + 1)[number] = value
+
+
+def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
+    """Lay the bodies and their start; return where each stands, by its id."""
+    gravity = dict(zip(("gravity_x", "gravity_y", "gravity_z"), system.gravity, strict=True))
+    n_q = sum(body.n_q for body in system.bodies)
+    n_y = int(memory.scalars["n_y"][0])
+    y, scale = memory.array("y", n_y), memory.array("y_scale", n_y)
+    places = {}
+    i_q = i_u = 0
+    for i, body in enumerate(system.bodies):
+        address, values = bind(body.evaluator, "body", {**body.parameters(), **gravity}, type(body).__name__)
+        frame = FRAME + 6 * body.n_u
+        tail = len(body.frames) * frame
+        out = heap.block(tail + body.n_q + body.n_u + body.n_u**2 + 2)
+        fields = {
+            "q": i_q,
+            "u": i_u,
+            "nq": body.n_q,
+            "nu": body.n_u,
+            "function": address,
+            "parameters": heap.store(values),
+            "out": out,
+            "tail": out + tail,
+            "quaternion": body.quaternion,
+        }
+        _write(memory, "body", i, fields)
+        places[id(body)] = Place(i, i_u, tuple(out + frame * f for f in range(len(body.frames))))
+        q, u = system.start(body)
+        q_scale, u_scale = body.scales
+        y[i_q : i_q + body.n_q], scale[i_q : i_q + body.n_q] = q, q_scale
+        first = n_q + i_u
+        y[first : first + body.n_u], scale[first : first + body.n_u] = u, u_scale
+        i_q, i_u = i_q + body.n_q, i_u + body.n_u
+    return places
+
+
+def lay_joints(memory: Memory, heap: Heap, linkages: Sequence[Linkage], places: Places) -> None:
+    """Lay the linkages and, linkage by linkage, their joints."""
+    joint = 0
+    for number, linkage in enumerate(linkages):
+        bodies, ties = linkage.bodies, linkage.joints
+        u, n = places[id(bodies[0])].u, sum(body.n_u for body in bodies)
+        for body in bodies:
+            place = places[id(body)]
+            place.linkage, place.shift, place.linkage_nu = number, place.u - u, n
+        first, rows = joint, 0
+        for tie in ties:
+            rows += _lay_joint(memory, heap, joint, tie, rows, places)
+            joint += 1
+        fields = {
+            "u": u,
+            "nu": n,
+            "body": linkage.first,
+            "bodies": len(bodies),
+            "inverse": heap.block(n * n) if ties else _inverse(memory, linkage.first),
+            "joint": first,
+            "joints": len(ties),
+            "rows": rows,
+            "driven": int(any(tie.first.n_u == 0 or tie.second.n_u == 0 for tie in ties)),
+            "jacobian": heap.block(rows * n),
+            "r": heap.block(rows * n),
+            "y": heap.block(rows * n),
+            "factor": heap.block(rows * rows),
+            "residual": heap.block(rows),
+            "rate": heap.block(rows),
+            "bias": heap.block(rows),
+            "x": heap.block(rows),
+        }
+        _write(memory, "linkage", number, fields)
+
+
+def _inverse(memory: Memory, body: int) -> int:
+    """Return where a body writes its M^-1."""
+    part = {name: int(memory.array(f"body_{name}", body + 1)[body]) for name in ("tail", "nq", "nu")}
+    return part["tail"] + part["nq"] + part["nu"]
+
+
+def _lay_joint(memory: Memory, heap: Heap, number: int, tie: Tie, first: int, places: Places) -> int:
+    joint = tie.component
+    assert isinstance(joint, Joint)
+    address, values = bind(joint.evaluator, "pair", joint.parameters(), type(joint).__name__)
+    fields = {
+        "function": address,
+        "parameters": heap.store(values),
+        "first": first,
+        "rows": joint.n_rows,
+        "out": heap.block(JOINT_ROW * joint.n_rows),
+    }
+    for side, body, frame in (("a", tie.first, tie.frames[0]), ("b", tie.second, tie.frames[1])):
+        place = places[id(body)]
+        fields[f"frame_{side}"] = place.frames[frame]
+        fields[f"nu_{side}"] = body.n_u
+        fields[f"shift_{side}"] = place.shift
+    _write(memory, "joint", number, fields)
+    return joint.n_rows
+
+
+def lay_loads(system: System, memory: Memory, heap: Heap, places: Places) -> None:
+    """Lay the loads."""
+    for number, tie in enumerate(system.loads):
+        load = tie.component
+        assert isinstance(load, Load)
+        address, values = bind(load.evaluator, "load", load.parameters(), type(load).__name__)
+        fields = {"function": address, "parameters": heap.store(values), "out": heap.block(LOAD)}
+        for side, body, frame in (("a", tie.first, tie.frames[0]), ("b", tie.second, tie.frames[1])):
+            fields[f"frame_{side}"] = places[id(body)].frames[frame]
+            fields[f"body_{side}"] = places[id(body)].number
+        _write(memory, "load", number, fields)
+
+
+def lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, places: Places) -> None:
+    """Lay one contact."""
+    impact = contact.impact
+    functions = {
+        "geometry": (contact.kinematics.evaluator, "pair", contact.kinematics.parameters()),
+        "friction": (contact.friction.coefficient, "scalar", contact.friction.parameters()),
+    }
+    if isinstance(impact, ImpactProcess):
+        functions["force"] = (impact.force, "scalar", impact.parameters())
+        functions["efficiency"] = (impact.efficiency, "scalar", impact.parameters())
+    elif isinstance(impact, ImpactMap):
+        _lay_map(memory, heap, number, impact)
+    for name, (function, form, available) in functions.items():
+        address, values = bind(function, form, available, contact.name)
+        _write(memory, name, number, {"function": address, "parameters": heap.store(values)})
+    for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
+        place = places[id(body)]
+        values_of_side = {
+            "frame": place.frames[frame],
+            "nu": body.n_u,
+            "shift": place.shift,
+            "linkage": place.linkage,
+            "jacobian": heap.block(3 * place.linkage_nu),
+            "response": heap.block(3 * place.linkage_nu),
+        }
+        for name, value in values_of_side.items():
+            memory.array(f"{name}_{side}", number + 1)[number] = value
+    memory.array("contact_time", number + 1)[number] = impact.contact_time
+    memory.array("direction", 2 * number + 2)[2 * number] = 1.0
+
+
+def _lay_map(memory: Memory, heap: Heap, number: int, impact: ImpactMap) -> None:
+    names = parameter_names(impact.impulses, "map")
+    if names[:1] != ("friction",):
+        raise InvalidInput(
+            f"{type(impact).__name__}.impulses",
+            "must take friction as the first of its own arguments",
+            names,
+            "Write impulses(n, delassus, rates, out, friction, ...).",
+        )
+    offered: dict[str, Value] = {**impact.parameters(), "friction": 0.0}
+    address, values = bind(impact.impulses, "map", offered, type(impact).__name__)
+    memory.scalars["impact_map"] = address
+    memory.array("map_parameters", number + 1)[number] = heap.store(values[1:])
+
+
+def lay_guards(system: System, memory: Memory, heap: Heap) -> None:
+    """Lay the guards of the scenario's own.
+
+    Raises
+    ------
+    InvalidInput
+        If a guard has no finite value at the start.
+    """
+    n_q, n_u = int(memory.scalars["n_q"][0]), int(memory.scalars["n_u"][0])
+    y = memory.array("y", n_q + n_u)
+    for number, guard in enumerate(system.guards):
+        value = guard_value(guard, 0.0, y[:n_q], y[n_q:])
+        if not isinstance(value, float) or not math.isfinite(value):
+            raise InvalidInput(
+                f"{type(guard).__name__}.value",
+                "must return a finite number at the start",
+                value,
+                f"Look at {guard.value.__qualname__} with t = 0 and the q and u of the start.",
+            )
+        address, values = bind(guard.value, "guard", guard.parameters(), type(guard).__name__)
+        fields = {"function": address, "parameters": heap.store(values), "ends": int(guard.ends_run)}
+        _write(memory, "own_guard", number, fields)

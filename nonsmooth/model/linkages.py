@@ -1,0 +1,54 @@
+"""Which bodies stand in one linkage."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nonsmooth.interfaces import Body
+from nonsmooth.system.contact import Tie
+from nonsmooth.system.system import System
+
+
+@dataclass(frozen=True)
+class Linkage:
+    """Bodies that joints tie together, and those joints.
+
+    Attributes
+    ----------
+    first : int
+        Number of its first body in the system; the others follow.
+    bodies : tuple of Body
+        The bodies.
+    joints : tuple of Tie
+        The joints.
+    """
+
+    first: int
+    bodies: tuple[Body, ...]
+    joints: tuple[Tie, ...]
+
+
+def linkages(system: System) -> list[Linkage]:
+    """Return the linkages in the order of their bodies.
+
+    Bodies that stand between those of a linkage in the order of the system come with it, which costs time and
+    changes nothing.
+    """
+    bodies = system.bodies
+    last = list(range(len(bodies)))
+    for tie in system.joints:
+        numbers = [i for i, body in enumerate(bodies) if (body is tie.first or body is tie.second) and body.n_u > 0]
+        last[numbers[0]] = max(last[numbers[0]], numbers[-1])
+    found: list[Linkage] = []
+    first = 0
+    while first < len(bodies):
+        end = number = first
+        while number <= end:
+            end = max(end, last[number])
+            number += 1
+        members = bodies[first : end + 1]
+        movable = [body for body in members if body.n_u > 0]
+        joints = tuple(t for t in system.joints if any(body is t.first or body is t.second for body in movable))
+        found.append(Linkage(first, members, joints))
+        first = end + 1
+    return found

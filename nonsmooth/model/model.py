@@ -1,0 +1,84 @@
+"""Model: a system laid out in the engine's memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
+from nonsmooth.interfaces import ImpactMap
+from nonsmooth.model.layout import GEOMETRY, Memory
+from nonsmooth.plugins.compile import parameter_names
+from nonsmooth.system.contact import Contact
+from nonsmooth.system.system import System
+
+N_ACCOUNTS = 4
+"""Energies integrated with the state: work of driven bodies, loss to friction, gross exchange, work of loads."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A system laid out in memory, ready to run.
+
+    Attributes
+    ----------
+    system : System
+        What it was made from.
+    memory : Memory
+        Scalars and heaps.
+    n_q, n_u : int
+        Numbers of coordinates and velocities of all bodies.
+    """
+
+    system: System
+    memory: Memory
+    n_q: int
+    n_u: int
+
+    @property
+    def n_y(self) -> int:
+        """Length of the integrated state: q, u, accounts."""
+        return self.n_q + self.n_u + N_ACCOUNTS
+
+    @property
+    def event_width(self) -> int:
+        """Floats of an event."""
+        return event_width(len(self.system.contacts), self.n_q, self.n_u)
+
+    @property
+    def code_width(self) -> int:
+        """Integers of an event."""
+        return CODE_HEAD + len(self.system.contacts)
+
+    def energy(self) -> tuple[float, float]:
+        """Return kinetic and potential energy [J] of the present state."""
+        bodies = self.system.bodies
+        call_room("evaluate_at", self.memory)
+        kinetic = potential = 0.0
+        tails = self.memory.array("body_tail", len(bodies))
+        for body, tail in zip(bodies, tails, strict=True):
+            if body.n_u > 0:
+                energy = int(tail) + body.n_q + body.n_u + body.n_u**2
+                kinetic += float(self.memory.floats[energy])
+                potential += float(self.memory.floats[energy + 1])
+        return kinetic, potential
+
+    def gaps(self) -> np.ndarray:
+        """Return the gaps [m, n_contacts] at the present state."""
+        call_room("evaluate_at", self.memory)
+        n = len(self.system.contacts)
+        return self.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, 0].copy()
+
+
+def event_width(n_contacts: int, n_q: int, n_u: int) -> int:
+    """Return the floats of an event: head, impulses, q, u before and after."""
+    return EVENT_HEAD + 3 * n_contacts + n_q + 2 * n_u
+
+
+def map_width(contacts: tuple[Contact, ...]) -> int:
+    """Return how many numbers a law that maps velocities takes per contact."""
+    if contacts and isinstance(contacts[0].impact, ImpactMap):
+        return len(parameter_names(contacts[0].impact.impulses, "map"))
+    return 1
