@@ -295,3 +295,19 @@ def test_tangents_follow_the_normal_without_a_jump(build: Any) -> None:
             turned_by = np.linalg.norm(axes[0] - before[0])
             assert np.linalg.norm(axes[1] - before[1]) <= 3.0 * turned_by + 1e-12
         before = axes
+
+
+@pytest.mark.parametrize("shape", [Disc(0.3), Cylinder(0.3, 0.2, z=0.2)], ids=["disc", "cylinder"])
+def test_a_nearly_flat_rim_loses_no_digits(build: Any, shape: Shape) -> None:
+    """The lowest point of a rim tilted by 1e-20 to 1e-1, on planes and discs turned together in any way."""
+    rig = Rig((Plane(), shape), build.laws())
+    rng = np.random.default_rng(5)
+    for tilt in 10.0 ** np.arange(-20.0, -0.5, 0.5):
+        frame = rng.normal(size=4)
+        frame /= np.linalg.norm(frame)
+        up = Rotation.from_quat(np.roll(frame, -1)).apply([0.0, 0.0, 1.0])
+        leaning = np.array([np.cos(tilt / 2.0), np.sin(tilt / 2.0), 0.0, 0.0])
+        lean = Rotation.from_quat(np.roll(frame, -1)) * Rotation.from_quat(np.roll(leaning, -1))
+        rig.put([(np.zeros(3), frame), (0.5 * up, np.roll(lean.as_quat(), 1))], np.ones(12))
+        assert np.min(rig.geometry[:, 0]) == pytest.approx(0.5 - 0.3 * np.sin(tilt), abs=2e-15)
+        assert np.all(np.isfinite(rig.bias))
