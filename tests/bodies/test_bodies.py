@@ -73,7 +73,7 @@ def test_harmonic_motion_is_its_own_derivative(t: float, phase: float) -> None:
 def test_rest_on_a_slope(slope: float) -> None:
     """A proper rotation whose first axis points downhill for a positive slope."""
     out = np.zeros(24)
-    Rest(slope).evaluator(0.0, None, None, out, slope)
+    Rest(slope).evaluator(0.0, None, None, out, **Rest(slope).parameters())
     axes = out[3:12].reshape(3, 3)
     np.testing.assert_allclose(axes.T @ axes, np.eye(3), rtol=0, atol=1e-15)
     assert np.linalg.det(axes) == pytest.approx(1.0)
