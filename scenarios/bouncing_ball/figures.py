@@ -32,8 +32,8 @@ def bifurcation(scenario: BouncingBall, points: Points) -> Figure:
     e = scenario.restitution
     first, last = float(np.min(points.gamma)), float(np.max(points.gamma))
     for axis, values, label in (
-        (axes[0], points.phase, "phase of the table at the impact [turns]"),
-        (axes[1], points.flight, "time to the next impact [table periods]"),
+        (axes[0], points.phase, "table phase at impact [turns]"),
+        (axes[1], points.flight, "flight [table periods]"),
     ):
         axis.plot(points.gamma, values, linestyle="none", marker=".", markersize=0.8, color="black", rasterized=True)
         axis.set_ylabel(label)

@@ -63,7 +63,7 @@ def regimes(scenario: BouncingTrimer, entries: list[Entry]) -> Figure:
                 [e.gamma for e in mine], values, linewidth=0.8, fillstyle="full", label=f"{frequency:g} Hz", **look
             )
             over = [i for i, entry in enumerate(mine) if entry.numbers["regime"] == "tumbling"]
-            opened = {**look, "markersize": 9, "fillstyle": "none", "linestyle": "none"}
+            opened = {**look, "markersize": 9, "fillstyle": "none", "linestyle": "none", "clip_on": False}
             axis.plot([mine[i].gamma for i in over], [values[i] for i in over], **opened)
     for axis, label in zip(
         axes,

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _LONG = 2.0
-"""End of the runs aside [s]."""
+"""End of the runs of the gallery [s]."""
 _NAMES = ("disc", "left ball", "right ball")
 _LOOKS: tuple[dict[str, Any], ...] = (
     {"color": "black", "linestyle": "-"},
@@ -75,10 +75,10 @@ def gallery(owner: type[DiscBall], progress: Progress | None) -> Mapping[str, An
     scenario = owner()
     solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
     ratios = np.logspace(-4.0, 4.0, 49)
-    by_ratio = [dataclasses.replace(scenario, stiffness_ratio=float(ratio)) for ratio in ratios]
     offsets = np.linspace(-1.95, 1.95, 118)
     # after a strike aside the disc may be slow on its way to the other ball
     slow = dataclasses.replace(scenario, t_end=_LONG)
+    by_ratio = [dataclasses.replace(slow, stiffness_ratio=float(ratio)) for ratio in ratios]
     by_offset = [dataclasses.replace(slow, offset=float(offset) * scenario.radius) for offset in offsets]
     both = _outcomes([*by_ratio, *by_offset], progress)
     return {

@@ -51,7 +51,7 @@ def history(scenario: TippeTop, solution: Solution) -> Figure:
     for i, (name, (colour, line)) in enumerate((("body", _LINES[0]), ("stem", _LINES[1]))):
         slip = np.where(touching[:, i], numbers[f"slip_{name}"], np.nan)
         axes[2].plot(solution.t, slip, color=colour, linestyle=line, linewidth=1.4, label=f"{name} on the plane")
-    axes[2].set_ylabel("slip speed of what touches [m/s]")
+    axes[2].set_ylabel("slip speed [m/s]")
     axes[2].set_xlabel("time [s]")
     summary = scenario.summarise(solution)
     for axis in axes:
