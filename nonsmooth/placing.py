@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -168,9 +168,9 @@ def _move(system: System, body: Body, height: float, direction: Sequence[float] 
         q, u = probe.q.copy(), probe.u.copy()
         rates = _way(probe, way)
 
-        def over(distance: float) -> float:
+        def over(distance: float) -> Vector:
             probe.q[:] = q + distance * rates
-            return float(np.min(probe.gaps())) - height
+            return probe.gaps() - height
 
         system.set_start(body, q + _root(over, name, way, system) * rates, u)
     except InvalidInput:
@@ -211,28 +211,34 @@ def _way(probe: _Probe, way: Vector) -> Vector:
     return probe.coordinate_rates(u / speed)
 
 
-def _root(over: Any, name: str, way: Vector, system: System) -> float:
-    """Return the distance at which ``over`` vanishes: the gap falls no faster than the body moves."""
+def _root(over: Callable[[float], Vector], name: str, way: Vector, system: System) -> float:
+    """Return the distance at which the least of ``over`` vanishes."""
     from scipy.optimize import brentq
 
-    first = over(0.0)
+    gaps = over(0.0)
+    first = float(np.min(gaps))
     if first == 0.0:
         return 0.0
     sign = 1.0 if first > 0.0 else -1.0
     least = _ROUND_OFF * max(contact.size for contact in system.contacts)
-    distance, value = 0.0, first
+    distance, slopes = 0.0, np.zeros(len(gaps))
     for _ in range(_STEPS):
-        step = sign * max(1.0001 * abs(value), least)
+        # No gap falls faster than the body moves.  Those of convex shapes are convex functions of the distance, so
+        # that a secant does not lead past the zero either, and it is fast where a gap falls slowly.
+        falling = np.where(slopes > 0.0, np.minimum(slopes, 1.0), 1.0)
+        reach = float(np.min(gaps / falling)) if sign > 0.0 else -float(np.min(gaps))
+        step = sign * max(1.0001 * reach, least)
         now = over(distance + step)
-        if now * first <= 0.0:
+        if float(np.min(now)) * first <= 0.0:
             low, high = sorted((distance, distance + step))
-            return float(brentq(over, low, high, xtol=1e-16 * least, rtol=4.0 * np.finfo(float).eps))
-        distance, value = distance + step, now
+            tolerances = {"xtol": 1e-16 * least, "rtol": 4.0 * np.finfo(float).eps}
+            return float(brentq(lambda x: float(np.min(over(x))), low, high, **tolerances))
+        distance, gaps, slopes = distance + step, now, (gaps - now) / step
         if not abs(distance) < _FARTHEST * (abs(first) + least / _ROUND_OFF):
             break
     raise InvalidInput(
         f"placing {name}",
         f"must find something to touch along {(sign * way).tolist()}",
-        value,
+        float(np.min(gaps)),
         f"This is the smallest gap less the height after {abs(distance):.3g} m [m]; give another start or direction.",
     )

@@ -11,6 +11,7 @@ from typing import ClassVar, final
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
 from bodies.contacts.frames import point_in_world, turned_by, vector_in_body, vector_in_world
 from bodies.contacts.offset import place_sphere
+from bodies.contacts.sides import by_side
 from bodies.shapes.box import Box
 from bodies.shapes.sphere import Sphere
 from nonsmooth.compiled import compiled
@@ -125,8 +126,7 @@ class BoxSphere(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[BoxSphere, ...]:
         """Return the single contact of a box and a sphere."""
-        one, two = first.parameters(), second.parameters()
-        return (cls(**{f"{k}_a": v for k, v in one.items()}, **{f"{k}_b": v for k, v in two.items()}),)
+        return (cls(**by_side(first, second)),)
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -10,6 +10,7 @@ from typing import ClassVar, final
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import join_cores
+from bodies.contacts.sides import by_side
 from bodies.shapes.capsule import Capsule
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -145,8 +146,7 @@ class CapsuleCapsule(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[CapsuleCapsule, ...]:
         """Return the single contact of two capsules."""
-        one, two = first.parameters(), second.parameters()
-        return (cls(**{f"{k}_a": v for k, v in one.items()}, **{f"{k}_b": v for k, v in two.items()}),)
+        return (cls(**by_side(first, second)),)
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -11,6 +11,7 @@ from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principa
 from bodies.contacts.cylindrical import cylindrical
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import place_sphere
+from bodies.contacts.sides import by_side
 from bodies.shapes.disc import Disc
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -78,8 +79,7 @@ class DiscSphere(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[DiscSphere, ...]:
         """Return the single contact of a disc and a sphere."""
-        one, two = first.parameters(), second.parameters()
-        return (cls(**{f"{k}_a": v for k, v in one.items()}, **{f"{k}_b": v for k, v in two.items()}),)
+        return (cls(**by_side(first, second)),)
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -9,6 +9,7 @@ from typing import ClassVar, final
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.offset import join_cores
+from bodies.contacts.sides import by_side
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
@@ -54,8 +55,7 @@ class SphereSphere(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[SphereSphere, ...]:
         """Return the single contact of two spheres."""
-        one, two = first.parameters(), second.parameters()
-        return (cls(**{f"{k}_a": v for k, v in one.items()}, **{f"{k}_b": v for k, v in two.items()}),)
+        return (cls(**by_side(first, second)),)
 
     @property
     def evaluator(self) -> Callable[..., None]:

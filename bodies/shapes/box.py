@@ -7,9 +7,10 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from bodies.shapes.placement import check_orientation, turned
+from bodies.shapes.placement import turned
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
+from nonsmooth.vectors import unit_vector
 
 
 @final
@@ -29,7 +30,8 @@ class Box(Shape):
     orientation_z: float = parameter(0.0, doc="quaternion, third component")
 
     def _check(self) -> None:
-        check_orientation("Box", self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z)
+        orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
+        unit_vector("Box orientation", orientation, 4)
 
     @property
     def vertices(self) -> tuple[tuple[float, float, float], ...]:

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from bodies.shapes.placement import check_axis
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
+from nonsmooth.vectors import unit_vector
 
 
 @final
@@ -28,7 +28,7 @@ class Capsule(Shape):
     axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component")
 
     def _check(self) -> None:
-        check_axis("Capsule", self.axis_x, self.axis_y, self.axis_z)
+        unit_vector("Capsule axis", (self.axis_x, self.axis_y, self.axis_z))
 
     @property
     def ends(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from bodies.shapes.placement import check_axis, farthest_on_circle
+from bodies.shapes.placement import farthest_on_circle
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
+from nonsmooth.vectors import unit_vector
 
 
 @final
@@ -25,7 +26,7 @@ class Cylinder(Shape):
     axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component")
 
     def _check(self) -> None:
-        check_axis("Cylinder", self.axis_x, self.axis_y, self.axis_z)
+        unit_vector("Cylinder axis", (self.axis_x, self.axis_y, self.axis_z))
 
     @property
     def caps(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:

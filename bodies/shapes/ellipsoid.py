@@ -6,9 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from bodies.shapes.placement import check_orientation, turned
+from bodies.shapes.placement import turned
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
+from nonsmooth.vectors import unit_vector
 
 
 @final
@@ -28,7 +29,8 @@ class Ellipsoid(Shape):
     orientation_z: float = parameter(0.0, doc="quaternion, third component")
 
     def _check(self) -> None:
-        check_orientation("Ellipsoid", self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z)
+        orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
+        unit_vector("Ellipsoid orientation", orientation, 4)
 
     @property
     def length(self) -> float:

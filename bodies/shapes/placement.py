@@ -4,26 +4,6 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.errors import InvalidInput
-
-_UNIT = 1e-12
-
-
-def check_axis(thing: str, x: float, y: float, z: float) -> None:
-    """Raise InvalidInput unless the axis (x, y, z) has unit length."""
-    norm = math.hypot(x, y, z)
-    if abs(norm - 1.0) > _UNIT:
-        raise InvalidInput(f"{thing} axis", "must have unit length", norm, "Divide it by its length.")
-
-
-def check_orientation(thing: str, w: float, x: float, y: float, z: float) -> None:
-    """Raise InvalidInput unless the quaternion (w, x, y, z), scalar first, has unit length."""
-    norm = math.hypot(w, x, y, z)
-    if abs(norm - 1.0) > _UNIT:
-        raise InvalidInput(
-            f"{thing} orientation", "must be a unit quaternion (scalar first)", norm, "Divide it by its length."
-        )
-
 
 def turned(w: float, x: float, y: float, z: float, a: float, b: float, c: float) -> tuple[float, float, float]:
     """Return the vector (a, b, c) turned by the unit quaternion (w, x, y, z)."""

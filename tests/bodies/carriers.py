@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
@@ -17,6 +17,7 @@ from nonsmooth.interfaces import Body, Shape
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.layout import GEOMETRY
 from nonsmooth.model.options import Options
+from nonsmooth.parameters import Value
 
 Array = NDArray[np.float64]
 
@@ -58,14 +59,14 @@ class Stand(Body):
 
     carried: tuple[Shape, ...]
 
-    def parameters(self) -> dict[str, float]:
+    def parameters(self) -> Mapping[str, Value]:
         """Return those of the rest."""
         return Rest().parameters()
 
     @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """Those given."""
-        return self.carried
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with those given."""
+        return (self.carried,)
 
     @property
     def n_q(self) -> int:

@@ -57,7 +57,7 @@ def _rig(build: Any, name: str) -> Rig:
 
 
 def _local(shape: Any, x: Array) -> Array:
-    return np.asarray(x) - np.array([shape.x, shape.y, shape.z])
+    return np.asarray(x - np.array([shape.x, shape.y, shape.z]))
 
 
 def _own_axes(shape: Any) -> Array:

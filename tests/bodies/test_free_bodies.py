@@ -23,6 +23,7 @@ from bodies import (
     Dumbbell,
     EllipsoidBody,
     FreeBody,
+    Harmonic,
     Part,
     Plane,
     Plate,
@@ -31,6 +32,7 @@ from bodies import (
     Sphere,
 )
 from bodies.inertia import tensor_of
+from nonsmooth.engine.modes import IMPACT
 from nonsmooth.interfaces import Shape
 
 TURNED = (math.cos(0.4), 0.6 * math.sin(0.4), 0.0, 0.8 * math.sin(0.4))
@@ -346,3 +348,13 @@ def test_inertia_at_the_bound() -> None:
     RigidBody(1.0, (1.0, 1.0, 2.0))
     RigidBody(1.0, (1.0, 1.0, 1e-9))
     assert RigidBody(1.0, (1.0, 1.0, 1.0)).scales[0][0] == 1.0
+
+
+@pytest.mark.parametrize("body", [body for body in BODIES if body.shapes], ids=lambda body: type(body).__name__)
+def test_every_body_falls_on_a_plate(build: Any, body: FreeBody) -> None:
+    """Tumbling onto a vibrating plate, it strikes, and the energy account closes."""
+    system = build.over(body, Harmonic(amplitude=5e-4, frequency=20.0), friction=0.3, restitution=0.6)
+    ns.at_height(system, body, 0.01, orientation=TURNED, velocity=(0.2, 0.1, 0.0), angular_velocity=(3.0, 5.0, 1.0))
+    solution = ns.simulate(system, 0.25)
+    assert np.count_nonzero(solution.events.cause == IMPACT) >= 2
+    assert solution.energy.residual <= 1e-8
