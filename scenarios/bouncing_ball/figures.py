@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,16 +12,26 @@ from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.bouncing_ball import orbits
 from scenarios.bouncing_ball.scenario import BouncingBall
-from scenarios.bouncing_ball.sweep import Points
+from scenarios.bouncing_ball.sweep import Points, sweep
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+RUNS = 400
+"""Runs of the bifurcation diagram."""
 _SHOWN = 8.0
 """Table periods of a motion that are drawn."""
 _DISTURBANCE = 1e-3
 """Of the speed at the start: on an unstable orbit, a run would stay without it."""
+
+
+def gallery(owner: type[BouncingBall], progress: Progress | None) -> Mapping[str, Any]:
+    """Return all figures by name."""
+    scenario = owner(restitution=0.6)
+    first = 1.001 * orbits.existence(scenario.restitution, int(scenario.orbit))
+    points = sweep(scenario, np.linspace(first, 2.0, RUNS), settle=250, keep=150, progress=progress)
+    return {"bifurcation": bifurcation(scenario, points), "motions": branches(owner, progress)}
 
 
 def bifurcation(scenario: BouncingBall, points: Points) -> Figure:

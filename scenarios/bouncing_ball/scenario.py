@@ -142,11 +142,13 @@ class BouncingBall(Scenario):
 
     def impact_times(self, solution: Solution) -> Floats:
         """Return the times of all impacts [s]."""
-        return solution.events.time[solution.events.cause == IMPACT]
+        times: Floats = solution.events.time[solution.events.cause == IMPACT]
+        return times
 
     def flights(self, solution: Solution) -> Floats:
         """Return the times between impacts over the table period."""
-        return np.diff(self.impact_times(solution)) * self.frequency
+        times: Floats = np.diff(self.impact_times(solution)) * self.frequency
+        return times
 
     def phases(self, solution: Solution) -> Floats:
         """Return the phases of the table at the impacts, in turns from 0 to 1."""
@@ -155,7 +157,8 @@ class BouncingBall(Scenario):
 
     def lifts(self, solution: Solution) -> Floats:
         """Return the height of the ball's lowest point [m], shape [n_samples]."""
-        return solution.q[:, 2] - self.radius
+        height: Floats = solution.q[:, 2] - self.radius
+        return height
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return the heights of ball (lowest point) and table [m] over the samples."""
@@ -191,10 +194,6 @@ class BouncingBall(Scenario):
     @classmethod
     def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
         """Return the bifurcation diagram and the motion on four of its branches."""
-        from scenarios.bouncing_ball.figures import bifurcation, branches
-        from scenarios.bouncing_ball.sweep import sweep
+        from scenarios.bouncing_ball.figures import gallery
 
-        scenario = cls(restitution=0.6)
-        first = 1.001 * orbits.existence(scenario.restitution, int(scenario.orbit))
-        points = sweep(scenario, np.linspace(first, 2.0, 400), settle=250, keep=150, progress=progress)
-        return {"bifurcation": bifurcation(scenario, points), "motions": branches(cls, progress)}
+        return gallery(cls, progress)

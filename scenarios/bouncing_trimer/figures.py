@@ -29,6 +29,9 @@ PERIODS = 150
 _LOOKS = (("o", "tab:blue"), ("s", "black"), ("^", "tab:red"), ("D", "tab:green"))
 _BALLS = (("black", "-"), ("tab:red", "--"), ("tab:blue", "-."))
 _SHOWN = 10.0
+"""Plate periods of a motion that are drawn."""
+_THRESHOLD = 1e-2
+"""Where the axes become linear."""
 
 
 def gallery(owner: type[BouncingTrimer], progress: Progress | None) -> Mapping[str, Any]:
@@ -63,7 +66,7 @@ def regimes(scenario: BouncingTrimer, entries: list[Entry]) -> Figure:
                 [e.gamma for e in mine], values, linewidth=0.8, fillstyle="full", label=f"{frequency:g} Hz", **look
             )
             over = [i for i, entry in enumerate(mine) if entry.numbers["regime"] == "tumbling"]
-            opened = {**look, "markersize": 9, "fillstyle": "none", "linestyle": "none", "clip_on": False}
+            opened = {**look, "markersize": 9, "fillstyle": "none", "linestyle": "none"}
             axis.plot([mine[i].gamma for i in over], [values[i] for i in over], **opened)
     for axis, label in zip(
         axes,
@@ -71,8 +74,8 @@ def regimes(scenario: BouncingTrimer, entries: list[Entry]) -> Figure:
         strict=True,
     ):
         axis.set_ylabel(label)
-        axis.set_yscale("symlog", linthresh=1e-2)
-        axis.set_ylim(bottom=0.0)
+        axis.set_yscale("symlog", linthresh=_THRESHOLD)
+        axis.set_ylim(0.0, 2.0 * max(_THRESHOLD, axis.dataLim.y1))
         axis.grid(color="0.9", linewidth=0.6)
         axis.set_axisbelow(True)
     axes[0].plot([], [], marker="o", markersize=9, fillstyle="none", linestyle="none", color="0.4", label="turns over")

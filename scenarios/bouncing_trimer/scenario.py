@@ -153,7 +153,7 @@ class BouncingTrimer(Scenario):
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return the regime and its numbers over the second half of the run: see :mod:`.motion`."""
-        return summary(self.motion(solution)) | {"impacts": solution.counters.impacts}
+        return {**summary(self.motion(solution)), "impacts": solution.counters.impacts}
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return path and heading, and the gaps over the last plate periods."""

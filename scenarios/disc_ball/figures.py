@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
+RATIOS, OFFSETS = 49, 118
+"""Numbers of runs of the gallery; that of offsets is even, to leave out zero."""
 _LONG = 2.0
 """End of the runs of the gallery [s]."""
 _NAMES = ("disc", "left ball", "right ball")
@@ -59,12 +61,13 @@ def strike(scenario: DiscBall, solution: Solution) -> Figure:
 def _body(axis: Axes, place: Floats, radius: float, velocity: Floats, color: str, linestyle: str) -> None:
     from matplotlib.patches import Circle
 
-    axis.add_patch(Circle(place, radius, fill=False, edgecolor=color, linestyle=linestyle, linewidth=1.2))
+    x, y = place.tolist()
+    axis.add_patch(Circle((x, y), radius, fill=False, edgecolor=color, linestyle=linestyle, linewidth=1.2))
     if np.hypot(*velocity) > 1e-3:
         axis.annotate(
             "",
-            xy=place + 2.0 * radius * velocity,
-            xytext=place,
+            xy=(x + 2.0 * radius * velocity[0], y + 2.0 * radius * velocity[1]),
+            xytext=(x, y),
             arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 1.2},
         )
     axis.update_datalim([place - radius, place + radius, place + 2.0 * radius * velocity])
@@ -74,8 +77,8 @@ def gallery(owner: type[DiscBall], progress: Progress | None) -> Mapping[str, An
     """Return all figures by name."""
     scenario = owner()
     solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
-    ratios = np.logspace(-4.0, 4.0, 49)
-    offsets = np.linspace(-1.95, 1.95, 118)
+    ratios = np.logspace(-4.0, 4.0, RATIOS)
+    offsets = np.linspace(-1.95, 1.95, OFFSETS)
     # after a strike aside the disc may be slow on its way to the other ball
     slow = dataclasses.replace(scenario, t_end=_LONG)
     by_ratio = [dataclasses.replace(slow, stiffness_ratio=float(ratio)) for ratio in ratios]

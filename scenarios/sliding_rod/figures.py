@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
+ANGLES, COEFFICIENTS = 17, 11
+"""Numbers of angles and friction coefficients of the gallery."""
 _MARKS: dict[int, tuple[str, str, str]] = {
     PAINLEVE: ("o", "tab:red", "impact without collision"),
     JAM: ("s", "tab:red", "jamming of the slip"),
@@ -155,8 +157,8 @@ def _paradox(owner: type[SlidingRod], progress: Progress | None) -> Figure:
     from matplotlib.figure import Figure
 
     base = owner(t_end=1e-6)
-    angles = np.linspace(math.radians(25.0), math.radians(85.0), 17)
-    coefficients = np.linspace(1.0, 2.0, 11)
+    angles = np.linspace(math.radians(25.0), math.radians(85.0), ANGLES)
+    coefficients = np.linspace(1.0, 2.0, COEFFICIENTS)
     runs = [dataclasses.replace(base, tilt=float(a), friction=float(mu)) for a in angles for mu in coefficients]
     outcome: list[bool] = []
     for i, scenario in enumerate(runs):

@@ -106,7 +106,8 @@ class TippeTop(Scenario):
         """Return the top's axis, from body to stem, in states of the run, shape [n, 7] -> [n, 3]."""
         a, b, c, d = q[:, 3:].T
         axis: Floats = np.column_stack([2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a - b * b - c * c + d * d])
-        return axis / np.sum(q[:, 3:] ** 2, axis=1)[:, None]
+        axis /= np.sum(q[:, 3:] ** 2, axis=1)[:, None]
+        return axis
 
     def tilts(self, q: Floats) -> Floats:
         """Return the angle of the axis from the vertical [rad], shape [n]."""

@@ -11,6 +11,7 @@ import pytest
 from scipy.optimize import brentq
 
 import nonsmooth as ns
+from scenarios.bouncing_ball import figures
 from scenarios.bouncing_ball.orbits import existence, repetition, stability
 from scenarios.bouncing_ball.scenario import GRAVITY, BouncingBall
 from scenarios.bouncing_ball.sweep import sweep
@@ -147,9 +148,10 @@ def test_wrong_input(wrong: dict[str, float], words: tuple[str, ...]) -> None:
         assert word in str(caught.value)
 
 
-def test_figures(tmp_path: Path) -> None:
-    """The gallery and the figures of two runs can be drawn; every panel says what its axes are."""
+def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The gallery, here over fewer runs, and the figures of two runs can be drawn, with words at all axes."""
     pytest.importorskip("matplotlib")
+    monkeypatch.setattr(figures, "RUNS", 30)
     drawn = dict(BouncingBall.gallery(None))
     for name, start in (("table", {"t_end": 1.0}), ("rest", {"gamma": 0.0, "height": 0.05, "t_end": 1.0})):
         scenario, solution = _run(**start)

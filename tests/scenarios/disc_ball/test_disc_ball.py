@@ -12,6 +12,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
+from scenarios.disc_ball import figures
 from scenarios.disc_ball.closed_forms import one_after_the_other, symmetric
 from scenarios.disc_ball.scenario import DiscBall
 
@@ -32,7 +33,7 @@ def test_symmetric_strike(restitution: float, mass_ratio: float, radius_ratio: f
         assert solution.counters.impacts == 1
         disc, ball = symmetric(mass_ratio, radius_ratio, restitution)
         along = ball * np.array([math.sin(scenario.half_angle), math.cos(scenario.half_angle)])
-        expected = [[0.0, disc], [-along[0], along[1]], along]
+        expected = np.array([[0.0, disc], [-along[0], along[1]], [along[0], along[1]]])
         np.testing.assert_allclose(scenario.velocities(solution), expected, rtol=0, atol=1e-9)
 
 
@@ -129,9 +130,11 @@ def test_wrong_input() -> None:
         assert word in str(caught.value)
 
 
-def test_figures(tmp_path: Path) -> None:
-    """The gallery can be drawn, and tells of its progress."""
+def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The gallery, here over fewer runs, can be drawn, and tells of its progress."""
     pytest.importorskip("matplotlib")
+    monkeypatch.setattr(figures, "RATIOS", 5)
+    monkeypatch.setattr(figures, "OFFSETS", 6)
     reports: list[tuple[float, float]] = []
     drawn = DiscBall.gallery(lambda t, t_end: reports.append((t, t_end)))
     assert reports[-1][0] == pytest.approx(reports[-1][1])
