@@ -1,0 +1,141 @@
+"""What must hold of the functions of a body, looked at by finite differences around a state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies.generalised.sample import Sampler
+from nonsmooth.errors import InvalidInput
+
+Vector = NDArray[np.float64]
+
+_STEP = 1e-3
+"""Step of the differences, in units of the scales; their error is its fourth power."""
+_ALLOWED = 1e-6
+_ASIDE = 0.01
+"""Shift of the second place that is looked at, in units of the scales: at a symmetric start many terms vanish."""
+
+
+def check_equations(sample: Sampler, q: Vector, u: Vector, q_scale: Vector, u_scale: Vector) -> None:
+    """Look at the functions at a start and a little aside of it, at its velocities and at others.
+
+    Raises
+    ------
+    InvalidInput
+        If the mass matrix is not symmetric and positive definite, a rotation is none, a Jacobian is not the derivative
+        of its pose, a bias not that of its Jacobian times u, or energies do not change by the power.
+    """
+    signs = 1.0 / (1.0 + np.arange(len(q))) * (-1.0) ** np.arange(len(q))
+    for place in (q, q + _ASIDE * q_scale * signs[::-1]):
+        _check_mass(sample, place, u)
+        for speed in (u, u + u_scale * signs):
+            for i in range(len(sample.equations.frames)):
+                _check_frame(sample, i, place, speed, q_scale)
+            _check_power(sample, place, speed, q_scale)
+
+
+def _check_mass(sample: Sampler, q: Vector, u: Vector) -> None:
+    n = len(q)
+    mass = sample(q, u)["mass"].reshape(n, n)
+    thing, shown = sample.thing("mass"), mass.tolist()
+    # entries may have different units: they are judged by their diagonals
+    size = np.sqrt(np.abs(np.diag(mass)))
+    if not np.all(np.abs(mass - mass.T) <= 1e-12 * np.outer(size, size)):
+        raise InvalidInput(thing, "must write a symmetric matrix", shown, "Write M[i n + j] and M[j n + i] alike.")
+    if not (np.all(np.diag(mass) > 0.0) and np.min(np.linalg.eigvalsh(mass / np.outer(size, size))) > 1e-13):
+        raise InvalidInput(
+            thing,
+            f"must write a positive definite matrix at q = {q.tolist()}",
+            shown,
+            "Every velocity needs inertia: the kinetic energy is u . M u / 2.",
+        )
+
+
+def _slope(function: Callable[[Vector], Vector], q: Vector, along: Vector) -> Vector:
+    """Return the derivative of a function along a direction, of fourth order."""
+    one, two = (function(q + s * along) - function(q - s * along) for s in (_STEP, 2.0 * _STEP))
+    return (8.0 * one - two) / (12.0 * _STEP)
+
+
+def _compare(sample: Sampler, part: str, of: str, given: Vector, found: Vector, size: float) -> None:
+    error = np.abs(given - found)
+    if np.max(error, initial=0.0) > _ALLOWED * size:
+        worst = np.unravel_index(int(np.argmax(error)), error.shape)
+        index = ", ".join(str(int(i)) for i in worst)
+        raise InvalidInput(
+            sample.thing(part),
+            f"must be the derivative of {of}: entry [{index}] should be {found[worst]:.9g}",
+            float(given[worst]),
+            f"Differentiate {of} once more, or correct it.",
+        )
+
+
+def _check_frame(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) -> None:
+    n, frame = len(q), sample.equations.frames[i]
+    pose_name, jacobian_name, bias_name = (f"moving_frames[{i}].{role}" for role in ("pose", "jacobian", "bias"))
+
+    def pose(at: Vector) -> Vector:
+        return np.asarray(sample(at, u)[pose_name])
+
+    def jacobian(at: Vector) -> Vector:
+        return np.asarray(sample(at, u)[jacobian_name]).reshape(frame.n_rows, n)
+
+    axes = pose(q)[3:].reshape(-1, 3)
+    if len(axes) > 0 and not (np.allclose(axes.T @ axes, np.eye(3), atol=1e-9) and np.linalg.det(axes) > 0.0):
+        raise InvalidInput(
+            sample.thing(pose_name),
+            "must write a rotation matrix behind the position",
+            axes.tolist(),
+            "Its columns are the axes of the part: unit vectors at right angles, right-handed.",
+        )
+    found = np.empty((frame.n_rows, n))
+    for j in range(n):
+        along = np.eye(n)[j] * q_scale[j]
+        slope = _slope(pose, q, along) / q_scale[j]
+        found[:3, j] = slope[:3]
+        if len(axes) > 0:
+            spin = slope[3:].reshape(3, 3) @ axes.T
+            found[3:, j] = 0.5 * (spin[2, 1] - spin[1, 2]), 0.5 * (spin[0, 2] - spin[2, 0]), 0.5 * (spin[1, 0] - spin[0, 1])
+    given = jacobian(q)
+    for rows, of in ((slice(0, 3), "the position"), (slice(3, 6), "the rotation")):
+        size = float(np.max(np.abs(found[rows] * q_scale), initial=0.0))
+        _compare(sample, jacobian_name, of, given[rows] * q_scale, found[rows] * q_scale, max(size, 1e-30))
+    scale = float(np.max(np.abs(u) / q_scale, initial=0.0)) or 1.0
+    rates = _slope(lambda at: np.asarray(jacobian(at) @ u), q, u / scale) * scale
+    bias = np.asarray(sample(q, u)[bias_name])
+    for rows in (slice(0, 3), slice(3, 6)):
+        size = float(np.max(np.abs(given[rows] * q_scale), initial=0.0)) * scale**2
+        _compare(sample, bias_name, "the Jacobian times u", bias[rows], rates[rows], max(size, 1e-30))
+
+
+def _check_power(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> None:
+    """Kinetic and potential energy change by the power given, while u' = M^-1 h."""
+    n = len(q)
+    scale = float(np.max(np.abs(u) / q_scale, initial=0.0))
+    if scale == 0.0:
+        return
+    along = u / scale
+
+    def kinetic(at: Vector) -> Vector:
+        return np.array(0.5 * u @ sample(at, u)["mass"].reshape(n, n) @ u)
+
+    def potential(at: Vector) -> Vector:
+        return np.array(sample(at, u)["potential"][0])
+
+    here = sample(q, u)
+    terms = [*(u * here["force"]), float(_slope(kinetic, q, along)) * scale, float(_slope(potential, q, along)) * scale]
+    power = float(here["power"][0]) if "power" in here else 0.0
+    change, size = float(np.sum(terms)), float(np.sum(np.abs(terms)))
+    # the potential may be large where its slope is small
+    size += 1e-7 * (abs(float(here["potential"][0])) + abs(float(kinetic(q)))) * scale
+    if not abs(change - power) <= _ALLOWED * size:
+        raise InvalidInput(
+            sample.thing("force"),
+            f"must change kinetic and potential energy by the power {power:.9g} W at q = {q.tolist()}, u = {u.tolist()}",
+            change,
+            "Look at the signs of the potential's derivatives and at the terms quadratic in u; the power of forces that "
+            "have no potential (dampers, motors) belongs in the function power.",
+        )
