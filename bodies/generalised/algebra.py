@@ -39,7 +39,7 @@ def quadratic(n: int, matrix: Floats, vector: Floats) -> float:
 def invert(n: int, matrix: Floats) -> None:
     """Put the inverse of a symmetric positive definite matrix in its place, by Cholesky.
 
-    Of the matrix only the lower triangle is read.  If it is not positive definite, numbers that are not finite come out.
+    Of the matrix only the lower triangle is read.  If it is not positive definite, what comes out is not finite.
     """
     for j in range(n):
         pivot = matrix[j * n + j]

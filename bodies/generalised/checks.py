@@ -29,12 +29,20 @@ def check_equations(sample: Sampler, q: Vector, u: Vector, q_scale: Vector, u_sc
         of its pose, a bias not that of its Jacobian times u, or energies do not change by the power.
     """
     signs = 1.0 / (1.0 + np.arange(len(q))) * (-1.0) ** np.arange(len(q))
-    for place in (q, q + _ASIDE * q_scale * signs[::-1]):
+    places, speeds = (q, q + _ASIDE * q_scale * signs[::-1]), (u, u + u_scale * signs)
+    states = [(place, speed) for place in places for speed in speeds]
+    frames = range(len(sample.equations.frames))
+    # a mistake is found where it is made: the later checks build on the earlier ones
+    for place in places:
         _check_mass(sample, place, u)
-        for speed in (u, u + u_scale * signs):
-            for i in range(len(sample.equations.frames)):
-                _check_frame(sample, i, place, speed, q_scale)
-            _check_power(sample, place, speed, q_scale)
+    for place in places:
+        for i in frames:
+            _check_jacobian(sample, i, place, u, q_scale)
+    for place, speed in states:
+        for i in frames:
+            _check_bias(sample, i, place, speed, q_scale)
+    for place, speed in states:
+        _check_power(sample, place, speed, q_scale)
 
 
 def _check_mass(sample: Sampler, q: Vector, u: Vector) -> None:
@@ -60,8 +68,9 @@ def _slope(function: Callable[[Vector], Vector], q: Vector, along: Vector) -> Ve
     return (8.0 * one - two) / (12.0 * _STEP)
 
 
-def _compare(sample: Sampler, part: str, of: str, given: Vector, found: Vector, size: float) -> None:
-    error = np.abs(given - found)
+def _compare(sample: Sampler, part: str, of: str, given: Vector, found: Vector, weight: Vector, size: float) -> None:
+    """Hold what a function gives against the derivative found; ``size`` is that of the entries times their weight."""
+    error = np.abs(given - found) * weight
     if np.max(error, initial=0.0) > _ALLOWED * size:
         worst = np.unravel_index(int(np.argmax(error)), error.shape)
         index = ", ".join(str(int(i)) for i in worst)
@@ -73,15 +82,12 @@ def _compare(sample: Sampler, part: str, of: str, given: Vector, found: Vector, 
         )
 
 
-def _check_frame(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) -> None:
+def _check_jacobian(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) -> None:
     n, frame = len(q), sample.equations.frames[i]
-    pose_name, jacobian_name, bias_name = (f"moving_frames[{i}].{role}" for role in ("pose", "jacobian", "bias"))
+    pose_name, jacobian_name = f"moving_frames[{i}].pose", f"moving_frames[{i}].jacobian"
 
     def pose(at: Vector) -> Vector:
         return np.asarray(sample(at, u)[pose_name])
-
-    def jacobian(at: Vector) -> Vector:
-        return np.asarray(sample(at, u)[jacobian_name]).reshape(frame.n_rows, n)
 
     axes = pose(q)[3:].reshape(-1, 3)
     if len(axes) > 0 and not (np.allclose(axes.T @ axes, np.eye(3), atol=1e-9) and np.linalg.det(axes) > 0.0):
@@ -93,22 +99,36 @@ def _check_frame(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector)
         )
     found = np.empty((frame.n_rows, n))
     for j in range(n):
-        along = np.eye(n)[j] * q_scale[j]
-        slope = _slope(pose, q, along) / q_scale[j]
+        slope = _slope(pose, q, np.eye(n)[j] * q_scale[j]) / q_scale[j]
         found[:3, j] = slope[:3]
         if len(axes) > 0:
             spin = slope[3:].reshape(3, 3) @ axes.T
-            found[3:, j] = 0.5 * (spin[2, 1] - spin[1, 2]), 0.5 * (spin[0, 2] - spin[2, 0]), 0.5 * (spin[1, 0] - spin[0, 1])
-    given = jacobian(q)
+            twist = spin - spin.T
+            found[3:, j] = 0.5 * twist[2, 1], 0.5 * twist[0, 2], 0.5 * twist[1, 0]
+    given = sample(q, u)[jacobian_name].reshape(frame.n_rows, n)
+    # what the differences lose to round-off goes with the pose itself
+    lost = 1e-6 * float(np.max(np.abs(pose(q))))
     for rows, of in ((slice(0, 3), "the position"), (slice(3, 6), "the rotation")):
-        size = float(np.max(np.abs(found[rows] * q_scale), initial=0.0))
-        _compare(sample, jacobian_name, of, given[rows] * q_scale, found[rows] * q_scale, max(size, 1e-30))
-    scale = float(np.max(np.abs(u) / q_scale, initial=0.0)) or 1.0
-    rates = _slope(lambda at: np.asarray(jacobian(at) @ u), q, u / scale) * scale
+        size = float(np.max(np.abs(found[rows] * q_scale), initial=0.0)) + lost
+        _compare(sample, jacobian_name, of, given[rows], found[rows], q_scale, size)
+
+
+def _check_bias(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) -> None:
+    n, frame = len(q), sample.equations.frames[i]
+    jacobian_name, bias_name = f"moving_frames[{i}].jacobian", f"moving_frames[{i}].bias"
+
+    def jacobian(at: Vector) -> Vector:
+        return np.asarray(sample(at, u)[jacobian_name]).reshape(frame.n_rows, n)
+
+    here = np.abs(jacobian(q) * q_scale)
+    speed = float(np.max(np.abs(u) / q_scale)) or 1.0
+    rates = _slope(lambda at: np.asarray(jacobian(at) @ u), q, u / speed) * speed
     bias = np.asarray(sample(q, u)[bias_name])
     for rows in (slice(0, 3), slice(3, 6)):
-        size = float(np.max(np.abs(given[rows] * q_scale), initial=0.0)) * scale**2
-        _compare(sample, bias_name, "the Jacobian times u", bias[rows], rates[rows], max(size, 1e-30))
+        size = float(np.max(here[rows], initial=0.0)) * speed**2
+        _compare(
+            sample, bias_name, "the Jacobian times u", bias[rows], rates[rows], np.ones(3)[: len(bias[rows])], size
+        )
 
 
 def _check_power(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> None:
@@ -129,13 +149,14 @@ def _check_power(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> None
     terms = [*(u * here["force"]), float(_slope(kinetic, q, along)) * scale, float(_slope(potential, q, along)) * scale]
     power = float(here["power"][0]) if "power" in here else 0.0
     change, size = float(np.sum(terms)), float(np.sum(np.abs(terms)))
-    # the potential may be large where its slope is small
-    size += 1e-7 * (abs(float(here["potential"][0])) + abs(float(kinetic(q)))) * scale
+    # the energies may be large where their slopes are small
+    size += 1e-6 * (abs(float(here["potential"][0])) + abs(float(kinetic(q)))) * scale
     if not abs(change - power) <= _ALLOWED * size:
+        where = f"at q = {q.tolist()}, u = {u.tolist()}"
         raise InvalidInput(
             sample.thing("force"),
-            f"must change kinetic and potential energy by the power {power:.9g} W at q = {q.tolist()}, u = {u.tolist()}",
+            f"must change kinetic and potential energy by the power {power:.9g} W {where}",
             change,
-            "Look at the signs of the potential's derivatives and at the terms quadratic in u; the power of forces that "
-            "have no potential (dampers, motors) belongs in the function power.",
+            "Look at the signs of the potential's derivatives and at the terms quadratic in u; the power of forces "
+            "without a potential (dampers, motors) belongs in the function power.",
         )
