@@ -108,7 +108,7 @@ class FreeBody(Body):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        check_inertia(type(self).__name__, self.total_mass, tensor_of(self.inertia, self.products))
+        self.parameters()
 
     @property
     @abstractmethod
@@ -126,9 +126,11 @@ class FreeBody(Body):
         return 0.0, 0.0, 0.0
 
     def parameters(self) -> dict[str, float]:
-        """Return mass, inertia tensor and its inverse (the mobility)."""
+        """Return mass, inertia tensor and its inverse (the mobility), checked."""
         moments, products = self.inertia, self.products
-        inverse = np.linalg.inv(tensor_of(moments, products)) if any(products) else np.diag([1.0 / j for j in moments])
+        tensor = tensor_of(moments, products)
+        check_inertia(type(self).__name__, self.total_mass, tensor)
+        inverse = np.linalg.inv(tensor) if any(products) else np.diag([1.0 / j for j in moments])
         names = ("x", "y", "z", "yz", "xz", "xy")
         mobility = (*np.diag(inverse).tolist(), *(float(inverse[i, j]) for i, j in ((1, 2), (0, 2), (0, 1))))
         return {

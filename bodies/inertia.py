@@ -40,7 +40,7 @@ def read_tensor(thing: str, value: Any) -> Vector:
     rows = np.array([vector(thing, row, 3, "kg m^2") for row in value])
     if np.max(np.abs(rows - rows.T)) > _ROUND_OFF * np.max(np.abs(rows)):
         raise InvalidInput(thing, "must be symmetric", rows.tolist(), "J_xy = J_yx = -integral of x y dm, and so on.")
-    return 0.5 * (rows + rows.T)
+    return np.asarray(0.5 * (rows + rows.T))
 
 
 def check_inertia(name: str, mass: float, tensor: Vector) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, final
 
@@ -34,7 +35,7 @@ class RigidBody(FreeBody):
     """
 
     mass: float = parameter(doc="mass", unit="kg", above=0.0)
-    tensor: Any = field()
+    tensor: Sequence[Any] = field()  # type: ignore[misc]
     carried: tuple[Shape, ...] = ()
 
     def _check(self) -> None:

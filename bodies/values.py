@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from nonsmooth import vectors
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces.body import Vector
 
@@ -24,24 +25,17 @@ def vector(thing: str, value: Any, size: int, unit: str) -> Vector:
     InvalidInput
         If it has another shape or a number that is not finite.
     """
-    shape = (size,) if size else ()
+    if size:
+        return np.array(vectors.vector(thing, value, size, unit))
     try:
-        array = np.array(value, dtype=float)
-    except (TypeError, ValueError):
-        array = np.full(1, np.nan)
-    if array.shape != shape or not np.all(np.isfinite(array)):
-        rule = f"must be {size} finite numbers" if size else "must be a finite number"
-        raise InvalidInput(thing, rule, value, f"Give {'them' if size else 'it'} in [{unit}].")
-    return array
+        return np.array(vectors.vector(thing, (value,), 1, unit)[0])
+    except InvalidInput:
+        raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{unit}].") from None
 
 
 def unit_vector(thing: str, value: Any) -> Vector:
     """Return ``value`` as three floats of unit length, normalised; raise InvalidInput if they are not."""
-    array = vector(thing, value, 3, "1")
-    norm = float(np.linalg.norm(array))
-    if abs(norm - 1.0) > _UNIT_TOLERANCE:
-        raise InvalidInput(thing, "must have unit length", array.tolist(), f"Divide it by its length {norm:.6g}.")
-    return array / norm
+    return np.array(vectors.unit_vector(thing, value))
 
 
 def unit_quaternion(thing: str, value: Any) -> Vector:

@@ -6,36 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.contacts.plane_point import evaluate_point_over_plane
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
-from nonsmooth.types import Floats
-
-
-def _evaluate(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    x: float,
-    y: float,
-    z: float,
-    height: float,
-) -> None:
-    # normal and first tangent are the third and first axis of the plane's frame
-    gap = -height
-    for i in range(3):
-        point = b[i] + b[3 + 3 * i] * x + b[3 + 3 * i + 1] * y + b[3 + 3 * i + 2] * z
-        out[1 + i] = a[3 + 3 * i + 2]
-        out[4 + i] = a[3 + 3 * i]
-        out[10 + i] = point
-        gap += out[1 + i] * (point - a[i])
-    out[0] = gap
-    for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
-    # plane: slide 0, turn 1; vertex: slide 1, turn 0
-    out[17] = out[20] = 1.0
-    out[21] = out[24] = 1.0
 
 
 @final
@@ -58,7 +33,7 @@ class PlaneVertex(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
-        return _evaluate
+        return evaluate_point_over_plane
 
     @property
     def features(self) -> tuple[str, ...]:

@@ -9,13 +9,13 @@ from nonsmooth.cli.messages import say
 from nonsmooth.cli.table import first_line, lines
 from nonsmooth.plugins import registry
 
-GROUPS = ("scenarios", "bodies", "laws")
+GROUPS = ("scenarios", "bodies", "joints", "loads", "laws")
 
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("list", help="what is installed, plug-ins included", allow_abbrev=False)
-    command.add_argument("group", nargs="?", choices=GROUPS, help="all three by default")
+    command.add_argument("group", nargs="?", choices=GROUPS, help="all by default")
     command.set_defaults(execute=execute)
 
 

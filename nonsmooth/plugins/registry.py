@@ -12,17 +12,26 @@ from pathlib import Path
 from typing import Any
 
 from nonsmooth.errors import PluginError, UnknownName
-from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, NormalLaw, Scenario
+from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, Joint, Load, NormalLaw, Scenario
 
 GROUPS: dict[str, tuple[type, ...]] = {
     "bodies": (Body,),
     "laws": (NormalLaw, FrictionLaw, ImpactLaw),
     "scenarios": (Scenario,),
     "kinematics": (ContactKinematics,),
+    "joints": (Joint,),
+    "loads": (Load,),
 }
 """Entry-point groups ``nonsmooth.<name>`` and the interfaces that their members implement."""
 
-KINDS = {"bodies": "body", "laws": "law", "scenarios": "scenario", "kinematics": "contact kinematics"}
+KINDS = {
+    "bodies": "body",
+    "laws": "law",
+    "scenarios": "scenario",
+    "kinematics": "contact kinematics",
+    "joints": "joint",
+    "loads": "load",
+}
 """What one member of a group is called."""
 
 _HOME = Path(__file__).resolve().parents[2]

@@ -118,7 +118,7 @@ class System:
             If it is not a Joint, a body is not of this system, they are the same or both driven, or a frame is unknown.
         """
         if not isinstance(joint, Joint):
-            raise InvalidInput("System.joint", "needs a Joint", joint, "See `nonsmooth list bodies`.")
+            raise InvalidInput("System.joint", "needs a Joint", joint, "See `nonsmooth list joints`.")
         tie = self._tie("System.joint", joint, first, second, frames)
         if first.n_u == 0 and second.n_u == 0:
             raise InvalidInput(tie.name, "needs a body that can move", "both are driven", "Take the joint out.")
@@ -133,7 +133,7 @@ class System:
             If it is not a Load, a body is not of this system, they are the same, or a frame is unknown.
         """
         if not isinstance(load, Load):
-            raise InvalidInput("System.load", "needs a Load", load, "Subclass nonsmooth.interfaces.Load.")
+            raise InvalidInput("System.load", "needs a Load", load, "See `nonsmooth list loads`.")
         self._loads.append(self._tie("System.load", load, first, second, frames))
 
     def _tie(self, where: str, component: Joint | Load, first: Body, second: Body, frames: tuple[int, int]) -> Tie:
@@ -160,6 +160,22 @@ class System:
         """Say where a body starts; the words are those of its ``state``."""
         self._require(body, "System.place")
         self._starts[id(body)] = body.state(**start)
+
+    def set_start(self, body: Body, q: Vector, u: Vector) -> None:
+        """Say where a body starts by its coordinates and velocities, shapes [n_q] and [n_u].
+
+        Raises
+        ------
+        InvalidInput
+            If the body is not of this system, or a shape is wrong, or a number is not finite.
+        """
+        self._require(body, "System.set_start")
+        for letter, value, size in (("q", q, body.n_q), ("u", u, body.n_u)):
+            if np.shape(value) != (size,) or not np.all(np.isfinite(value)):
+                raise InvalidInput(
+                    f"System.set_start: {letter}", f"must be {size} finite numbers", value, "See Body.state."
+                )
+        self._starts[id(body)] = np.array(q, dtype=float), np.array(u, dtype=float)
 
     def contact(
         self, first: Body, second: Body, *, normal: NormalLaw, friction: FrictionLaw, impact: ImpactLaw

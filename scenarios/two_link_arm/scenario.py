@@ -10,9 +10,7 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Coordinate, GeneralisedBody, Plane, Point, PointFrame
-from bodies.driven_body import DrivenBody
-from bodies.motions.constant_velocity import ConstantVelocity
+from bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Plane, Point, PointFrame
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.modes import IMPACT, PAINLEVE
 from nonsmooth.errors import InvalidInput

@@ -1,0 +1,1 @@
+"""Joints: bilateral constraints between two frames."""

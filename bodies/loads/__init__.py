@@ -1,0 +1,1 @@
+"""Loads: forces and moments between two frames."""

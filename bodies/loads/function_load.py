@@ -1,0 +1,44 @@
+"""Load by a function of the user's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import final
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Load
+from nonsmooth.parameters import Value
+
+
+@final
+@dataclass(frozen=True)
+class FunctionLoad(Load):
+    """Whatever a plain function ``evaluate(t, a, b, out, ...)`` says.
+
+    It gets time [s] and the frame blocks of the two bodies, and writes ``out[0:3]`` force on the second body [N],
+    ``out[3:6]`` where it acts [m], ``out[6:9]`` moment [N m], all in world axes.
+
+    Attributes
+    ----------
+    function : callable
+        The function.
+    constants : mapping of str to float or tuple of float
+        Its further arguments by name.
+    """
+
+    function: Callable[..., None]
+    constants: Mapping[str, Value] = field(default_factory=dict)
+
+    def _check(self) -> None:
+        if not callable(self.function):
+            raise InvalidInput("FunctionLoad.function", "must be a function", self.function, "Give a plain function.")
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the constants."""
+        return self.constants
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The function."""
+        return self.function

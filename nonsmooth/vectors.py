@@ -1,0 +1,65 @@
+"""Checks and products of vectors that users give in the frame of a body."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from nonsmooth.errors import InvalidInput
+
+_UNIT = 1e-9
+
+
+def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[float, ...]:
+    """Return a vector as floats.
+
+    Raises
+    ------
+    InvalidInput
+        Unless it has ``size`` finite components.
+    """
+    try:
+        numbers = tuple(float(x) for x in value)
+    except (TypeError, ValueError):
+        numbers = ()
+    if len(numbers) != size or not all(math.isfinite(x) for x in numbers):
+        raise InvalidInput(thing, f"must be {size} finite numbers", value, f"Give them in [{unit}].")
+    return numbers
+
+
+def unit_vector(thing: str, value: Sequence[float], size: int = 3) -> tuple[float, ...]:
+    """Return a vector of unit length.
+
+    Raises
+    ------
+    InvalidInput
+        Unless it has ``size`` finite components and unit length.
+    """
+    numbers = vector(thing, value, size, "1")
+    norm = math.sqrt(sum(x * x for x in numbers))
+    if abs(norm - 1.0) > _UNIT:
+        raise InvalidInput(thing, "must have unit length", list(numbers), f"Divide it by its length {norm:.6g}.")
+    return tuple(x / norm for x in numbers)
+
+
+def perpendiculars(axis: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return two unit vectors that make a right-handed triple with a unit axis in front."""
+    x, y, z = axis
+    # the coordinate axis farthest from it
+    least = min(range(3), key=lambda i: abs(axis[i]))
+    other = [1.0 if i == least else 0.0 for i in range(3)]
+    first = (other[1] * z - other[2] * y, other[2] * x - other[0] * z, other[0] * y - other[1] * x)
+    norm = math.sqrt(sum(c * c for c in first))
+    u = tuple(c / norm for c in first)
+    return u, (y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0])
+
+
+def turned_back(quaternion: Sequence[float], value: Sequence[float]) -> tuple[float, ...]:
+    """Return a vector as a frame of the given unit quaternion (scalar first) sees it."""
+    s, x, y, z = quaternion
+    rows = (
+        (s * s + x * x - y * y - z * z, 2.0 * (x * y + s * z), 2.0 * (x * z - s * y)),
+        (2.0 * (x * y - s * z), s * s - x * x + y * y - z * z, 2.0 * (y * z + s * x)),
+        (2.0 * (x * z + s * y), 2.0 * (y * z - s * x), s * s - x * x - y * y + z * z),
+    )
+    return tuple(sum(r * v for r, v in zip(row, value, strict=True)) for row in rows)
