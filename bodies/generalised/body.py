@@ -53,9 +53,9 @@ class GeneralisedBody(Body):
     constants : mapping of str to float or tuple of float
         The constants; a function takes a tuple as a block to be indexed.
     power : callable, optional
-        ``power(t, q, u, ...)`` returns the power of those forces in h that have no potential, dampers and motors [W].
-        With it the body has one more coordinate, the last: the work of these forces [J].  In the energy account it
-        comes off the potential energy.
+        ``power(t, q, u, ...)`` returns the power of those forces in h that have no potential, dampers and motors [W];
+        without it h must be that of Lagrange's equations.  With it the body has one more coordinate, the last: the work
+        of these forces [J].  In the energy account it comes off the potential energy.
     forcing_period : float, optional
         Shortest time over which h changes by itself [s].
 

@@ -15,6 +15,7 @@ Vector = NDArray[np.float64]
 _STEP = 1e-3
 """Step of the differences, in units of the scales; their error is its fourth power."""
 _ALLOWED = 1e-6
+_LOOK = "Look at the signs of the potential's derivatives and at the terms quadratic in u"
 _ASIDE = 0.01
 """Shift of the second place that is looked at, in units of the scales: at a symmetric start many terms vanish."""
 
@@ -26,9 +27,10 @@ def check_equations(sample: Sampler, q: Vector, u: Vector, q_scale: Vector, u_sc
     ------
     InvalidInput
         If the mass matrix is not symmetric and positive definite, a rotation is none, a Jacobian is not the derivative
-        of its pose, a bias not that of its Jacobian times u, or energies do not change by the power.
+        of its pose, a bias not that of its Jacobian times u, or forces and energies contradict each other.
     """
-    signs = 1.0 / (1.0 + np.arange(len(q))) * (-1.0) ** np.arange(len(q))
+    # no number here is 1 or its neighbour's, so that a square forgotten or an index exchanged cannot hide
+    signs = (-1.0) ** np.arange(len(q)) * 1.37 / (1.0 + 0.7 * np.arange(len(q)))
     places, speeds = (q, q + _ASIDE * q_scale * signs[::-1]), (u, u + u_scale * signs)
     states = [(place, speed) for place in places for speed in speeds]
     frames = range(len(sample.equations.frames))
@@ -42,7 +44,7 @@ def check_equations(sample: Sampler, q: Vector, u: Vector, q_scale: Vector, u_sc
         for i in frames:
             _check_bias(sample, i, place, speed, q_scale)
     for place, speed in states:
-        _check_power(sample, place, speed, q_scale)
+        _check_force(sample, place, speed, q_scale)
 
 
 def _check_mass(sample: Sampler, q: Vector, u: Vector) -> None:
@@ -68,18 +70,23 @@ def _slope(function: Callable[[Vector], Vector], q: Vector, along: Vector) -> Ve
     return (8.0 * one - two) / (12.0 * _STEP)
 
 
-def _compare(sample: Sampler, part: str, of: str, given: Vector, found: Vector, weight: Vector, size: float) -> None:
-    """Hold what a function gives against the derivative found; ``size`` is that of the entries times their weight."""
+def _compare(
+    sample: Sampler, part: str, words: tuple[str, str], given: Vector, found: Vector, weight: Vector, size: float
+) -> None:
+    """Hold what a function gives against what is found; ``size`` is that of the entries times their weight.
+
+    ``words`` are the rule and the remedy.
+    """
     error = np.abs(given - found) * weight
     if np.max(error, initial=0.0) > _ALLOWED * size:
         worst = np.unravel_index(int(np.argmax(error)), error.shape)
         index = ", ".join(str(int(i)) for i in worst)
-        raise InvalidInput(
-            sample.thing(part),
-            f"must be the derivative of {of}: entry [{index}] should be {found[worst]:.9g}",
-            float(given[worst]),
-            f"Differentiate {of} once more, or correct it.",
-        )
+        rule = f"{words[0]}: entry [{index}] should be {found[worst]:.9g}"
+        raise InvalidInput(sample.thing(part), rule, float(given[worst]), words[1])
+
+
+def _derivative_of(name: str) -> tuple[str, str]:
+    return f"must be the derivative of {name}", f"Differentiate {name} once more, or correct that."
 
 
 def _check_jacobian(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) -> None:
@@ -110,7 +117,7 @@ def _check_jacobian(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vect
     lost = 1e-6 * float(np.max(np.abs(pose(q))))
     for rows, of in ((slice(0, 3), "the position"), (slice(3, 6), "the rotation")):
         size = float(np.max(np.abs(found[rows] * q_scale), initial=0.0)) + lost
-        _compare(sample, jacobian_name, of, given[rows], found[rows], q_scale, size)
+        _compare(sample, jacobian_name, _derivative_of(of), given[rows], found[rows], q_scale, size)
 
 
 def _check_bias(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) -> None:
@@ -124,39 +131,42 @@ def _check_bias(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) 
     speed = float(np.max(np.abs(u) / q_scale)) or 1.0
     rates = _slope(lambda at: np.asarray(jacobian(at) @ u), q, u / speed) * speed
     bias = np.asarray(sample(q, u)[bias_name])
+    words = _derivative_of("the Jacobian times u")
     for rows in (slice(0, 3), slice(3, 6)):
         size = float(np.max(here[rows], initial=0.0)) * speed**2
-        _compare(
-            sample, bias_name, "the Jacobian times u", bias[rows], rates[rows], np.ones(3)[: len(bias[rows])], size
-        )
+        _compare(sample, bias_name, words, bias[rows], rates[rows], np.ones(len(bias[rows])), size)
 
 
-def _check_power(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> None:
-    """Kinetic and potential energy change by the power given, while u' = M^-1 h."""
+def _derivatives(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> tuple[Vector, Vector]:
+    """Return the derivatives of potential [n] and mass matrix [n, n, n] by each coordinate, the first index."""
     n = len(q)
-    scale = float(np.max(np.abs(u) / q_scale, initial=0.0))
-    if scale == 0.0:
+
+    def both(at: Vector) -> Vector:
+        found = sample(at, u)
+        return np.concatenate([found["potential"], found["mass"]])
+
+    slopes = np.array([_slope(both, q, np.eye(n)[j] * q_scale[j]) / q_scale[j] for j in range(n)])
+    return slopes[:, 0], slopes[:, 1:].reshape(n, n, n)
+
+
+def _check_force(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> None:
+    """Without a power, h is that of Lagrange's equations; with one, kinetic and potential energy change by it."""
+    n, here = len(q), sample(q, u)
+    potential, mass = _derivatives(sample, q, u, q_scale)
+    terms = np.array([-potential, 0.5 * (mass @ u) @ u, -np.einsum("kij,k,j->i", mass, u, u)])
+    # what the differences lose to round-off goes with the energies themselves
+    lost = 1e-6 * (abs(float(here["potential"][0])) + 0.5 * float(u @ here["mass"].reshape(n, n) @ u))
+    if "power" not in here:
+        size = float(np.max(np.sum(np.abs(terms), axis=0) * q_scale)) + lost
+        words = "must be that of Lagrange's equations", f"{_LOOK}; for forces without a potential, give their power."
+        _compare(sample, "force", words, here["force"], terms.sum(axis=0), q_scale, size)
         return
-    along = u / scale
-
-    def kinetic(at: Vector) -> Vector:
-        return np.array(0.5 * u @ sample(at, u)["mass"].reshape(n, n) @ u)
-
-    def potential(at: Vector) -> Vector:
-        return np.array(sample(at, u)["potential"][0])
-
-    here = sample(q, u)
-    terms = [*(u * here["force"]), float(_slope(kinetic, q, along)) * scale, float(_slope(potential, q, along)) * scale]
-    power = float(here["power"][0]) if "power" in here else 0.0
-    change, size = float(np.sum(terms)), float(np.sum(np.abs(terms)))
-    # the energies may be large where their slopes are small
-    size += 1e-6 * (abs(float(here["potential"][0])) + abs(float(kinetic(q)))) * scale
-    if not abs(change - power) <= _ALLOWED * size:
-        where = f"at q = {q.tolist()}, u = {u.tolist()}"
+    power, change = float(here["power"][0]), float(u @ (here["force"] - terms.sum(axis=0)))
+    size = float(np.sum(np.abs(terms) * np.abs(u)) + np.sum(np.abs(here["force"] * u)))
+    if not abs(change - power) <= _ALLOWED * (size + lost * float(np.max(np.abs(u) / q_scale))):
         raise InvalidInput(
             sample.thing("force"),
-            f"must change kinetic and potential energy by the power {power:.9g} W {where}",
+            f"must have the power {power:.9g} W beside that of the potential at q = {q.tolist()}, u = {u.tolist()}",
             change,
-            "Look at the signs of the potential's derivatives and at the terms quadratic in u; the power of forces "
-            "without a potential (dampers, motors) belongs in the function power.",
+            f"{_LOOK}.",
         )

@@ -248,6 +248,14 @@ def _upwards(t: float, q: Floats, u: Floats, out: Floats, weight: float, gravity
     out[1] = -weight * gravity_z
 
 
+def _gyroscopic(t: float, q: Floats, u: Floats, out: Floats, weight: float, gravity_z: float) -> None:
+    out[0], out[1] = u[1], weight * gravity_z - u[0]
+
+
+def _without(t: float, q: Floats, u: Floats) -> float:
+    return 0.0
+
+
 def _wrong_turn(q: Floats, out: Floats) -> None:
     out[0] = out[7] = 1.0
     out[14] = 1.0
@@ -272,17 +280,24 @@ def _misspelt(q: Floats, out: Floats, halv: float) -> None:
     out[0] = halv
 
 
+def _no_square(q: Floats, u: Floats, out: Floats, half: float) -> None:
+    out[0], out[2] = -half * math.cos(q[2]) * u[2], -half * math.sin(q[2]) * u[2]
+
+
 _END: dict[str, Any] = {"pose": _end, "jacobian": _end_jacobian, "bias": _end_bias}
 _PART: dict[str, Any] = {"pose": _pose, "jacobian": _jacobian, "bias": _nothing}
 MISTAKES: list[tuple[dict[str, Any], tuple[str, ...]]] = [
     ({"mass": _too_far}, ("mass: _too_far", "must write 9 numbers")),
     ({"force": _not_a_number}, ("force: _not_a_number", "finite", "nan")),
     ({"potential": _beyond}, ("potential: _beyond", "finite", "index beyond")),
-    ({"force": _upwards}, ("force: _upwards", "must change kinetic and potential energy", "signs")),
+    ({"force": _upwards}, ("force: _upwards", "Lagrange's equations: entry [1] should be -19", "signs")),
+    ({"force": _gyroscopic}, ("force: _gyroscopic", "Lagrange's equations", "give their power")),
+    ({"force": _upwards, "power": _without}, ("force: _upwards", "power 0 W beside that of the potential")),
     ({"part": {"jacobian": _wrong_turn}}, ("moving_frames[1].jacobian: _wrong_turn", "derivative of the rotation")),
     ({"part": {"pose": _skewed}}, ("moving_frames[1].pose: _skewed", "rotation matrix", "right-handed")),
     ({"end": {"jacobian": _wrong_sign}}, ("moving_frames[0].jacobian: _wrong_sign", "derivative of the position")),
     ({"end": {"bias": _half_bias}}, ("moving_frames[0].bias: _half_bias", "derivative of the Jacobian times u")),
+    ({"end": {"bias": _no_square}}, ("moving_frames[0].bias: _no_square", "derivative of the Jacobian times u")),
     ({"end": {"pose": _misspelt}}, ("_misspelt asks for a constant", "'halv'", "Did you mean 'half'")),
     ({"mass": _force}, ("mass: _force", "must begin with ('q', 'out')")),
     ({"potential": 3.0}, ("potential", "plain function", "3.0")),
@@ -325,6 +340,17 @@ def test_starts() -> None:
     np.testing.assert_array_equal([q, u], [[1, 2, 3], [4, 5, 6]])
     with pytest.raises(ns.InvalidInput, match=r"PointFrame\.carried must contain shapes only"):
         PointFrame(**_END, carried=(3.0,))  # type: ignore[arg-type]
+
+
+def test_forces_that_do_no_work_need_a_power_that_says_so() -> None:
+    """A gyroscopic force is no mistake where the power is given as zero: the path is a circle."""
+    coordinates = Coordinate("x", rate=1.0), Coordinate("z"), Coordinate("a")
+    body = GeneralisedBody(
+        coordinates, _mass, _gyroscopic, _potential, power=_without, constants={"weight": 1.0, "inertia": 1.0}
+    )
+    solution = ns.simulate(ns.System([body], gravity=0.0), 2.0)
+    np.testing.assert_allclose(solution.q[:, 0], np.sin(solution.t), rtol=0, atol=1e-7)
+    np.testing.assert_allclose(solution.q[:, 1], np.cos(solution.t) - 1.0, rtol=0, atol=1e-7)
 
 
 def test_equal_bodies_share_what_is_compiled() -> None:
