@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from bodies import Coordinate, Dumbbell, GeneralisedBody, Plate, Point, PointFrame, Sphere, TurningFrame
+from nonsmooth.compiled import compiled
 from nonsmooth.plugins.call import body_caller
 from nonsmooth.types import Floats
 
@@ -351,6 +352,28 @@ def test_forces_that_do_no_work_need_a_power_that_says_so() -> None:
     solution = ns.simulate(ns.System([body], gravity=0.0), 2.0)
     np.testing.assert_allclose(solution.q[:, 0], np.sin(solution.t), rtol=0, atol=1e-7)
     np.testing.assert_allclose(solution.q[:, 1], np.cos(solution.t) - 1.0, rtol=0, atol=1e-7)
+
+
+@compiled
+def _square(x: float) -> float:
+    return x * x
+
+
+def _quartic(q: Floats, stiffness: float) -> float:
+    return 0.25 * stiffness * _square(_square(q[0]))
+
+
+def _cubic(t: float, q: Floats, u: Floats, out: Floats, stiffness: float) -> None:
+    out[0] = -stiffness * q[0] * _square(q[0])
+
+
+def test_functions_may_share_a_compiled_helper() -> None:
+    """And keep the energy of an anharmonic oscillator."""
+    constants = {"weight": 1.0, "stiffness": 4.0}
+    body = GeneralisedBody((Coordinate("x", 1.0),), _unit, _cubic, _quartic, constants=constants)
+    solution = ns.simulate(ns.System([body]), 5.0)
+    energy = solution.q[:, 0] ** 4 + 0.5 * solution.u[:, 0] ** 2
+    np.testing.assert_allclose(energy, 1.0, rtol=0, atol=1e-7)
 
 
 def test_equal_bodies_share_what_is_compiled() -> None:
