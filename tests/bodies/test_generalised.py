@@ -360,7 +360,7 @@ def _square(x: float) -> float:
 
 
 def _quartic(q: Floats, stiffness: float) -> float:
-    return 0.25 * stiffness * _square(_square(q[0]))
+    return float(0.25 * stiffness * _square(_square(q[0])))
 
 
 def _cubic(t: float, q: Floats, u: Floats, out: Floats, stiffness: float) -> None:
