@@ -23,7 +23,7 @@ from llvmlite.binding import get_host_cpu_name
 from numba import types
 from numba.core.caching import CacheImpl, _CacheLocator
 from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
-from numba.extending import intrinsic
+from numba.extending import intrinsic, register_jitable
 
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
 from nonsmooth.model.layout import ROOMS, Memory
@@ -288,6 +288,11 @@ _C_SIGNATURES = {
 def jit(function: Callable[..., Any]) -> Any:
     """Compile a plug-in's function on demand; never cached on disk."""
     return numba.jit(**_OPTIONS)(function)
+
+
+def shared(function: Callable[..., Any]) -> Any:
+    """Let compiled functions call this one; Python calls it as it stands."""
+    return register_jitable(error_model="numpy", nogil=True)(function)
 
 
 def address_of(shim: Callable[..., Any], form: str) -> int:
