@@ -11,6 +11,7 @@ from nonsmooth.model.layout import COUNTS, Heap, allocate
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.model import N_ACCOUNTS, Model, event_width, map_width
 from nonsmooth.model.options import Options
+from nonsmooth.model.solvers import pivoted_contacts, solver_number
 from nonsmooth.system.system import System
 
 _EVENT_ROWS = 4096
@@ -46,6 +47,7 @@ def lay_out(system: System, options: Options) -> Model:
         "n_q": n_q,
         "n_u": n_u,
         "n_y": n_q + n_u + N_ACCOUNTS,
+        "n_pivoted": pivoted_contacts(solver_number(options.solver), len(contacts)),
         "map_width": map_width(contacts),
         "event_capacity": _EVENT_ROWS,
         "event_width": event_width(len(contacts), n_q, n_u),
@@ -70,6 +72,7 @@ def _set_scalars(model: Model, options: Options) -> None:
     scalars = model.memory.scalars
     step = min(options.largest_step, model.system.time_scale / options.steps_per_period)
     values = {
+        "solver": solver_number(options.solver),
         "rtol": options.tolerance,
         "impact_rtol": options.impact_tolerance,
         "time_tolerance": options.time_tolerance,
