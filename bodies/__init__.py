@@ -1,43 +1,102 @@
 """Built-in bodies, shapes, motions, contact pairs, joints and loads."""
 
 from bodies.ball import Ball
+from bodies.box_body import BoxBody
+from bodies.capsule_body import CapsuleBody
+from bodies.compound import Compound, Part
+from bodies.contacts.box_sphere import BoxSphere
+from bodies.contacts.capsule_capsule import CapsuleCapsule
+from bodies.contacts.capsule_sphere import CapsuleSphere
+from bodies.contacts.cylinder_sphere import CylinderSphere
+from bodies.contacts.disc_sphere import DiscSphere
+from bodies.contacts.plane_box import PlaneBox
+from bodies.contacts.plane_capsule import PlaneCapsule
+from bodies.contacts.plane_cylinder import PlaneCylinder
+from bodies.contacts.plane_disc import PlaneDisc
+from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.sphere_sphere import SphereSphere
+from bodies.cylinder_body import CylinderBody
+from bodies.disc_body import DiscBody
+from bodies.driven_body import DrivenBody
 from bodies.dumbbell import Dumbbell
+from bodies.ellipsoid_body import EllipsoidBody
 from bodies.free import FreeBody
 from bodies.joints.ball_joint import BallJoint
 from bodies.joints.distance import Distance
 from bodies.joints.fixed import Fixed
 from bodies.joints.hinge import Hinge
 from bodies.joints.slider import Slider
+from bodies.line_body import LineBody
 from bodies.loads.bushing import Bushing
 from bodies.loads.function_load import FunctionLoad
 from bodies.loads.spring import Spring
 from bodies.loads.torsion_spring import TorsionSpring
+from bodies.motions.constant_velocity import ConstantVelocity
+from bodies.motions.function_motion import FunctionMotion
 from bodies.motions.harmonic import Harmonic
 from bodies.motions.rest import Rest
+from bodies.motions.table import Table
+from bodies.planar_body import PlanarBody
 from bodies.plate import Plate
+from bodies.rigid_body import RigidBody
+from bodies.rod import Rod
+from bodies.shapes.box import Box
+from bodies.shapes.capsule import Capsule
+from bodies.shapes.cylinder import Cylinder
+from bodies.shapes.disc import Disc
+from bodies.shapes.ellipsoid import Ellipsoid
 from bodies.shapes.plane import Plane
 from bodies.shapes.sphere import Sphere
 
 __all__ = [
     "Ball",
     "BallJoint",
+    "Box",
+    "BoxBody",
+    "BoxSphere",
     "Bushing",
+    "Capsule",
+    "CapsuleBody",
+    "CapsuleCapsule",
+    "CapsuleSphere",
+    "Compound",
+    "ConstantVelocity",
+    "Cylinder",
+    "CylinderBody",
+    "CylinderSphere",
+    "Disc",
+    "DiscBody",
+    "DiscSphere",
     "Distance",
+    "DrivenBody",
     "Dumbbell",
+    "Ellipsoid",
+    "EllipsoidBody",
     "Fixed",
     "FreeBody",
     "FunctionLoad",
+    "FunctionMotion",
     "Harmonic",
     "Hinge",
+    "LineBody",
+    "Part",
+    "PlanarBody",
     "Plane",
+    "PlaneBox",
+    "PlaneCapsule",
+    "PlaneCylinder",
+    "PlaneDisc",
+    "PlaneEllipsoid",
     "PlaneSphere",
     "Plate",
     "Rest",
+    "RigidBody",
+    "Rod",
     "Slider",
     "Sphere",
     "SphereSphere",
     "Spring",
+    "Table",
     "TorsionSpring",
 ]

@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.errors import InvalidInput, UnknownName
+from bodies.inertia import check_inertia, tensor_of
+from bodies.values import Word, read_start, unit_quaternion
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.types import Floats
 
-_WORDS = {
+_WORDS: dict[str, Word] = {
     "position": (3, (0.0, 0.0, 0.0), "m"),
     "orientation": (4, (1.0, 0.0, 0.0, 0.0), "1"),
     "velocity": (3, (0.0, 0.0, 0.0), "m/s"),
@@ -31,6 +32,15 @@ def _evaluate(
     inertia_x: float,
     inertia_y: float,
     inertia_z: float,
+    inertia_yz: float,
+    inertia_xz: float,
+    inertia_xy: float,
+    mobility_x: float,
+    mobility_y: float,
+    mobility_z: float,
+    mobility_yz: float,
+    mobility_xz: float,
+    mobility_xy: float,
     gravity_x: float,
     gravity_y: float,
     gravity_z: float,
@@ -61,32 +71,44 @@ def _evaluate(
     # force and gyroscopic moment
     force = 67
     out[force], out[force + 1], out[force + 2] = mass * gravity_x, mass * gravity_y, mass * gravity_z
-    out[force + 3] = (inertia_y - inertia_z) * oy * oz
-    out[force + 4] = (inertia_z - inertia_x) * oz * ox
-    out[force + 5] = (inertia_x - inertia_y) * ox * oy
+    # -omega x (J omega), grouped so that in principal axes nothing but the differences of the moments is left
+    out[force + 3] = (inertia_y - inertia_z) * oy * oz + (
+        inertia_yz * (oz * oz - oy * oy) + ox * (inertia_xy * oz - inertia_xz * oy)
+    )
+    out[force + 4] = (inertia_z - inertia_x) * oz * ox + (
+        inertia_xz * (ox * ox - oz * oz) + oy * (inertia_yz * ox - inertia_xy * oz)
+    )
+    out[force + 5] = (inertia_x - inertia_y) * ox * oy + (
+        inertia_xy * (oy * oy - ox * ox) + oz * (inertia_xz * oy - inertia_yz * ox)
+    )
     inverse = 73
     for i in range(3):
         out[inverse + 7 * i] = 1.0 / mass
-    out[inverse + 21] = 1.0 / inertia_x
-    out[inverse + 28] = 1.0 / inertia_y
-    out[inverse + 35] = 1.0 / inertia_z
+    out[inverse + 21], out[inverse + 22], out[inverse + 23] = mobility_x, mobility_xy, mobility_xz
+    out[inverse + 27], out[inverse + 28], out[inverse + 29] = mobility_xy, mobility_y, mobility_yz
+    out[inverse + 33], out[inverse + 34], out[inverse + 35] = mobility_xz, mobility_yz, mobility_z
     energy = 109
     out[energy] = 0.5 * (
         mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
         + inertia_x * ox * ox
         + inertia_y * oy * oy
         + inertia_z * oz * oz
-    )
+    ) + (inertia_yz * oy * oz + inertia_xz * ox * oz + inertia_xy * ox * oy)
     out[energy + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
 
 
 class FreeBody(Body):
-    """A rigid body that moves freely; its frame is the principal frame at its mass centre.
+    """A rigid body that moves freely; its frame has its origin at the mass centre.
 
-    Subclasses are final and give ``total_mass`` [kg], ``inertia`` [kg m^2] (principal moments) and shapes.
+    Subclasses are final and give ``total_mass`` [kg], ``inertia`` [kg m^2] (moments about the axes of the frame),
+    shapes and, where the frame is not a principal one, ``products`` [kg m^2].  They are checked when the body is made.
     Coordinates: position of the mass centre [m], unit quaternion (scalar first) from body to world.
     Velocities: of the mass centre in world axes [m/s], angular velocity in body axes [rad/s].
     """
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.parameters()
 
     @property
     @abstractmethod
@@ -96,12 +118,26 @@ class FreeBody(Body):
     @property
     @abstractmethod
     def inertia(self) -> tuple[float, float, float]:
-        """Principal moments of inertia [kg m^2]."""
+        """Moments of inertia J_xx, J_yy, J_zz about the mass centre in the axes of the frame [kg m^2]."""
+
+    @property
+    def products(self) -> tuple[float, float, float]:
+        """Elements J_yz, J_xz, J_xy of the inertia tensor [kg m^2], of which J_xy = -integral of x y dm; none."""
+        return 0.0, 0.0, 0.0
 
     def parameters(self) -> dict[str, float]:
-        """Return mass and principal moments."""
-        x, y, z = self.inertia
-        return {"mass": self.total_mass, "inertia_x": x, "inertia_y": y, "inertia_z": z}
+        """Return mass, inertia tensor and its inverse (the mobility), checked."""
+        moments, products = self.inertia, self.products
+        tensor = tensor_of(moments, products)
+        check_inertia(type(self).__name__, self.total_mass, tensor)
+        inverse = np.linalg.inv(tensor) if any(products) else np.diag([1.0 / j for j in moments])
+        names = ("x", "y", "z", "yz", "xz", "xy")
+        mobility = (*np.diag(inverse).tolist(), *(float(inverse[i, j]) for i, j in ((1, 2), (0, 2), (0, 1))))
+        return {
+            "mass": self.total_mass,
+            **{f"inertia_{name}": value for name, value in zip(names, (*moments, *products), strict=True)},
+            **{f"mobility_{name}": value for name, value in zip(names, mobility, strict=True)},
+        }
 
     @property
     @abstractmethod
@@ -140,32 +176,16 @@ class FreeBody(Body):
 
     @property
     def scales(self) -> tuple[Vector, Vector]:
-        """The length of the body and the speed of a fall through it."""
-        length = max(shape.length for shape in self.shapes)
+        """The length of the body, at least its radius of gyration, and the speed of a fall through it."""
+        gyration = math.sqrt(max(self.inertia) / self.total_mass)
+        length = max([gyration, *(shape.length for shape in self.shapes)])
         speed = math.sqrt(9.81 * length)
         return np.array([length] * 3 + [1.0] * 4), np.array([speed] * 3 + [speed / length] * 3)
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return q and u from position [m], orientation (unit quaternion), velocity [m/s], angular_velocity [rad/s]."""
         name = type(self).__name__
-        values = {}
-        for word in start:
-            if word not in _WORDS:
-                raise UnknownName(f"start of {name}", word, _WORDS)
-        for word, (size, default, unit) in _WORDS.items():
-            value = np.asarray(start.get(word, default), dtype=float)
-            if value.shape != (size,) or not np.all(np.isfinite(value)):
-                raise InvalidInput(
-                    f"{word} of {name}", f"must be {size} finite numbers", start.get(word), f"Give them in [{unit}]."
-                )
-            values[word] = value
-        norm = float(np.linalg.norm(values["orientation"]))
-        if abs(norm - 1.0) > 1e-9:
-            raise InvalidInput(
-                f"orientation of {name}",
-                "must be a unit quaternion (scalar first)",
-                values["orientation"].tolist(),
-                f"Divide it by its length {norm:.6g}.",
-            )
-        q = np.concatenate([values["position"], values["orientation"] / norm])
+        values = read_start(name, _WORDS, start)
+        orientation = unit_quaternion(f"orientation of {name}", values["orientation"])
+        q = np.concatenate([values["position"], orientation])
         return q, np.concatenate([values["velocity"], values["angular_velocity"]])

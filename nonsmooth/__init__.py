@@ -3,6 +3,7 @@
 from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFailed, UnknownName
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.model.options import Options
+from nonsmooth.placing import at_height, resting, touching
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
@@ -17,6 +18,9 @@ __all__ = [
     "Solution",
     "System",
     "UnknownName",
+    "at_height",
+    "resting",
     "simulate",
     "solve_impact",
+    "touching",
 ]

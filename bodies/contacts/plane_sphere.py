@@ -6,39 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.contacts.plane_point import evaluate_sphere_over_plane
 from bodies.shapes.plane import Plane
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
-from nonsmooth.types import Floats
-
-
-def _evaluate(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    radius: float,
-    x: float,
-    y: float,
-    z: float,
-    height: float,
-) -> None:
-    # normal and first tangent are the third and first axis of the plane's frame
-    gap = -height - radius
-    for i in range(3):
-        normal = a[3 + 3 * i + 2]
-        center = b[i] + b[3 + 3 * i] * x + b[3 + 3 * i + 1] * y + b[3 + 3 * i + 2] * z
-        out[1 + i] = normal
-        out[4 + i] = a[3 + 3 * i]
-        out[10 + i] = center - radius * normal
-        gap += normal * (center - a[i])
-    out[0] = gap
-    for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
-    # plane: slide 0, turn 1; sphere: slide 1, turn its radius
-    out[17] = out[20] = 1.0
-    out[21] = out[24] = 1.0
-    out[25] = out[28] = radius
 
 
 @final
@@ -62,7 +34,7 @@ class PlaneSphere(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
-        return _evaluate
+        return evaluate_sphere_over_plane
 
     @property
     def features(self) -> tuple[str, ...]:

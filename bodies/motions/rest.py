@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
+from bodies.motions.pose import pose_parameters
+from bodies.values import unit_quaternion, vector
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -18,19 +20,59 @@ def _evaluate(
     u: Floats,
     out: Floats,
     slope: float,
+    x: float,
+    y: float,
+    z: float,
+    xx: float,
+    xy: float,
+    xz: float,
+    yx: float,
+    yy: float,
+    yz: float,
+    zx: float,
+    zy: float,
+    zz: float,
 ) -> None:
     c, s = math.cos(slope), math.sin(slope)
-    out[3], out[4], out[5] = c, 0.0, s
-    out[6], out[7], out[8] = 0.0, 1.0, 0.0
-    out[9], out[10], out[11] = -s, 0.0, c
+    out[0], out[1], out[2] = x, y, z
+    out[3], out[4], out[5] = xx * c - xz * s, xy, xx * s + xz * c
+    out[6], out[7], out[8] = yx * c - yz * s, yy, yx * s + yz * c
+    out[9], out[10], out[11] = zx * c - zz * s, zy, zx * s + zz * c
 
 
 @final
 @dataclass(frozen=True)
 class Rest(Motion):
-    """No motion: the frame stays at the origin, turned about the second axis so that its first axis points downhill."""
+    """No motion: the frame stays where it is put.
+
+    Attributes
+    ----------
+    slope : float
+        Turns the frame about its second axis so that its first axis points downhill [rad].
+    position : tuple of float
+        Where the origin of the frame is [m, shape (3)].
+    orientation : tuple of float
+        Unit quaternion (scalar first) that turns the frame, its slope included, to the world.
+
+    Raises
+    ------
+    InvalidInput
+        If the slope is steeper than a right angle, the position not three numbers or the quaternion not unit.
+    """
 
     slope: float = parameter(0.0, doc="angle of the slope", unit="rad", minimum=-math.pi / 2, maximum=math.pi / 2)
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+
+    def _check(self) -> None:
+        position = vector("Rest.position", self.position, 3, "m")
+        orientation = unit_quaternion("Rest.orientation", self.orientation)
+        object.__setattr__(self, "position", tuple(position.tolist()))
+        object.__setattr__(self, "orientation", tuple(orientation.tolist()))
+
+    def parameters(self) -> dict[str, float]:
+        """Return the slope, the position and the rotation matrix of the orientation."""
+        return {"slope": self.slope, **pose_parameters(self.position, self.orientation)}
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -64,7 +64,8 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
         elif phase == HELD:
             w[guard] = NOISE + w[S.f + 3 * a] / force_scale
         else:
-            w[guard] = NOISE + rate
+            behind = phase == IDLE and S.faint > 0.0 and k[S.waves + c] > 0
+            w[guard] = (S.faint if behind else NOISE) + rate
         if phase == EXPANSION:
             w[guard + 1] = w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
             if a == S.lone:

@@ -38,8 +38,8 @@ from nonsmooth.engine.impact_rates import (
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.runge_kutta import step_factor
 
-FINISHED, ENDLESS, INVALID = 1, 2, 3
-"""How an impact ended."""
+FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
+"""How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
 
 _MOST_STEPS = 100000
 _LARGEST = 1e6
@@ -61,12 +61,14 @@ _AT_EVENT = 4.0 * NOISE
 """A guard this near zero at the end of a step that was aimed at it has fired."""
 _FAR = 4.0
 """A lone contact's first step, in units of the impulse that stops it: beyond all of its events."""
+_CROWDED = 12
+"""A window with this many times more contacts than act is drawn anew."""
 _NO_RETURN = 2e-16
 """Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
 
 
 @kernel("f8(S, F, I)")
-def _scale(S: Scalars, w: Floats, k: Integers) -> float:
+def scale_impact(S: Scalars, w: Floats, k: Integers) -> float:
     """Set the scales of speed, deformation and force; return the shortest time of a compression."""
     m = S.n_active
     width = 3 * m
@@ -101,7 +103,7 @@ def _scale(S: Scalars, w: Floats, k: Integers) -> float:
 
 
 @kernel("void(S, F, I, i8)")
-def _account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Book the work of the phase that ends at the active contact ``a``."""
     work = w[S.impact_y + STRIDE * a + 4]
     done = work - w[S.impact_mark + a]
@@ -121,7 +123,8 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         phase = k[S.phase + a]
         loaded = phase == EXPANSION or phase == COMPRESSION
         if loaded and (S.trigger == 3 * a + 1 or w[guard + 1] < TOGETHER):
-            _account(S, w, k, a)
+            account(S, w, k, a)
+            k[S.waves + k[S.active + a]] += 1
             k[S.phase + a] = IDLE
             w[S.impact_y + STRIDE * a + 3] = w[S.impact_y + STRIDE * a + 6] = 0.0
             k[S.tangent_held + a] = 0
@@ -152,7 +155,7 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     """Change the normal phase of the active contact ``a``; return 1 if friction must be chosen anew."""
     phase = k[S.phase + a]
     if phase == COMPRESSION:
-        _account(S, w, k, a)
+        account(S, w, k, a)
         if efficiency(S, w, k, a, 1e-300) > _NO_RETURN:
             k[S.phase + a] = EXPANSION
             return 0
@@ -168,7 +171,8 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
         k[S.tangent_held + a] = 0
         return 0
     if phase == EXPANSION:
-        _account(S, w, k, a)
+        account(S, w, k, a)
+        k[S.waves + k[S.active + a]] += 1
     k[S.phase + a] = COMPRESSION
     return 1 if phase == IDLE else 0
 
@@ -246,7 +250,8 @@ def _finished(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("void(S, F, I, f8)")
-def _start(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
+def start_impact(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
+    """Set the phases in which the active contacts start, and their friction."""
     for i in range(STRIDE * S.n_active):
         w[S.impact_y + i] = 0.0
     S.phases = 0
@@ -332,6 +337,36 @@ def _cut_short(S: Scalars, w: Floats, k: Integers) -> None:
     S.truncated = 1
 
 
+@kernel()
+def _fade(S: Scalars, w: Floats, k: Integers) -> None:
+    """End what is left, below the tolerance, at contacts that the wave has passed."""
+    for a in range(S.n_active):
+        x, energy = S.impact_y + STRIDE * a + 3, S.impact_y + STRIDE * a + 6
+        passed = k[S.phase + a] == EXPANSION or (k[S.phase + a] == COMPRESSION and k[S.waves + k[S.active + a]] > 0)
+        # the energy is known to the tolerance only, the deformation better
+        weak = w[S.f + 3 * a] * w[x] <= S.faint * S.faint * w[S.impact_energy_scale + a]
+        if passed and weak and abs(w[S.impact_z + 3 * a]) <= S.faint * S.speed_scale:
+            account(S, w, k, a)
+            k[S.waves + k[S.active + a]] += 1
+            k[S.phase + a] = IDLE
+            k[S.tangent_held + a] = 0
+            w[x] = w[energy] = 0.0
+            S.phases += 1
+    prepare_guards(S, w, k)
+
+
+@kernel("i8(S, F, I)")
+def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a contact at the rim of the window acts, so that its neighbours may be missing, or most are idle."""
+    acting = 0
+    for a in range(S.n_active):
+        if k[S.phase + a] != IDLE:
+            acting += 1
+            if k[S.rim + k[S.active + a]] == 1:
+                return 1
+    return 1 if 0 < _CROWDED * (acting + 1) < S.n_active else 0
+
+
 @room("i8(S, F, I)")
 def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
     """Carry the active contacts from the rates ``impact_z0`` through the impact; return how it ended.
@@ -339,21 +374,32 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
     Leaves the impulses in ``impulse`` and, per active contact, the energies ``stored`` in compression,
     ``returned`` in expansion and ``rubbed`` away by friction.
     """
-    m = S.n_active
-    n = STRIDE * m
-    S.speed_scale = 0.0
-    S.aimed = -1
-    S.lone = 0 if m == 1 else -1
+    S.windowed = 0
+    S.lone = 0 if S.n_active == 1 else -1
     S.may_be_lone = 1
     S.truncated = 0
     S.slow_steps = 0
-    shortest = _scale(S, w, k)
+    shortest = scale_impact(S, w, k)
     if not shortest > 0.0:
         return INVALID
-    _start(S, w, k, 1e-2 * shortest)
+    start_impact(S, w, k, 1e-2 * shortest)
+    return run_impact(S, w, k, first_step(S, shortest), shortest)
+
+
+@kernel("f8(S, f8)")
+def first_step(S: Scalars, shortest: float) -> float:
+    """Return the first step of an impact whose shortest compression takes the time given."""
+    return shortest * (_FAR if S.n_active == 1 else float(S.impact_rtol) ** _FIRST)
+
+
+@room("i8(S, F, I, f8, f8)")
+def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) -> int:
+    """Integrate from the phases and the state at hand, with a first step of ``h``; return how it ended."""
+    m = S.n_active
+    n = STRIDE * m
+    S.aimed = -1
     prepare_guards(S, w, k)
     write_impact_slope(S, w, k, S.impact_slopes)
-    h = shortest * (_FAR if m == 1 else S.impact_rtol**_FIRST)
     for _step in range(_MOST_STEPS):
         if _finished(S, w, k) == 1:
             _finish(S, w, k)
@@ -409,6 +455,11 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
                 grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)
             if S.phases > _LONG * m and _faded(S, w, k) == 1:
                 _cut_short(S, w, k)
+            if S.windowed == 1:
+                _fade(S, w, k)
+            if S.windowed == 1 and S.lone < 0 and _leaves(S, w, k) == 1:
+                S.impact_h = min(grown, _LARGEST * shortest)
+                return MOVED
             write_impact_slope(S, w, k, S.impact_slopes)
         else:
             _orient(S, w, k)

@@ -8,6 +8,7 @@ from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.contact_problem import accelerate, set_up, solve_contact
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact_problem import ENDLESS, FINISHED, energetic_impact
+from nonsmooth.engine.impact_window import LARGE, windowed_impact
 from nonsmooth.engine.instant_impulses import jam_slips, map_impact, reduced_coefficient
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates, row
@@ -97,7 +98,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     elif S.impact_map != 0:
         map_impact(S, w, k)
     else:
-        outcome = energetic_impact(S, w, k)
+        outcome = windowed_impact(S, w, k) if m > LARGE and S.painleve == 0 else energetic_impact(S, w, k)
         if outcome != FINISHED:
             return IMPACT_ENDLESS if outcome == ENDLESS else NOT_FINITE
     S.impacts += 1

@@ -78,21 +78,20 @@ def bind(
             heap += [float(x) for x in value]
         else:
             heap[i] = float(value)
-    return _address(function, form, owner, vectors), tuple(heap)
-
-
-@functools.cache
-def _address(function: Callable[..., Any], form: str, owner: str, vectors: tuple[bool, ...]) -> int:
-    names = parameter_names(function, form)
-    item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
-    items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
-    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items))
-    scope: dict[str, Any] = {"law": jit(function), "at": at}
-    exec(_SHIMS[form].format(unpacked=unpacked), scope)  # the shim's text is ours, never the user's
     try:
-        return address_of(scope["shim"], form)
+        return _address(function, form, vectors), tuple(heap)
     except COMPILATION_ERRORS as error:
         raise PluginError(
             f"{owner}: {function.__qualname__}({', '.join(ROLES[form] + names)}) cannot be compiled. "
             f"Run with NONSMOOTH_PLAIN=1 to debug it as plain Python. {error}"
         ) from error
+
+
+@functools.cache
+def _address(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> int:
+    item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
+    items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
+    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items))
+    scope: dict[str, Any] = {"law": jit(function), "at": at}
+    exec(_SHIMS[form].format(unpacked=unpacked), scope)  # the shim's text is ours, never the user's
+    return address_of(scope["shim"], form)

@@ -161,6 +161,22 @@ class System:
         self._require(body, "System.place")
         self._starts[id(body)] = body.state(**start)
 
+    def set_start(self, body: Body, q: Vector, u: Vector) -> None:
+        """Say where a body starts by its coordinates and velocities, shapes [n_q] and [n_u].
+
+        Raises
+        ------
+        InvalidInput
+            If the body is not of this system, or a shape is wrong, or a number is not finite.
+        """
+        self._require(body, "System.set_start")
+        for letter, value, size in (("q", q, body.n_q), ("u", u, body.n_u)):
+            if np.shape(value) != (size,) or not np.all(np.isfinite(value)):
+                raise InvalidInput(
+                    f"System.set_start: {letter}", f"must be {size} finite numbers", value, "See Body.state."
+                )
+        self._starts[id(body)] = np.array(q, dtype=float), np.array(u, dtype=float)
+
     def contact(
         self, first: Body, second: Body, *, normal: NormalLaw, friction: FrictionLaw, impact: ImpactLaw
     ) -> tuple[Contact, ...]:

@@ -37,8 +37,8 @@ class NewtonsCradle(Scenario):
 
     title: ClassVar[str] = "Newton's cradle"
 
-    n_balls: float = parameter(5.0, doc="number of balls, strikers included", minimum=2.0, maximum=100.0)
-    n_strikers: float = parameter(1.0, doc="number of balls that strike", minimum=1.0, maximum=99.0)
+    n_balls: float = parameter(5.0, doc="number of balls, strikers included", minimum=2.0, maximum=1000.0)
+    n_strikers: float = parameter(1.0, doc="number of balls that strike", minimum=1.0, maximum=999.0)
     radius: float = parameter(0.01, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0))
     density: float = parameter(7780.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
     mass_ratio: float = parameter(1.0, doc="mass of a striker over that of another ball", above=0.0, usual=(1e-3, 1e3))

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bodies import Ball, Dumbbell, Harmonic, Plane, PlaneSphere, Plate, Rest, Sphere
+from bodies import Ball, Dumbbell, Harmonic, Plane, Plate, Rest, Sphere
 from nonsmooth import InvalidInput, UnknownName
 from nonsmooth.parameters import UnusualValue
 
@@ -73,32 +73,11 @@ def test_harmonic_motion_is_its_own_derivative(t: float, phase: float) -> None:
 def test_rest_on_a_slope(slope: float) -> None:
     """A proper rotation whose first axis points downhill for a positive slope."""
     out = np.zeros(24)
-    Rest(slope).evaluator(0.0, None, None, out, slope)
+    Rest(slope).evaluator(0.0, None, None, out, **Rest(slope).parameters())
     axes = out[3:12].reshape(3, 3)
     np.testing.assert_allclose(axes.T @ axes, np.eye(3), rtol=0, atol=1e-15)
     assert np.linalg.det(axes) == pytest.approx(1.0)
     assert axes[2, 0] == pytest.approx(-math.sin(slope))
-
-
-vectors = st.tuples(*[st.floats(-2.0, 2.0)] * 3)
-
-
-@given(center=vectors, plate=vectors, angles=vectors, height=st.floats(-0.1, 0.1))
-def test_sphere_over_plane(build: Any, center: Any, plate: Any, angles: Any, height: float) -> None:
-    """Gap, normal and witness points in any frame: points on both surfaces, joined along the normal by the gap."""
-    pair = PlaneSphere(radius=0.3, x=0.1, y=-0.2, z=0.05, height=height)
-    frame_a, frame_b, out = np.zeros(24), np.zeros(24), np.zeros(29)
-    axes_a, axes_b = build.axes(*angles), build.axes(*angles[::-1])
-    frame_a[:3], frame_a[3:12], frame_b[:3], frame_b[3:12] = plate, axes_a.ravel(), center, axes_b.ravel()
-    pair.evaluator(frame_a, frame_b, out, **pair.parameters())
-    gap, normal, tangent, on_plane, on_sphere = out[0], out[1:4], out[4:7], out[7:10], out[10:13]
-    ball = np.array(center) + axes_b @ np.array([0.1, -0.2, 0.05])
-    assert np.linalg.norm(normal) == pytest.approx(1.0)
-    assert normal @ tangent == pytest.approx(0.0, abs=1e-14)
-    assert (axes_a.T @ (on_plane - np.array(plate)))[2] == pytest.approx(height, abs=1e-13)
-    assert np.linalg.norm(on_sphere - ball) == pytest.approx(0.3)
-    np.testing.assert_allclose(on_sphere - on_plane, gap * normal, rtol=0, atol=1e-13)
-    assert gap == pytest.approx((axes_a.T @ (ball - np.array(plate)))[2] - height - 0.3, abs=1e-13)
 
 
 BAD: list[tuple[Any, dict[str, Any], tuple[str, ...]]] = [

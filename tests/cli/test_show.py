@@ -30,7 +30,12 @@ def test_parameters_of_a_scenario(call: Call) -> None:
     [
         ("ball", "radius", "radius required m > 0 radius"),
         ("coulomb", "static_friction", "static_friction - 1 >= 0 static friction coefficient mu_s, by default mu"),
-        ("plate", "motion", "motion Rest(slope=0.0) a Motion given from Python only"),
+        (
+            "plate",
+            "motion",
+            "motion Rest(slope=0.0, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0)) "
+            "a Motion given from Python only",
+        ),
         ("newton", "duration", None),
     ],
 )

@@ -1,0 +1,115 @@
+"""Compound: bodies joined into one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, final
+
+import numpy as np
+
+from bodies.free import FreeBody
+from bodies.inertia import parallel_axis, tensor_of
+from bodies.moved import moved
+from bodies.values import rotation, unit_quaternion, vector
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.body import Vector
+
+
+@final
+@dataclass(frozen=True)
+class Part:
+    """A body and where it stands in a compound.
+
+    Attributes
+    ----------
+    body : FreeBody
+        Gives mass, inertia and shapes.
+    position : tuple of float
+        Its mass centre in the axes of the compound, from an origin of the user's choice [m, shape (3)].
+    orientation : tuple of float
+        Unit quaternion (scalar first) from its axes to the compound's.
+    """
+
+    body: FreeBody
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.body, FreeBody):
+            raise InvalidInput("Part.body", "must be a free body", self.body, "For example Ball(0.01).")
+        position = vector("Part.position", self.position, 3, "m")
+        orientation = unit_quaternion("Part.orientation", self.orientation)
+        object.__setattr__(self, "position", tuple(position.tolist()))
+        object.__setattr__(self, "orientation", tuple(orientation.tolist()))
+
+
+@final
+@dataclass(frozen=True)
+class Compound(FreeBody):
+    """A free body made of parts that are fixed to one another.
+
+    Its frame has the axes in which the parts are placed, and its origin at the common mass centre.  Parts that
+    overlap count twice where they do.
+
+    Attributes
+    ----------
+    parts : tuple of Part
+        At least one.
+    """
+
+    parts: tuple[Part, ...]
+    _tensor: Any = field(init=False, repr=False, compare=False)
+    _shapes: tuple[Shape, ...] = field(init=False, repr=False, compare=False)
+
+    def _check(self) -> None:
+        remedy = "Give parts, for example (Part(Ball(0.01)), Part(Ball(0.02), (0.03, 0.0, 0.0)))."
+        if not isinstance(self.parts, (tuple, list)) or not self.parts:
+            raise InvalidInput("Compound.parts", "must be a tuple of at least one part", self.parts, remedy)
+        for part in self.parts:
+            if not isinstance(part, Part):
+                raise InvalidInput("Compound.parts", "must contain parts only", part, remedy)
+        object.__setattr__(self, "parts", tuple(self.parts))
+        centre = np.array(self.centre)
+        tensor = np.zeros((3, 3))
+        shapes: list[Shape] = []
+        for part in self.parts:
+            offset, turn = np.array(part.position) - centre, rotation(part.orientation)
+            own = tensor_of(part.body.inertia, part.body.products)
+            tensor += turn @ own @ turn.T + parallel_axis(part.body.total_mass, offset)
+            shapes += [moved(shape, offset, np.array(part.orientation)) for shape in part.body.shapes]
+        object.__setattr__(self, "_tensor", _symmetric(tensor))
+        object.__setattr__(self, "_shapes", tuple(shapes))
+
+    @property
+    def centre(self) -> tuple[float, float, float]:
+        """The mass centre, from the origin in which the parts are placed [m]."""
+        moment = sum((part.body.total_mass * np.array(part.position) for part in self.parts), np.zeros(3))
+        x, y, z = (moment / self.total_mass).tolist()
+        return x, y, z
+
+    @property
+    def total_mass(self) -> float:
+        """Of all parts [kg]."""
+        return sum(part.body.total_mass for part in self.parts)
+
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """By the parallel-axis theorem [kg m^2]."""
+        return self._tensor[0][0], self._tensor[1][1], self._tensor[2][2]
+
+    @property
+    def products(self) -> tuple[float, float, float]:
+        """The elements J_yz, J_xz, J_xy [kg m^2]."""
+        return self._tensor[1][2], self._tensor[0][2], self._tensor[0][1]
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """Those of all parts, in the axes of the compound."""
+        return self._shapes
+
+
+def _symmetric(tensor: Vector) -> tuple[tuple[float, ...], ...]:
+    # what is left of products that cancel is round-off; without it principal axes stay principal
+    clean = np.where(np.abs(tensor) > 1e-15 * np.max(tensor), 0.5 * (tensor + tensor.T), 0.0)
+    return tuple(tuple(row) for row in clean.tolist())

@@ -1,0 +1,35 @@
+"""Surfaces at a distance from a core (a point, a segment): what spheres and capsules have in common."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.tangents import write_tangent
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+
+@compiled
+def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float) -> None:
+    """Write gap, axes and witness points; the nearest points of the two cores stand in place of the latter."""
+    x, y, z = out[10] - out[7], out[11] - out[8], out[12] - out[9]
+    distance = math.sqrt(x * x + y * y + z * z)
+    out[0] = distance - radius_a - radius_b
+    if distance > 0.0:
+        out[1], out[2], out[3] = x / distance, y / distance, z / distance
+    else:
+        # cores that meet have no normal; any will do there
+        out[1], out[2], out[3] = a[5], a[8], a[11]
+    for i in range(3):
+        out[7 + i] += radius_a * out[1 + i]
+        out[10 + i] -= radius_b * out[1 + i]
+    write_tangent(a, out)
+
+
+@compiled
+def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance: float, radius: float) -> None:
+    """Write gap, tangent and witness points of a sphere about (x, y, z) at a distance along the normal in ``out``."""
+    out[0] = distance - radius
+    out[7], out[8], out[9] = x - distance * out[1], y - distance * out[2], z - distance * out[3]
+    out[10], out[11], out[12] = x - radius * out[1], y - radius * out[2], z - radius * out[3]
+    write_tangent(a, out)

@@ -1,0 +1,61 @@
+"""A box over a plane, in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
+from bodies.contacts.frames import point_in_world
+from bodies.contacts.plane_point import place_over_plane
+from bodies.shapes.box import Box
+from bodies.shapes.plane import Plane
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    x: float,
+    y: float,
+    z: float,
+    height: float,
+) -> None:
+    vertex_x, vertex_y, vertex_z = point_in_world(b, x, y, z)
+    place_over_plane(a, out, vertex_x, vertex_y, vertex_z, 0.0, height)
+    write_flat(out, SIDE_A)
+    write_round(out, SIDE_B, 0.0)
+
+
+@final
+@dataclass(frozen=True)
+class PlaneBox(ContactKinematics):
+    """One vertex of a box over a plane; a box has eight such contacts."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Box)
+
+    x: float = parameter(doc="vertex in its body frame, first coordinate", unit="m")
+    y: float = parameter(doc="vertex in its body frame, second coordinate", unit="m")
+    z: float = parameter(doc="vertex in its body frame, third coordinate", unit="m")
+    height: float = parameter(doc="height of the plane in its body frame", unit="m")
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[PlaneBox, ...]:
+        """Return the contacts of the eight vertices."""
+        assert isinstance(second, Box)
+        height = first.parameters()["height"]
+        return tuple(cls(*vertex, height) for vertex in second.vertices)
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("plane-vertex",)

@@ -1,0 +1,37 @@
+"""The first tangent of a pair of shapes that has no direction of its own."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.frames import vector_in_body, vector_in_world
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+
+@compiled
+def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return a unit vector across the unit normal (x, y, z), continuous in it but for the normal (0, 0, -1).
+
+    No tangent field is continuous everywhere.  This one turns (1, 0, 0) with (0, 0, 1) to the normal on the shortest
+    way: J. R. Frisvad, "Building an orthonormal basis from a 3D unit vector without normalization", J. Graphics Tools
+    16 (2012) 151-159.
+    """
+    if z >= 0.0:
+        return 1.0 - x * x / (1.0 + z), -x * y / (1.0 + z), -x
+    # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits where the normal points down
+    square = x * x + y * y
+    if square == 0.0:
+        return 1.0, 0.0, 0.0
+    grow = (1.0 - z) / square
+    return 1.0 - grow * x * x, -grow * x * y, -x
+
+
+@compiled
+def write_tangent(a: Floats, out: Floats) -> None:
+    """Write the first tangent for the normal that stands in ``out``, fixed to the first body but for the normal."""
+    x, y, z = vector_in_body(a, out[1], out[2], out[3])
+    # the frame of a body may miss unit length by the error of a step
+    size = math.sqrt(x * x + y * y + z * z)
+    x, y, z = tangent_of(x / size, y / size, z / size)
+    out[4], out[5], out[6] = vector_in_world(a, x, y, z)

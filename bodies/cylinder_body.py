@@ -1,0 +1,63 @@
+"""CylinderBody: a solid circular cylinder."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+from bodies.free import FreeBody
+from bodies.inertia import check_mass, mass_of
+from bodies.shapes.cylinder import Cylinder
+from nonsmooth.interfaces import Shape
+from nonsmooth.parameters import parameter
+
+
+@final
+@dataclass(frozen=True)
+class CylinderBody(FreeBody):
+    """A free solid cylinder about the third body axis.
+
+    Attributes
+    ----------
+    radius : float
+        Radius [m].
+    half_length : float
+        Half the distance of the caps [m].
+    density : float, optional
+        Density [kg/m^3]; steel, 7800, where no mass is given.
+    mass : float, optional
+        Mass [kg], instead of the density.
+
+    Raises
+    ------
+    InvalidInput
+        If a size is not positive, or both mass and density are given.
+    """
+
+    radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-5, 10.0))
+    half_length: float = parameter(doc="half the distance of the caps", unit="m", above=0.0, usual=(1e-5, 10.0))
+    density: float | None = parameter(
+        None, doc="density; 7800 without a mass", unit="kg/m^3", above=0.0, usual=(10.0, 3e4)
+    )
+    mass: float | None = parameter(None, doc="mass, instead of the density", unit="kg", above=0.0)
+
+    def _check(self) -> None:
+        check_mass("CylinderBody", self.mass, self.density)
+
+    @property
+    def total_mass(self) -> float:
+        """As given, or density times 2 pi r^2 h, h the half-length [kg]."""
+        return mass_of(self.mass, self.density, 2.0 * math.pi * self.radius**2 * self.half_length)
+
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """Moments m (r^2 / 4 + h^2 / 3) across the axis, m r^2 / 2 about it [kg m^2]."""
+        mass, square = self.total_mass, self.radius**2
+        across = mass * (square / 4.0 + self.half_length**2 / 3.0)
+        return across, across, mass * square / 2.0
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """The cylinder about the mass centre."""
+        return (Cylinder(self.radius, self.half_length),)

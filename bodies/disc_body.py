@@ -1,0 +1,60 @@
+"""DiscBody: a thin circular disc."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+from bodies.free import FreeBody
+from bodies.inertia import check_mass, mass_of
+from bodies.shapes.disc import Disc
+from nonsmooth.interfaces import Shape
+from nonsmooth.parameters import parameter
+
+
+@final
+@dataclass(frozen=True)
+class DiscBody(FreeBody):
+    """A free disc without thickness about the third body axis: a coin, a plate on its rim.
+
+    Attributes
+    ----------
+    radius : float
+        Radius [m].
+    surface_density : float, optional
+        Mass per area [kg/m^2]; 7.8, a millimetre of steel, where no mass is given.
+    mass : float, optional
+        Mass [kg], instead of the surface density.
+
+    Raises
+    ------
+    InvalidInput
+        If the radius is not positive, or both mass and surface density are given.
+    """
+
+    radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-5, 10.0))
+    surface_density: float | None = parameter(
+        None, doc="mass per area; 7.8 without a mass", unit="kg/m^2", above=0.0, usual=(1e-3, 1e5)
+    )
+    mass: float | None = parameter(None, doc="mass, instead of the surface density", unit="kg", above=0.0)
+
+    def _check(self) -> None:
+        check_mass("DiscBody", self.mass, self.surface_density)
+
+    @property
+    def total_mass(self) -> float:
+        """As given, or surface density times pi r^2 [kg]."""
+        surface = 7.8 if self.surface_density is None else self.surface_density
+        return mass_of(self.mass, surface, math.pi * self.radius**2)
+
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """Moments m r^2 / 4 across the axis, m r^2 / 2 about it [kg m^2]."""
+        across = self.total_mass * self.radius**2 / 4.0
+        return across, across, 2.0 * across
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """The disc about the mass centre."""
+        return (Disc(self.radius),)

@@ -1,0 +1,78 @@
+"""Driven bodies: a motion carries shapes."""
+
+from __future__ import annotations
+
+from abc import ABC
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bodies.motions.rest import Rest
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Body, Motion
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import Value
+
+
+@dataclass(frozen=True)
+class Driven(Body, ABC):
+    """A body without coordinates whose frame moves as ``motion`` says; subclasses are final and give shapes."""
+
+    motion: Motion = field(default_factory=Rest)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.motion, Motion):
+            raise InvalidInput(
+                f"{type(self).__name__}.motion",
+                "must be a Motion",
+                self.motion,
+                "For example Harmonic(...) or Rest().",
+            )
+        super().__post_init__()
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the motion's parameters."""
+        return self.motion.parameters()
+
+    @property
+    def n_q(self) -> int:
+        """0: driven."""
+        return 0
+
+    @property
+    def n_u(self) -> int:
+        """0: driven."""
+        return 0
+
+    @property
+    def quaternion(self) -> int:
+        """None."""
+        return -1
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The motion's."""
+        return self.motion.evaluator
+
+    @property
+    def scales(self) -> tuple[Vector, Vector]:
+        """Empty."""
+        return np.zeros(0), np.zeros(0)
+
+    @property
+    def time_scale(self) -> float:
+        """The motion's [s]."""
+        return self.motion.time_scale
+
+    def state(self, **start: Any) -> tuple[Vector, Vector]:
+        """Return empty vectors; a driven body cannot be placed."""
+        if start:
+            raise InvalidInput(
+                f"start of a {type(self).__name__}",
+                "must not be given",
+                sorted(start),
+                "Its motion says where it is at t = 0.",
+            )
+        return np.zeros(0), np.zeros(0)

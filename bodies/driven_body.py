@@ -1,0 +1,39 @@
+"""DrivenBody: any shapes on a prescribed motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+from bodies.carried import check_carried
+from bodies.driven import Driven
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Shape
+
+
+@final
+@dataclass(frozen=True)
+class DrivenBody(Driven):
+    """A body that moves as ``motion`` says, whatever touches it, and carries any shapes.
+
+    Attributes
+    ----------
+    motion : Motion
+        The motion of its frame.
+    carried : tuple of Shape
+        Its shapes, at least one, in the axes of the frame.
+    """
+
+    carried: tuple[Shape, ...] = ()
+
+    def _check(self) -> None:
+        object.__setattr__(self, "carried", check_carried("DrivenBody.carried", self.carried))
+        if not self.carried:
+            raise InvalidInput(
+                "DrivenBody.carried", "must hold at least one shape", self.carried, "Without one nothing can touch it."
+            )
+
+    @property
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with the shapes as given."""
+        return (self.carried,)

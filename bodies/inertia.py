@@ -1,0 +1,97 @@
+"""Inertia tensors: rules, parallel axes, masses."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from bodies.values import vector
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces.body import Vector
+
+Triple = tuple[float, float, float]
+
+STEEL = 7800.0
+"""Density where neither mass nor density is given [kg/m^3]."""
+
+_ROUND_OFF = 1e-9
+
+
+def tensor_of(moments: Triple, products: Triple) -> Vector:
+    """Return the tensor [kg m^2, shape (3, 3)] of J_xx, J_yy, J_zz and J_yz, J_xz, J_xy."""
+    (x, y, z), (yz, xz, xy) = moments, products
+    return np.array([[x, xy, xz], [xy, y, yz], [xz, yz, z]])
+
+
+def read_tensor(thing: str, value: Any) -> Vector:
+    """Return an inertia tensor, shape [3, 3], from one or from three principal moments [kg m^2].
+
+    Raises
+    ------
+    InvalidInput
+        If it has another shape, a number that is not finite, or is not symmetric.
+    """
+    if np.shape(value) == (3,):
+        return np.diag(vector(thing, value, 3, "kg m^2"))
+    if np.shape(value) != (3, 3):
+        raise InvalidInput(thing, "must be three principal moments or a 3 x 3 tensor", value, "Give it in [kg m^2].")
+    rows = np.array([vector(thing, row, 3, "kg m^2") for row in value])
+    if np.max(np.abs(rows - rows.T)) > _ROUND_OFF * np.max(np.abs(rows)):
+        raise InvalidInput(thing, "must be symmetric", rows.tolist(), "J_xy = J_yx = -integral of x y dm, and so on.")
+    return np.asarray(0.5 * (rows + rows.T))
+
+
+def check_inertia(name: str, mass: float, tensor: Vector) -> None:
+    """Check what every body with mass obeys.
+
+    Raises
+    ------
+    InvalidInput
+        If the mass is not positive, the tensor not positive definite, or one of its principal moments is larger than
+        the sum of the others.
+    """
+    if not 0.0 < mass < math.inf:
+        raise InvalidInput(f"mass of {name}", "must be positive and finite [kg]", mass, "A body that moves has mass.")
+    if not np.all(np.isfinite(tensor)):
+        raise InvalidInput(f"inertia of {name}", "must be finite", tensor.tolist(), "Give it in [kg m^2].")
+    moments = np.linalg.eigvalsh(tensor)
+    shown = [float(f"{moment:.9g}") for moment in moments]
+    if moments[0] <= 1e-14 * moments[2]:
+        raise InvalidInput(
+            f"inertia of {name}",
+            "must be positive definite",
+            tensor.tolist(),
+            f"Its principal moments are {shown} [kg m^2]; a body without extent has none.",
+        )
+    if moments[2] > (moments[0] + moments[1]) * (1.0 + _ROUND_OFF):
+        raise InvalidInput(
+            f"inertia of {name}",
+            "must have no principal moment larger than the sum of the other two",
+            shown,
+            "No distribution of mass has such moments; check the axes and the signs of the products.",
+        )
+
+
+def parallel_axis(mass: float, offset: Vector) -> Vector:
+    """Return what a mass [kg] adds to the tensor when its centre is at ``offset`` [m] from the origin, shape [3, 3]."""
+    return mass * (float(offset @ offset) * np.eye(3) - np.outer(offset, offset))
+
+
+def check_mass(name: str, mass: float | None, density: float | None) -> None:
+    """Raise InvalidInput if both mass and density are given: one of them would be ignored."""
+    if mass is not None and density is not None:
+        raise InvalidInput(
+            f"{name}.mass",
+            "must not be given together with the density",
+            mass,
+            "Give one of the two; the other follows.",
+        )
+
+
+def mass_of(mass: float | None, density: float | None, volume: float) -> float:
+    """Return the mass [kg]: as given, or density [kg/m^3] (steel by default) times volume [m^3]."""
+    if mass is not None:
+        return mass
+    return (STEEL if density is None else density) * volume

@@ -1,0 +1,142 @@
+"""LineBody: slides along a line without turning."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from bodies.carried import check_carried
+from bodies.motions.pose import pose_parameters
+from bodies.values import Word, read_start, unit_quaternion, unit_vector, vector
+from nonsmooth.interfaces import Body, Shape
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
+
+_WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
+
+
+def _evaluate(
+    t: float,
+    q: Floats,
+    u: Floats,
+    out: Floats,
+    mass: float,
+    direction_x: float,
+    direction_y: float,
+    direction_z: float,
+    x: float,
+    y: float,
+    z: float,
+    xx: float,
+    xy: float,
+    xz: float,
+    yx: float,
+    yy: float,
+    yz: float,
+    zx: float,
+    zy: float,
+    zz: float,
+    gravity_x: float,
+    gravity_y: float,
+    gravity_z: float,
+) -> None:
+    out[0], out[1], out[2] = x + direction_x * q[0], y + direction_y * q[0], z + direction_z * q[0]
+    out[3], out[4], out[5] = xx, xy, xz
+    out[6], out[7], out[8] = yx, yy, yz
+    out[9], out[10], out[11] = zx, zy, zz
+    out[12], out[13], out[14] = direction_x * u[0], direction_y * u[0], direction_z * u[0]
+    out[24], out[25], out[26] = direction_x, direction_y, direction_z
+    out[30] = u[0]
+    out[31] = mass * (gravity_x * direction_x + gravity_y * direction_y + gravity_z * direction_z)
+    out[32] = 1.0 / mass
+    out[33] = 0.5 * mass * u[0] * u[0]
+    out[34] = -mass * (gravity_x * out[0] + gravity_y * out[1] + gravity_z * out[2])
+
+
+@final
+@dataclass(frozen=True)
+class LineBody(Body):
+    """A rigid body that slides along a fixed line, as in a frictionless guide, and does not turn.
+
+    Its coordinate is the distance along the line [m], its velocity the rate of it.
+
+    Attributes
+    ----------
+    mass : float
+        Mass [kg].
+    direction : tuple of float
+        Unit vector of the line, in world axes.
+    carried : tuple of Shape
+        Its shapes, in axes with the origin on the line.
+    origin : tuple of float
+        Where on the line the coordinate is zero [m, shape (3)].
+    orientation : tuple of float
+        Unit quaternion (scalar first) from its axes to the world's.
+    """
+
+    mass: float = parameter(doc="mass", unit="kg", above=0.0)
+    direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    carried: tuple[Shape, ...] = ()
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+
+    def _check(self) -> None:
+        values = {
+            "direction": unit_vector("LineBody.direction", self.direction),
+            "origin": vector("LineBody.origin", self.origin, 3, "m"),
+            "orientation": unit_quaternion("LineBody.orientation", self.orientation),
+        }
+        for name, value in values.items():
+            object.__setattr__(self, name, tuple(value.tolist()))
+        object.__setattr__(self, "carried", check_carried("LineBody.carried", self.carried))
+
+    def parameters(self) -> dict[str, float]:
+        """Return mass, direction and the pose at the origin."""
+        direction = {f"direction_{letter}": x for letter, x in zip("xyz", self.direction, strict=True)}
+        return {"mass": float(self.mass)} | direction | pose_parameters(self.origin, self.orientation)
+
+    @property
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with the shapes as given."""
+        return (self.carried,)
+
+    @property
+    def n_q(self) -> int:
+        """The distance along the line."""
+        return 1
+
+    @property
+    def n_u(self) -> int:
+        """Its rate."""
+        return 1
+
+    @property
+    def quaternion(self) -> int:
+        """None."""
+        return -1
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's equation along the line."""
+        return _evaluate
+
+    @property
+    def time_scale(self) -> float:
+        """Infinite [s]: nothing is prescribed."""
+        return math.inf
+
+    @property
+    def scales(self) -> tuple[Vector, Vector]:
+        """The length of the body, 1 m without shapes, and the speed of a fall through it."""
+        length = max((shape.length for shape in self.carried), default=0.0) or 1.0
+        return np.array([length]), np.array([math.sqrt(9.81 * length)])
+
+    def state(self, **start: Any) -> tuple[Vector, Vector]:
+        """Return q and u from position [m] and velocity [m/s], both along the line."""
+        values = read_start("LineBody", _WORDS, start)
+        return np.array([values["position"]]), np.array([values["velocity"]])

@@ -1,0 +1,110 @@
+"""FunctionMotion: a motion written as Python functions of time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias, final
+
+from bodies.motions.function_check import Function, check_linear, check_turn
+from nonsmooth.compiled import compiled
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Motion
+from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
+
+Evaluator: TypeAlias = Callable[..., None]
+
+
+def _translation(position: Function, velocity: Function, acceleration: Function) -> Evaluator:
+    p, v, a = compiled(position), compiled(velocity), compiled(acceleration)
+
+    def evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
+        out[0], out[1], out[2] = p(t)
+        out[3] = out[7] = out[11] = 1.0
+        out[12], out[13], out[14] = v(t)
+        out[18], out[19], out[20] = a(t)
+
+    return evaluate
+
+
+def _turning(translation: Evaluator, orientation: Function, velocity: Function, acceleration: Function) -> Evaluator:
+    move, r, v, a = compiled(translation), compiled(orientation), compiled(velocity), compiled(acceleration)
+
+    def evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
+        move(t, q, u, out)
+        w, x, y, z = r(t)
+        out[3], out[4], out[5] = w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)
+        out[6], out[7], out[8] = 2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x)
+        out[9], out[10], out[11] = 2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z
+        out[15], out[16], out[17] = v(t)
+        out[21], out[22], out[23] = a(t)
+
+    return evaluate
+
+
+@final
+@dataclass(frozen=True)
+class FunctionMotion(Motion):
+    """A motion given by plain Python functions of time [s], each returning a tuple of floats; numba compiles them.
+
+    The functions are sampled over ``duration`` when the motion is made: values must be finite, and velocities and
+    accelerations the derivatives, without jumps.  What they do later nobody has looked at.
+
+    Attributes
+    ----------
+    position, velocity, acceleration : callable
+        Of the origin of the frame: (x, y, z) [m], [m/s], [m/s^2].
+    duration : float
+        How long it is looked at [s]; give the end of the run, or a period.
+    shortest_change : float
+        Shortest time over which it changes [s], for example the period of its fastest vibration; bounds the steps.
+    orientation, angular_velocity, angular_acceleration : callable, optional
+        Of the frame: unit quaternion (scalar first), (x, y, z) in world axes [rad/s], [rad/s^2]; all three or none.
+
+    Raises
+    ------
+    InvalidInput
+        If a function raises, returns something else than floats of the right number, or does not belong to the others.
+    PluginError
+        If a function cannot be compiled.
+    """
+
+    position: Function
+    velocity: Function
+    acceleration: Function
+    duration: float = parameter(doc="how long it is looked at", unit="s", above=0.0)
+    shortest_change: float = parameter(doc="shortest time over which it changes", unit="s", above=0.0)
+    orientation: Function | None = None
+    angular_velocity: Function | None = None
+    angular_acceleration: Function | None = None
+    _evaluator: Evaluator = field(init=False, repr=False, compare=False)
+
+    def _check(self) -> None:
+        span = self.duration, self.shortest_change
+        check_linear((self.position, self.velocity, self.acceleration), *span)
+        evaluator = _translation(self.position, self.velocity, self.acceleration)
+        turn: Any = self.orientation, self.angular_velocity, self.angular_acceleration
+        if any(function is not None for function in turn):
+            for name, function in zip(("orientation", "angular_velocity", "angular_acceleration"), turn, strict=True):
+                if function is None:
+                    raise InvalidInput(
+                        f"FunctionMotion.{name}", "must be given with the other two", None, "A turn needs all three."
+                    )
+            check_turn(turn, *span)
+            evaluator = _turning(evaluator, *turn)
+        object.__setattr__(self, "_evaluator", evaluator)
+
+    def parameters(self) -> dict[str, float]:
+        """Return nothing: the functions know all."""
+        return {}
+
+    @property
+    def evaluator(self) -> Evaluator:
+        """The functions, put together."""
+        return self._evaluator
+
+    @property
+    def time_scale(self) -> float:
+        """As given [s]."""
+        return self.shortest_change

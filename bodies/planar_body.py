@@ -1,0 +1,126 @@
+"""PlanarBody: moves in a plane, as in drawings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from bodies.carried import check_carried
+from bodies.values import Word, read_start
+from nonsmooth.interfaces import Body, Shape
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
+
+_WORDS: dict[str, Word] = {
+    "position": (2, (0.0, 0.0), "m"),
+    "angle": (0, 0.0, "rad"),
+    "velocity": (2, (0.0, 0.0), "m/s"),
+    "angular_velocity": (0, 0.0, "rad/s"),
+}
+
+
+def _evaluate(
+    t: float,
+    q: Floats,
+    u: Floats,
+    out: Floats,
+    mass: float,
+    moment: float,
+    y: float,
+    gravity_x: float,
+    gravity_y: float,
+    gravity_z: float,
+) -> None:
+    c, s = math.cos(q[2]), math.sin(q[2])
+    out[0], out[1], out[2] = q[0], y, q[1]
+    out[3], out[5] = c, s
+    out[7] = 1.0
+    out[9], out[11] = -s, c
+    out[12], out[14], out[16] = u[0], u[1], u[2]
+    # Jacobian: x, z and the turn about y
+    out[24] = out[24 + 7] = out[24 + 14] = 1.0
+    rates, force, inverse, energy = 42, 45, 48, 57
+    for i in range(3):
+        out[rates + i] = u[i]
+    out[force], out[force + 1] = mass * gravity_x, mass * gravity_z
+    out[inverse] = out[inverse + 4] = 1.0 / mass
+    out[inverse + 8] = 1.0 / moment
+    out[energy] = 0.5 * (mass * (u[0] * u[0] + u[1] * u[1]) + moment * u[2] * u[2])
+    out[energy + 1] = -mass * (gravity_x * q[0] + gravity_y * y + gravity_z * q[1])
+
+
+@final
+@dataclass(frozen=True)
+class PlanarBody(Body):
+    """A rigid body that moves in the plane of x and z and turns about y.
+
+    Coordinates: x and z of the mass centre [m], angle about the y axis [rad], which at a small positive angle points
+    the first body axis downwards.  Velocities: their rates.
+
+    Attributes
+    ----------
+    mass : float
+        Mass [kg].
+    moment : float
+        Moment of inertia about the y axis through the mass centre [kg m^2].
+    carried : tuple of Shape
+        Its shapes, in axes with the origin at the mass centre.
+    y : float
+        Where its plane is [m].
+    """
+
+    mass: float = parameter(doc="mass", unit="kg", above=0.0)
+    moment: float = parameter(doc="moment of inertia about the y axis", unit="kg m^2", above=0.0)
+    carried: tuple[Shape, ...] = ()
+    y: float = parameter(0.0, doc="second coordinate of its plane", unit="m")
+
+    def _check(self) -> None:
+        object.__setattr__(self, "carried", check_carried("PlanarBody.carried", self.carried))
+
+    @property
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with the shapes as given."""
+        return (self.carried,)
+
+    @property
+    def n_q(self) -> int:
+        """Two coordinates and an angle."""
+        return 3
+
+    @property
+    def n_u(self) -> int:
+        """Their rates."""
+        return 3
+
+    @property
+    def quaternion(self) -> int:
+        """None."""
+        return -1
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton-Euler equations in the plane."""
+        return _evaluate
+
+    @property
+    def time_scale(self) -> float:
+        """Infinite [s]: nothing is prescribed."""
+        return math.inf
+
+    @property
+    def scales(self) -> tuple[Vector, Vector]:
+        """The length of the body, at least its radius of gyration, and the speed of a fall through it."""
+        length = max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.carried)])
+        speed = math.sqrt(9.81 * length)
+        return np.array([length, length, 1.0]), np.array([speed, speed, speed / length])
+
+    def state(self, **start: Any) -> tuple[Vector, Vector]:
+        """Return q and u from position (x, z) [m], angle [rad], velocity [m/s], angular_velocity [rad/s]."""
+        values = read_start("PlanarBody", _WORDS, start)
+        q = np.append(values["position"], values["angle"])
+        return q, np.append(values["velocity"], values["angular_velocity"])

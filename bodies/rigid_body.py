@@ -1,0 +1,64 @@
+"""RigidBody: mass, inertia and shapes as given."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, final
+
+from bodies.carried import check_carried
+from bodies.free import FreeBody
+from bodies.inertia import read_tensor
+from nonsmooth.interfaces import Shape
+from nonsmooth.parameters import parameter
+
+
+@final
+@dataclass(frozen=True)
+class RigidBody(FreeBody):
+    """A free body with given mass, inertia and shapes.
+
+    Attributes
+    ----------
+    mass : float
+        Mass [kg].
+    tensor : sequence
+        Three principal moments of inertia, or the inertia tensor about the mass centre in the axes of the body
+        [kg m^2, shape (3) or (3, 3)]; the element J_xy is -integral of x y dm.
+    carried : tuple of Shape
+        Its shapes, in axes with the origin at the mass centre.
+
+    Raises
+    ------
+    InvalidInput
+        If the tensor is not symmetric, not positive definite, or of no distribution of mass.
+    """
+
+    mass: float = parameter(doc="mass", unit="kg", above=0.0)
+    tensor: Sequence[Any] = field()  # type: ignore[misc]
+    carried: tuple[Shape, ...] = ()
+
+    def _check(self) -> None:
+        tensor = read_tensor("RigidBody.tensor", self.tensor)
+        object.__setattr__(self, "tensor", tuple(tuple(row) for row in tensor.tolist()))
+        object.__setattr__(self, "carried", check_carried("RigidBody.carried", self.carried))
+
+    @property
+    def total_mass(self) -> float:
+        """As given [kg]."""
+        return self.mass
+
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """The diagonal of the tensor [kg m^2]."""
+        return self.tensor[0][0], self.tensor[1][1], self.tensor[2][2]
+
+    @property
+    def products(self) -> tuple[float, float, float]:
+        """Its elements J_yz, J_xz, J_xy [kg m^2]."""
+        return self.tensor[1][2], self.tensor[0][2], self.tensor[0][1]
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """As given."""
+        return self.carried

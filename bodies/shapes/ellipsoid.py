@@ -1,0 +1,59 @@
+"""Ellipsoid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+from bodies.shapes.placement import turned
+from nonsmooth.interfaces import Shape
+from nonsmooth.parameters import parameter
+from nonsmooth.vectors import unit_vector
+
+
+@final
+@dataclass(frozen=True)
+class Ellipsoid(Shape):
+    """A solid ellipsoid with its centre at (x, y, z) in the body frame and its axes turned by a unit quaternion."""
+
+    semi_x: float = parameter(doc="first semi-axis", unit="m", above=0.0)
+    semi_y: float = parameter(doc="second semi-axis", unit="m", above=0.0)
+    semi_z: float = parameter(doc="third semi-axis", unit="m", above=0.0)
+    x: float = parameter(0.0, doc="centre, first coordinate", unit="m")
+    y: float = parameter(0.0, doc="centre, second coordinate", unit="m")
+    z: float = parameter(0.0, doc="centre, third coordinate", unit="m")
+    orientation_w: float = parameter(1.0, doc="quaternion from its axes to the body's, scalar part")
+    orientation_x: float = parameter(0.0, doc="quaternion, first component")
+    orientation_y: float = parameter(0.0, doc="quaternion, second component")
+    orientation_z: float = parameter(0.0, doc="quaternion, third component")
+
+    def _check(self) -> None:
+        orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
+        unit_vector("Ellipsoid orientation", orientation, 4)
+
+    @property
+    def length(self) -> float:
+        """Distance of the farthest point [m].
+
+        Where |c + A v| is largest over |v| = 1, (l - A^2) v = A c with l not below the largest a^2; |v| falls with l.
+        """
+        inverse = self.orientation_w, -self.orientation_x, -self.orientation_y, -self.orientation_z
+        semi = self.semi_x, self.semi_y, self.semi_z
+        center = turned(*inverse, self.x, self.y, self.z)
+        pull = [a * c for a, c in zip(semi, center, strict=True)]
+        largest = max(semi) ** 2
+        low, high = largest, largest + math.hypot(*pull)
+        while low < (middle := 0.5 * (low + high)) < high:
+            long = math.hypot(*[_over(p, middle - a * a) for p, a in zip(pull, semi, strict=True)]) > 1.0
+            low, high = (middle, high) if long else (low, middle)
+        v = [_over(p, high - a * a) for p, a in zip(pull, semi, strict=True)]
+        # where nothing pulls along the longest axis, what is missing of |v| = 1 goes there
+        longest = semi.index(max(semi))
+        rest = math.hypot(*[c for i, c in enumerate(v) if i != longest])
+        v[longest] = math.copysign(math.sqrt(max(1.0 - rest * rest, 0.0)), center[longest])
+        return math.hypot(*[c + a * w for c, a, w in zip(center, semi, v, strict=True)])
+
+
+def _over(numerator: float, denominator: float) -> float:
+    return numerator / denominator if denominator > 0.0 else 0.0

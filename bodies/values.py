@@ -1,0 +1,106 @@
+"""Vectors and rotations that a user gives: checked once, for bodies and motions alike."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from nonsmooth import vectors
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.interfaces.body import Vector
+
+Word = tuple[int, Any, str]
+"""Size (0 for a single number), default and unit of a word of a start."""
+
+_UNIT_TOLERANCE = 1e-9
+
+
+def vector(thing: str, value: Any, size: int, unit: str) -> Vector:
+    """Return ``value`` as an array of ``size`` finite floats, or of shape [] where the size is 0.
+
+    Raises
+    ------
+    InvalidInput
+        If it has another shape or a number that is not finite.
+    """
+    if size:
+        return np.array(vectors.vector(thing, value, size, unit))
+    try:
+        return np.array(vectors.vector(thing, (value,), 1, unit)[0])
+    except InvalidInput:
+        raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{unit}].") from None
+
+
+def unit_vector(thing: str, value: Any) -> Vector:
+    """Return ``value`` as three floats of unit length, normalised; raise InvalidInput if they are not."""
+    return np.array(vectors.unit_vector(thing, value))
+
+
+def unit_quaternion(thing: str, value: Any) -> Vector:
+    """Return ``value`` as a unit quaternion (scalar first), normalised; raise InvalidInput if it is not one."""
+    array = vector(thing, value, 4, "1")
+    norm = float(np.linalg.norm(array))
+    if abs(norm - 1.0) > _UNIT_TOLERANCE:
+        raise InvalidInput(
+            thing,
+            "must be a unit quaternion (scalar first)",
+            array.tolist(),
+            f"Divide it by its length {norm:.6g}.",
+        )
+    return array / norm
+
+
+def rotation(quaternion: Any) -> Vector:
+    """Return the rotation matrix of a unit quaternion (scalar first), shape [3, 3]."""
+    a, b, c, d = (float(x) for x in quaternion)
+    return np.array(
+        [
+            [a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)],
+            [2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)],
+            [2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d],
+        ]
+    )
+
+
+def read_start(name: str, words: Mapping[str, Word], start: Mapping[str, Any]) -> dict[str, Vector]:
+    """Return the values of all words of a start, given or by default.
+
+    Parameters
+    ----------
+    name : str
+        The body, for messages.
+    words : mapping of str to Word
+        The words that the body knows.
+    start : mapping of str to object
+        What the user gave.
+
+    Raises
+    ------
+    UnknownName
+        If a word is not known.
+    InvalidInput
+        If a value has another shape or a number that is not finite.
+    """
+    for word in start:
+        if word not in words:
+            raise UnknownName(f"start of {name}", word, words)
+    return {
+        word: vector(f"{word} of {name}", start.get(word, default), size, unit)
+        for word, (size, default, unit) in words.items()
+    }
+
+
+def product(p: Any, q: Any) -> Vector:
+    """Return the product of two quaternions (scalar first): the turn q, then the turn p."""
+    a, b, c, d = (float(x) for x in p)
+    e, f, g, h = (float(x) for x in q)
+    return np.array(
+        [
+            a * e - b * f - c * g - d * h,
+            a * f + b * e + c * h - d * g,
+            a * g + c * e + d * f - b * h,
+            a * h + d * e + b * g - c * f,
+        ]
+    )

@@ -1,0 +1,150 @@
+"""Bodies that carry any shapes, for tests of shapes and contact pairs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+import nonsmooth as ns
+from bodies import FreeBody, Rest
+from nonsmooth.engine.kernel import call_room
+from nonsmooth.interfaces import Body, Shape
+from nonsmooth.model.assembly import assemble
+from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.options import Options
+from nonsmooth.parameters import Value
+
+Array = NDArray[np.float64]
+
+
+@final
+@dataclass(frozen=True)
+class Carrier(FreeBody):
+    """A free body with the shapes, mass [kg] and principal moments [kg m^2] given."""
+
+    carried: tuple[Shape, ...]
+    mass: float = 1.0
+    moments: tuple[float, float, float] = (0.1, 0.1, 0.1)
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """Those given."""
+        return self.carried
+
+    @property
+    def total_mass(self) -> float:
+        """The one given."""
+        return self.mass
+
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """The one given."""
+        return self.moments
+
+    @property
+    def scales(self) -> tuple[Array, Array]:
+        """A metre, as a plane has no length."""
+        return np.ones(7), np.ones(6)
+
+
+@final
+@dataclass(frozen=True)
+class Stand(Body):
+    """A body at rest with the shapes given."""
+
+    carried: tuple[Shape, ...]
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return those of the rest."""
+        return Rest().parameters()
+
+    @property
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        """One frame with those given."""
+        return (self.carried,)
+
+    @property
+    def n_q(self) -> int:
+        """0: at rest."""
+        return 0
+
+    @property
+    def n_u(self) -> int:
+        """0: at rest."""
+        return 0
+
+    @property
+    def quaternion(self) -> int:
+        """None."""
+        return -1
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The rest's."""
+        return Rest().evaluator
+
+    @property
+    def scales(self) -> tuple[Array, Array]:
+        """Empty."""
+        return np.zeros(0), np.zeros(0)
+
+    @property
+    def time_scale(self) -> float:
+        """Infinite [s]."""
+        return np.inf
+
+    def state(self, **start: Any) -> tuple[Array, Array]:
+        """Return nothing."""
+        return np.zeros(0), np.zeros(0)
+
+
+def turned(q: Any, omega: Any, dt: float = 1.0) -> Array:
+    """Return the quaternion (scalar first) after turning at constant body rate."""
+    moved = Rotation.from_quat(np.roll(q, -1)) * Rotation.from_rotvec(np.asarray(omega) * dt)
+    return np.asarray(np.roll(moved.as_quat(), 1))
+
+
+class Rig:
+    """Two free bodies, one shape each, that can be put anywhere; gives what the engine makes of their contacts."""
+
+    def __init__(self, shapes: tuple[Shape, Shape], laws: dict[str, Any]) -> None:
+        self._bodies = Carrier((shapes[0],)), Carrier((shapes[1],))
+        self._system = ns.System(self._bodies)
+        self.contacts = self._system.contact(*self._bodies, **laws)
+        self._system.place(self._bodies[1], position=(0.0, 0.0, 50.0))
+        self._model = assemble(self._system, Options())
+
+    def put(self, poses: Any, u: Any) -> None:
+        """Put the bodies at (position, quaternion) each, with velocities u [12]."""
+        q = np.concatenate([np.concatenate(pose) for pose in poses])
+        self._model.memory.array("y", 26)[:] = np.concatenate([q, u])
+        call_room("evaluate_at", self._model.memory)
+
+    def _rows(self, name: str, width: int) -> Array:
+        n = len(self.contacts)
+        return self._model.memory.array(name, width * n).reshape(n, width).copy()
+
+    @property
+    def geometry(self) -> Array:
+        """Geometry blocks, shape [n_contacts, 30]."""
+        return self._rows("geometry", GEOMETRY)
+
+    @property
+    def axes(self) -> Array:
+        """Normal and tangents, shape [n_contacts, 3, 3]."""
+        return self._rows("axes", 9).reshape(-1, 3, 3)
+
+    @property
+    def rate(self) -> Array:
+        """Gap rate and slip velocity, shape [n_contacts, 3]."""
+        return self._rows("rate", 3)
+
+    @property
+    def bias(self) -> Array:
+        """Their derivatives while u' = 0, shape [n_contacts, 3]."""
+        return self._rows("bias", 3)

@@ -1,0 +1,220 @@
+"""All contact pairs: gaps against support functions, rates and second-order terms against finite differences."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from bodies import Box, Capsule, Cylinder, Disc, Ellipsoid, Plane, Sphere
+from nonsmooth.interfaces import Shape
+from tests.bodies.carriers import Rig, turned
+
+Array = NDArray[np.float64]
+
+PLACE = {"x": 0.1, "y": -0.05, "z": 0.07}
+AXIS = {"axis_x": 0.48, "axis_y": -0.6, "axis_z": 0.64}
+AXES = {"orientation_w": 0.8, "orientation_x": 0.36, "orientation_y": -0.48}
+PLANE = Plane(0.1)
+SPHERE = Sphere(0.2, x=-0.05, y=0.1, z=0.02)
+BOX = Box(0.3, 0.2, 0.4, **PLACE, **AXES)
+CAPSULE = Capsule(0.15, 0.4, **PLACE, **AXIS)
+CYLINDER = Cylinder(0.3, 0.25, **PLACE, **AXIS)
+DISC = Disc(0.4, **PLACE, **AXIS)
+ELLIPSOID = Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES)
+
+PAIRS: dict[str, tuple[Shape, Shape, int]] = {
+    "plane-sphere": (PLANE, SPHERE, 1),
+    "plane-capsule": (PLANE, CAPSULE, 2),
+    "plane-box": (PLANE, BOX, 8),
+    "plane-disc": (PLANE, DISC, 1),
+    "plane-cylinder": (PLANE, CYLINDER, 2),
+    "plane-ellipsoid": (PLANE, ELLIPSOID, 1),
+    "sphere-sphere": (SPHERE, Sphere(0.3, x=0.1), 1),
+    "box-sphere": (BOX, SPHERE, 1),
+    "capsule-sphere": (CAPSULE, SPHERE, 1),
+    "cylinder-sphere": (CYLINDER, SPHERE, 1),
+    "disc-sphere": (DISC, SPHERE, 1),
+    "capsule-capsule": (CAPSULE, Capsule(0.1, 0.3, x=0.02, axis_y=-0.6, axis_z=0.8), 1),
+}
+"""Pairs of shapes, and how many contacts they have."""
+
+_rigs: dict[str, Rig] = {}
+
+
+def _rig(build: Any, name: str) -> Rig:
+    if name not in _rigs:
+        _rigs[name] = Rig(PAIRS[name][:2], build.laws())
+    return _rigs[name]
+
+
+# what the shapes are, said a second time and in another way: by support function and by membership
+
+
+def _local(shape: Any, x: Array) -> Array:
+    return np.asarray(x - np.array([shape.x, shape.y, shape.z]))
+
+
+def _own_axes(shape: Any) -> Array:
+    parts = [shape.orientation_x, shape.orientation_y, shape.orientation_z, shape.orientation_w]
+    return np.asarray(Rotation.from_quat(parts).as_matrix())
+
+
+def _axis(shape: Any) -> Array:
+    return np.array([shape.axis_x, shape.axis_y, shape.axis_z])
+
+
+def _across(shape: Any, x: Array) -> Any:
+    axis = _axis(shape)
+    return np.linalg.norm(x - np.multiply.outer(x @ axis, axis), axis=-1)
+
+
+SUPPORT: dict[type[Shape], Any] = {
+    Sphere: lambda s, n: s.radius,
+    Capsule: lambda s, n: s.radius + s.half_length * np.abs(n @ _axis(s)),
+    Cylinder: lambda s, n: s.radius * _across(s, n) + s.half_length * np.abs(n @ _axis(s)),
+    Disc: lambda s, n: s.radius * _across(s, n),
+    Box: lambda s, n: np.abs(n @ _own_axes(s)) @ np.array([s.half_x, s.half_y, s.half_z]),
+    Ellipsoid: lambda s, n: np.linalg.norm(n @ _own_axes(s) * np.array([s.semi_x, s.semi_y, s.semi_z]), axis=-1),
+}
+"""max n . x over a shape, from its centre."""
+
+OUTSIDE: dict[type[Shape], Any] = {
+    Plane: lambda s, x: x[2] - s.height,
+    Sphere: lambda s, x: np.linalg.norm(_local(s, x)) - s.radius,
+    Capsule: lambda s, x: (
+        np.linalg.norm(_local(s, x) - np.clip(_local(s, x) @ _axis(s), -s.half_length, s.half_length) * _axis(s))
+        - s.radius
+    ),
+    Cylinder: lambda s, x: max(abs(_local(s, x) @ _axis(s)) - s.half_length, _across(s, _local(s, x)) - s.radius),
+    Disc: lambda s, x: max(abs(_local(s, x) @ _axis(s)), _across(s, _local(s, x)) - s.radius),
+    Box: lambda s, x: np.max(np.abs(_local(s, x) @ _own_axes(s)) - np.array([s.half_x, s.half_y, s.half_z])),
+    Ellipsoid: lambda s, x: (
+        np.linalg.norm(_local(s, x) @ _own_axes(s) / np.array([s.semi_x, s.semi_y, s.semi_z])) - 1.0
+    ),
+}
+"""Zero on the surface, positive outside, negative inside."""
+
+
+def _support(shape: Any, n: Array) -> Any:
+    if isinstance(shape, Plane):
+        return np.where(n[..., 2] > 1.0 - 1e-12, shape.height, np.inf)
+    return SUPPORT[type(shape)](shape, n) + n @ np.array([shape.x, shape.y, shape.z])
+
+
+def _separation(shapes: Any, poses: Any, n: Array) -> Any:
+    """Width of the empty slab across n between the shapes; the gap is its largest value over all n."""
+    (p, a), (q, b) = [(position, Rotation.from_quat(np.roll(o, -1)).as_matrix()) for position, o in poses]
+    return n @ (q - p) - _support(shapes[1], -(n @ b)) - _support(shapes[0], n @ a)
+
+
+def _random_poses(rng: np.random.Generator, reach: float) -> Any:
+    direction = rng.normal(size=3)
+    place = direction / np.linalg.norm(direction) * reach * rng.uniform(0.05, 1.0)
+    quaternions = rng.normal(size=(2, 4))
+    quaternions /= np.linalg.norm(quaternions, axis=1)[:, None]
+    position = rng.normal(size=3)
+    return [(position, quaternions[0]), (position + place, quaternions[1])]
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
+    """The witness points lie on the surfaces, the gap apart, and a slab that wide is empty: there is no other gap."""
+    rig, shapes = _rig(build, name), PAIRS[name][:2]
+    rng = np.random.default_rng(3)
+    directions = rng.normal(size=(200, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    flat = isinstance(shapes[0], Plane)
+    seen = set()
+    for _ in range(400):
+        poses = _random_poses(rng, 1.2)
+        rig.put(poses, np.zeros(12))
+        blocks = rig.geometry
+        seen |= {int(block[29]) for block in blocks}
+        matrices = [Rotation.from_quat(np.roll(o, -1)).as_matrix() for _, o in poses]
+        for block in blocks:
+            gap, n, t = block[0], block[1:4], block[4:7]
+            np.testing.assert_allclose([n @ n, t @ t, n @ t], [1.0, 1.0, 0.0], rtol=0, atol=1e-13)
+            np.testing.assert_allclose(block[10:13] - block[7:10], gap * n, rtol=0, atol=1e-13)
+            for shape, witness, pose, axes in zip(shapes, (block[7:10], block[10:13]), poses, matrices, strict=True):
+                outside = OUTSIDE[type(shape)](shape, axes.T @ (witness - pose[0]))
+                assert outside <= 1e-12
+                # only of several contacts the farther ones may lie inside the whole shape
+                assert outside >= -1e-12 or gap > np.min(blocks[:, 0])
+        nearest = blocks[np.argmin(blocks[:, 0])]
+        widest = matrices[0][:, 2] if flat else nearest[1:4]
+        assert _separation(shapes, poses, widest) == pytest.approx(nearest[0], abs=1e-12)
+        assert np.max(_separation(shapes, poses, directions)) <= nearest[0] + 1e-12
+    # every feature was met
+    assert seen == set(range(len(rig.contacts[0].kinematics.features)))
+
+
+vectors = st.tuples(*[st.floats(-1.0, 1.0)] * 3)
+H = 5e-4
+STENCIL = ((-2 * H, 1.0), (-H, -8.0), (H, 8.0), (2 * H, -1.0))
+
+
+def _regular(shapes: Any, block: Array, poses: Any) -> bool:
+    """Whether the geometry is smooth enough for finite differences of that step."""
+    if block[0] < -0.05 and not isinstance(shapes[0], Plane):
+        return False
+    axes = [
+        Rotation.from_quat(np.roll(pose[1], -1)).as_matrix() @ _axis(shape)
+        for shape, pose in zip(shapes, poses, strict=True)
+        if isinstance(shape, (Capsule, Cylinder, Disc))
+    ]
+    if isinstance(shapes[0], Plane) and isinstance(shapes[1], (Cylinder, Disc)):
+        return float(np.linalg.norm(np.cross(axes[0], block[1:4]))) > 0.2
+    if isinstance(shapes[0], Capsule) and isinstance(shapes[1], Capsule):
+        return float(np.linalg.norm(np.cross(*axes))) > 0.2
+    return True
+
+
+@pytest.mark.parametrize("name", PAIRS)
+@settings(max_examples=40)
+@given(
+    place=vectors,
+    turns=st.tuples(vectors, vectors),
+    moves=st.tuples(vectors, vectors),
+    spins=st.tuples(vectors, vectors),
+)
+def test_rates_and_bias_are_derivatives(build: Any, name: str, place: Any, turns: Any, moves: Any, spins: Any) -> None:
+    """The rate is dg/dt and d(slip) follows from the witness points; the bias is their derivative while u' = 0."""
+    rig, shapes = _rig(build, name), PAIRS[name][:2]
+    unit = np.array([1.0, 0.0, 0.0, 0.0])
+    starts = [(np.array([0.3, -0.2, 0.1]), turned(unit, turns[0])), (np.asarray(place), turned(unit, turns[1]))]
+    u = np.concatenate([np.concatenate([moves[i], 2.0 * np.asarray(spins[i])]) for i in range(2)])
+
+    def put(dt: float) -> Any:
+        poses = [
+            (p + dt * u[6 * i : 6 * i + 3], turned(o, u[6 * i + 3 : 6 * i + 6], dt)) for i, (p, o) in enumerate(starts)
+        ]
+        rig.put(poses, u)
+        block, axes, rate = rig.geometry, rig.axes, rig.rate
+        slip = np.einsum("cj,cjk->ck", rate[:, 1:], axes[:, 1:])
+        return block, rate, slip
+
+    around = [(w / (12.0 * H), *put(dt)) for dt, w in STENCIL]
+    blocks, rate, _ = put(0.0)
+    axes, bias = rig.axes, rig.bias
+    omega = Rotation.from_quat(np.roll(starts[0][1], -1)).apply(u[3:6])
+    checked = 0
+    for c, block in enumerate(blocks):
+        if any(b[c, 29] != block[29] for _, b, _, _ in around) or not _regular(shapes, block, starts):
+            continue
+        checked += 1
+        scale = 1.0 + float(np.max(np.abs(bias[c])))
+        gap_rate = sum(w * b[c, 0] for w, b, _, _ in around)
+        assert rate[c, 0] == pytest.approx(gap_rate, abs=1e-8 * scale)
+        assert bias[c, 0] == pytest.approx(sum(w * r[c, 0] for w, _, r, _ in around), abs=1e-6 * scale)
+        # the slip velocity as a vector, whatever the tangents do; the bias is that in tangents turning with the body
+        change = axes[c, 1:] @ sum(w * s[c] for w, _, _, s in around)
+        spin = omega @ axes[c, 0]
+        expected = change + spin * np.array([rate[c, 2], -rate[c, 1]])
+        np.testing.assert_allclose(bias[c, 1:], expected, rtol=0, atol=1e-6 * scale)
+    assume(checked > 0)
