@@ -45,6 +45,25 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
                 constrain(S, w, k, linkage)
 
 
+@kernel("void(S, F, I, i8)")
+def _lay_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+    """Write coefficients, slip direction and whether it is at rest of active contact ``a``."""
+    c = k[S.active + a]
+    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    speed = math.sqrt(v1 * v1 + v2 * v2)
+    w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
+    if speed > S.velocity_tolerance:
+        k[S.at_rest + a] = 0
+        w[S.d + 2 * a] = v1 / speed
+        w[S.d + 2 * a + 1] = v2 / speed
+        w[S.mu + a] = friction_coefficient(S, w, k, c, speed)
+    else:
+        k[S.at_rest + a] = 1
+        w[S.d + 2 * a] = w[S.direction + 2 * c]
+        w[S.d + 2 * a + 1] = w[S.direction + 2 * c + 1]
+        w[S.mu + a] = friction_coefficient(S, w, k, c, _INCIPIENT)
+
+
 @room()
 def set_up(S: Scalars, w: Floats, k: Integers) -> None:
     """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics being known."""
@@ -57,19 +76,7 @@ def set_up(S: Scalars, w: Floats, k: Integers) -> None:
             bias, free = w[S.bias + 3 * c + r], row(S, w, k, c, r, S.du)
             w[S.b + 3 * a + r] = bias + free
             S.acceleration_scale = max(S.acceleration_scale, abs(bias), abs(free))
-        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
-        w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
-        if speed > S.velocity_tolerance:
-            k[S.at_rest + a] = 0
-            w[S.d + 2 * a] = v1 / speed
-            w[S.d + 2 * a + 1] = v2 / speed
-            w[S.mu + a] = friction_coefficient(S, w, k, c, speed)
-        else:
-            k[S.at_rest + a] = 1
-            w[S.d + 2 * a] = w[S.direction + 2 * c]
-            w[S.d + 2 * a + 1] = w[S.direction + 2 * c + 1]
-            w[S.mu + a] = friction_coefficient(S, w, k, c, _INCIPIENT)
+        _lay_friction(S, w, k, a)
 
 
 @room("i8(S, F, I)")
@@ -96,6 +103,14 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     if find_modes(S, w, k, LEMKE) == 1:
         return 1
     return find_modes(S, w, k, ENUMERATION)
+
+
+@room("i8(S, F, I)")
+def solve_from_rates(S: Scalars, w: Floats, k: Integers) -> int:
+    """Solve on G and b as given, the friction following from the slip velocities in ``rate``; return 1 if solved."""
+    for a in range(S.n_active):
+        _lay_friction(S, w, k, a)
+    return solve_contact(S, w, k)
 
 
 @kernel("void(S, F, I)")

@@ -8,6 +8,7 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import eliminate
 
 _STEPS = 60
+_ARRIVED = 0.1
 _FLOOR = 1e-9
 """Added to the Hessian, whose largest eigenvalue is 1, so that it can be inverted."""
 
@@ -93,7 +94,7 @@ def spread(S: Scalars, w: Floats, k: Integers) -> int:
         worst = 0.0
         for i in range(n):
             worst = max(worst, abs(w[S.right + i]))
-        if worst <= S.small_force:
+        if worst <= _ARRIVED * S.small_force:
             return 1
         _curve(S, w, k, n)
         _multiply(w, S.basis, S.null, S.matrix, n)

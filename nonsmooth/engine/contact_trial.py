@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_spread import spread
-from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.forces import friction_of_slip, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 
@@ -59,11 +59,11 @@ def verify(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("i8(S, F, I)")
-def judge(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial."""
+def _compare(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
     set_scales(S, w, k)
     small, small_force = S.small_acceleration, S.small_force
-    doubtful = 0
+    result = 1
     for a in range(S.n_active):
         mode = k[S.mode_tried + a]
         normal = w[S.acceleration + 3 * a]
@@ -76,7 +76,7 @@ def judge(S: Scalars, w: Floats, k: Integers) -> int:
         if not w[S.f + 3 * a] >= -small_force:
             if S.lenient == 0 or S.deficient == 0:
                 return 0
-            doubtful = 1
+            result = 2
         a1, a2 = w[S.acceleration + 3 * a + 1], w[S.acceleration + 3 * a + 2]
         if mode == STICK:
             if not abs(a1) + abs(a2) <= small:
@@ -85,13 +85,26 @@ def judge(S: Scalars, w: Floats, k: Integers) -> int:
             if not math.sqrt(t1 * t1 + t2 * t2) <= w[S.mu_static + a] * w[S.f + 3 * a] + small_force:
                 if k[S.redundant + a] == 0:
                     return 0
-                doubtful = 1
+                result = 2
         elif k[S.at_rest + a] == 1:
             forward = a1 * w[S.d + 2 * a] + a2 * w[S.d + 2 * a + 1]
             across = a1 * w[S.d + 2 * a + 1] - a2 * w[S.d + 2 * a]
             if not (forward >= -small and abs(across) <= small):
                 return 0
-    return spread(S, w, k) if doubtful == 1 else 1
+    return result
+
+
+@kernel("i8(S, F, I)")
+def judge(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, once spread where they are not unique."""
+    result = _compare(S, w, k)
+    if result == 2 and spread(S, w, k) == 1:
+        # the share of sliding contacts may have moved with their normal forces: all is looked at again
+        for a in range(S.n_active):
+            if k[S.mode_tried + a] == SLIDE:
+                friction_of_slip(S, w, a)
+        result = _compare(S, w, k)
+    return 1 if result == 1 else 0
 
 
 @kernel("void(S, F, I)")

@@ -70,6 +70,7 @@ ROOMS = (
     "windowed_impact",
     "evaluate_impact_forces",
     "solve_contact",
+    "solve_from_rates",
     "find_modes",
     "verify",
     "spread",
