@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.engine.modes import POLICIES
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.laying import lay_bodies, lay_contact, lay_guards, lay_joints, lay_loads, lay_slots
@@ -87,6 +88,7 @@ def _set_scalars(model: Model, options: Options) -> None:
     step = min(options.largest_step, model.system.time_scale / options.steps_per_period)
     values = {
         "solver": solver_number(options.solver),
+        "policy": POLICIES.index(options.painleve),
         "rtol": options.tolerance,
         "impact_rtol": options.impact_tolerance,
         "time_tolerance": options.time_tolerance,

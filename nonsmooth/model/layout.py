@@ -166,6 +166,8 @@ INTEGER_SCALARS = (
     "culprit",
     "impact_map",
     "painleve",
+    "singular",
+    "policy",
     "trigger",
     "aimed",
     "lone",
