@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.linear import SINGULAR
 from nonsmooth.engine.modes import OPEN, SLIDE
-from nonsmooth.model.layout import Memory
+from nonsmooth.model.memory import Memory
 from nonsmooth.model.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
 
 Floats = NDArray[np.float64]

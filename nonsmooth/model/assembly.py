@@ -9,8 +9,9 @@ from nonsmooth.engine.modes import POLICIES
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.laying import lay_bodies, lay_contact, lay_guards, lay_joints, lay_loads, lay_slots
-from nonsmooth.model.layout import COUNTS, Heap, allocate
+from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.linkages import linkages
+from nonsmooth.model.memory import Heap, allocate
 from nonsmooth.model.model import N_ACCOUNTS, Model, map_width
 from nonsmooth.model.options import Options
 from nonsmooth.model.solvers import pivoted_contacts, solver_number
