@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies import evaluate_bodies
+from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
 from nonsmooth.engine.instant_impulses import is_jammed
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.listing import list_contacts, longest_step, overran_list
 from nonsmooth.engine.location import first_crossing, locate
 from nonsmooth.engine.modes import (
     DONE,
@@ -18,6 +19,7 @@ from nonsmooth.engine.modes import (
     IMPACT,
     JAM,
     LIFT_OFF,
+    NO_SLOT,
     NOT_FINITE,
     OPEN,
     PAUSED,
@@ -37,7 +39,7 @@ from nonsmooth.engine.projection import (
     project_joints,
     project_rates,
 )
-from nonsmooth.engine.record import record_event, record_samples, remember
+from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, record_event, record_samples, remember
 from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
 
@@ -66,13 +68,20 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             closed = 1
-    h = min(S.h_closed if closed == 1 else S.h_free, S.h_max, S.t_end - S.t)
+    h = min(S.h_closed if closed == 1 else S.h_free, S.h_max, S.t_end - S.t, S.h_listed)
     if S.fresh == 0:
         h = min(h, S.h_first)
     if S.sample_interval > 0.0:
         h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
     for _attempt in range(200):
         error = try_step(S, w, k, h)
+        if error <= 1.0 and S.n_units > 0:
+            evaluate_driven_bodies(S, w, k, S.t + h, S.y_new)
+            if overran_list(S, w, k, h) == 1:
+                h *= 0.5
+                if h < S.time_tolerance:
+                    return STEP_TOO_SMALL
+                continue
         if error <= 1.0:
             S.h = h
             S.step_error = error
@@ -182,6 +191,11 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     else:
         for i in range(S.n_y):
             w[S.slopes + i] = w[S.slopes + 6 * S.n_y + i]
+    S.h_listed = 1e300
+    if S.n_units > 0:
+        S.h_listed = longest_step(S, w, k)
+        if S.h_listed == 0.0:
+            return RUNNING if list_contacts(S, w, k) == 1 else NO_SLOT
     for c in range(S.n_contacts):
         w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
     # a gap that closes exactly where the last step ended is an event of that step
@@ -263,7 +277,11 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
     for _index in range(most_steps):
         if S.t_end - S.t <= S.time_tolerance:
             return DONE
-        if S.event_capacity - S.n_events < _ROOM or 2 * S.n_samples > S.sample_capacity:
+        row = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * S.n_contacts
+        floats_left, integers_left = S.event_floats - S.floats_used, S.event_integers - S.integers_used
+        if floats_left < _ROOM * row or integers_left < _ROOM * (CODE_HEAD + 2 * S.n_contacts):
+            return PAUSED
+        if 2 * S.n_samples > S.sample_capacity:
             return PAUSED
         status = _step(S, w, k)
         if status != RUNNING:
