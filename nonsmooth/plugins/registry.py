@@ -94,7 +94,9 @@ def load(group: str, name: str) -> Any:
         missing = ", ".join(sorted(vars(loaded)["__abstractmethods__"]))
         raise PluginError(f"{_title(group, name)} must define {missing}.")
     if not dataclasses.is_dataclass(loaded):
-        raise PluginError(f"{_title(group, name)} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}.")
+        raise PluginError(
+            f"{_title(group, name)} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}."
+        )
     return loaded
 
 
