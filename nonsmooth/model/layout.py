@@ -44,8 +44,7 @@ Bodies tied by joints form a linkage, every other body is a linkage of its own; 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -91,6 +90,14 @@ ROOMS = (
     "windowed_impact",
     "evaluate_impact_forces",
     "solve_contact",
+    "solve_from_rates",
+    "find_modes",
+    "verify",
+    "spread",
+    "polish",
+    "enumerate_modes",
+    "search_by_pivots",
+    "search_by_newton",
     "right_hand_side",
     "slope",
     "evaluate_contact",
@@ -103,6 +110,7 @@ ROOMS = (
     "touch",
     "project_rates",
     "project_joints",
+    "project_closed",
     "list_contacts",
     "set_up",
     "first_crossing",
@@ -131,6 +139,10 @@ INTEGER_SCALARS = (
     "n_active",
     "n_unknown",
     "n_redundant",
+    "deficient",
+    "lenient",
+    "n_pivoted",
+    "solver",
     "map_width",
     "event_floats",
     "event_integers",
@@ -153,10 +165,14 @@ INTEGER_SCALARS = (
     "culprit",
     "impact_map",
     "painleve",
+    "singular",
+    "policy",
     "trigger",
     "aimed",
     "lone",
     "windowed",
+    "n_groups",
+    "n_grouped",
     "n_colliding",
     "may_be_lone",
     "phases_kept",
@@ -202,12 +218,14 @@ FLOAT_SCALARS = (
     "rest_speed",
     "margin_of_list",
     "acceleration_scale",
+    "small_acceleration",
+    "small_force",
 )
 
-_Size = Callable[[Mapping[str, int]], int]
+Size = Callable[[Mapping[str, int]], int]
 
 
-def _per(stride: int, count: str) -> _Size:
+def _per(stride: int, count: str) -> Size:
     return lambda n: stride * n[count]
 
 
@@ -215,7 +233,7 @@ def _guards(n: Mapping[str, int]) -> int:
     return 2 * n["n_slots"] + n["n_own_guards"]
 
 
-_FLOAT_ARRAYS: dict[str, _Size] = {
+FLOAT_ARRAYS: dict[str, Size] = {
     "stages": lambda n: 6 * N_STAGES,
     "error_weights": lambda n: N_STAGES,
     "dense": lambda n: 4 * N_STAGES,
@@ -254,6 +272,11 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "mu": _per(1, "n_slots"),
     "mu_static": _per(1, "n_slots"),
     "mu_kept": _per(1, "n_slots"),
+    "static_kept": _per(1, "n_slots"),
+    "d_found": _per(2, "n_slots"),
+    "d_closed": _per(2, "n_slots"),
+    "f_raw": _per(3, "n_slots"),
+    "f_kept": _per(3, "n_slots"),
     "margin": _per(1, "n_slots"),
     "acceleration": _per(3, "n_slots"),
     "event_head": lambda n: 5,
@@ -262,6 +285,9 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "unit_speed": _per(1, "n_units"),
     "unit_place": _per(3, "n_units"),
     "event_impulse": _per(3, "n_slots"),
+    "force": _per(3, "n_slots"),
+    "static_margin": _per(1, "n_slots"),
+    "direction_agreed": _per(2, "n_slots"),
     # linear algebra
     "right": _per(3, "n_slots"),
     "x": _per(3, "n_slots"),
@@ -298,8 +324,9 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "matrix": lambda n: (3 * n["n_slots"]) ** 2,
     "basis": lambda n: (3 * n["n_slots"]) ** 2,
     "null": lambda n: (3 * n["n_slots"]) ** 2,
+    "tableau": lambda n: 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2),
 }
-_INTEGER_ARRAYS: dict[str, _Size] = {
+INTEGER_ARRAYS: dict[str, Size] = {
     "rooms": lambda n: len(ROOMS),
     "body_q": _per(1, "n_bodies"),
     "body_u": _per(1, "n_bodies"),
@@ -378,6 +405,13 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "at_rest": _per(1, "n_slots"),
     "redundant": _per(1, "n_slots"),
     "freed": _per(1, "n_slots"),
+    "mode_past": _per(1, "n_slots"),
+    "mode_found": _per(1, "n_slots"),
+    "mode_closed": _per(1, "n_slots"),
+    "lemke_contact": _per(6, "n_pivoted"),
+    "lemke_corner": _per(6, "n_pivoted"),
+    "lemke_row": _per(6, "n_pivoted"),
+    "lemke_column": lambda n: 6 * n["n_pivoted"] + 1,
     "column": _per(3, "n_slots"),
     "row_contact": _per(3, "n_slots"),
     "row_index": _per(3, "n_slots"),
@@ -390,6 +424,8 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "waves": _per(1, "n_slots"),
     "chain": _per(2, "n_slots"),
     "linkage_head": _per(1, "n_linkages"),
+    "linkage_root": _per(1, "n_linkages"),
+    "linkage_group": _per(1, "n_linkages"),
     "kept": _per(2, "n_slots"),
     "armed": _per(3, "n_slots"),
     "guard_armed": _guards,
@@ -400,6 +436,12 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "own_guard_spent": _per(1, "n_own_guards"),
     "event_codes": _per(1, "event_integers"),
     "identity": _per(1, "n_slots"),
+    "member": _per(1, "n_slots"),
+    "grouped": _per(1, "n_slots"),
+    "group_of": _per(1, "n_slots"),
+    "group_next": _per(1, "n_slots"),
+    "group_start": lambda n: n["n_slots"] + 1,
+    "mode_agreed": _per(1, "n_slots"),
     "listed": _per(1, "n_slots"),
     # what the contacts of a system are, whether in a slot or not, and which of them may come near each other
     "catalogue": _per(len(CATALOGUE), "n_declared"),
@@ -414,7 +456,7 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
 SCALARS = np.dtype(
     [(name, "i8") for name in INTEGER_SCALARS]
     + [(name, "f8") for name in FLOAT_SCALARS]
-    + [(name, "i8") for name in (*_FLOAT_ARRAYS, *_INTEGER_ARRAYS)],
+    + [(name, "i8") for name in (*FLOAT_ARRAYS, *INTEGER_ARRAYS)],
     align=True,
 )
 """The record ``S``."""
@@ -432,87 +474,12 @@ COUNTS = (
     "n_q",
     "n_u",
     "n_y",
+    "n_pivoted",
     "map_width",
     "event_floats",
     "event_integers",
     "sample_capacity",
 )
 """The run-time sizes that :func:`allocate` takes."""
-CONSTANT_SCALARS = frozenset((*COUNTS, *_FLOAT_ARRAYS, *_INTEGER_ARRAYS))
+CONSTANT_SCALARS = frozenset((*COUNTS, *FLOAT_ARRAYS, *INTEGER_ARRAYS))
 """What never changes once the memory is laid out."""
-
-
-class Heap:
-    """The blocks that come behind the fixed arrays: output blocks, Jacobians, parameters."""
-
-    def __init__(self, memory: Memory) -> None:
-        self._memory = memory
-        self._blocks: list[np.ndarray] = []
-        self._next = len(memory.floats)
-
-    def block(self, size: int) -> int:
-        """Reserve floats; return their offset."""
-        return self.store(np.zeros(size))
-
-    def store(self, values: Sequence[float] | np.ndarray) -> int:
-        """Append values; return their offset."""
-        start = self._next
-        self._blocks.append(np.asarray(values, dtype=float))
-        self._next += len(values)
-        return start
-
-    def close(self) -> Memory:
-        """Return the memory with all blocks in it."""
-        old = self._memory
-        floats = np.zeros(self._next + 1)
-        written = int(old.scalars[0]["delassus"])
-        floats[:written] = old.floats[:written]
-        start = len(old.floats)
-        for block in self._blocks:
-            floats[start : start + len(block)] = block
-            start += len(block)
-        return Memory(old.scalars, floats, old.integers)
-
-
-@dataclass(frozen=True)
-class Memory:
-    """Scalars and heaps of one trajectory.
-
-    Attributes
-    ----------
-    scalars : numpy.ndarray
-        The record ``S``, shape [1].
-    floats : numpy.ndarray
-        The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
-    integers : numpy.ndarray
-        The heap ``k``.
-    """
-
-    scalars: np.ndarray
-    floats: np.ndarray
-    integers: np.ndarray
-
-    def array(self, name: str, size: int) -> np.ndarray:
-        """Return a view of ``size`` entries of the named array."""
-        heap = self.floats if name in _FLOAT_ARRAYS else self.integers
-        start = int(self.scalars[0][name])
-        return heap[start : start + size]
-
-
-def allocate(counts: Mapping[str, int]) -> Memory:
-    """Lay out the arrays for the given counts, all of ``COUNTS``; blocks are appended by :class:`Heap`."""
-    scalars = np.zeros(1, SCALARS)
-    totals: list[int] = []
-    for table in (_FLOAT_ARRAYS, _INTEGER_ARRAYS):
-        total = 0
-        for name, size in table.items():
-            scalars[name] = total
-            total += size(counts)
-        totals.append(total)
-    for name, value in counts.items():
-        scalars[name] = value
-    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
-    memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
-    memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
-    memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
-    return memory

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from laws import Coulomb, Unilateral
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
-from nonsmooth.model.layout import COUNTS, Memory, allocate
+from nonsmooth.model.layout import COUNTS
+from nonsmooth.model.memory import Memory, allocate
 
 
 def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:
