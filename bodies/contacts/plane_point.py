@@ -41,3 +41,19 @@ def evaluate_sphere_over_plane(
     place_over_plane(a, out, center_x, center_y, center_z, radius, height)
     write_flat(out, SIDE_A)
     write_round(out, SIDE_B, radius)
+
+
+def evaluate_point_over_plane(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    x: float,
+    y: float,
+    z: float,
+    height: float,
+) -> None:
+    """Write the geometry block; the point is (x, y, z) in its body frame."""
+    point_x, point_y, point_z = point_in_world(b, x, y, z)
+    place_over_plane(a, out, point_x, point_y, point_z, 0.0, height)
+    write_flat(out, SIDE_A)
+    write_round(out, SIDE_B, 0.0)
