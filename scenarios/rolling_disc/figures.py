@@ -30,18 +30,16 @@ def settling(runs: Mapping[str, tuple[RollingDisc, Solution]], title: str) -> Fi
         rate.plot(tilts, scenario.precession(solution), color=colour, linestyle=line, linewidth=1.4, label=name)
     scenario, solution = next(iter(runs.values()))
     theory = steady.settling(solution.t, scenario.tilt, scenario.radius, scenario.mass, scenario.viscosity)
-    time.plot(
-        solution.t, theory, color="tab:red", linewidth=1.2, linestyle=":", label="sin³ α falls linearly (Moffatt)"
-    )
+    time.plot(solution.t, theory, color="tab:red", linewidth=1.2, linestyle=":", label=r"$\sin^3\alpha$ falls linearly")
     time.set_ylim(0.0, 1.1 * scenario.tilt)
     time.set_xlabel("time [s]")
-    time.set_ylabel("tilt α [rad]")
+    time.set_ylabel(r"tilt $\alpha$ [rad]")
     places = np.linspace(scenario.end_tilt, scenario.tilt, 200)
     exact = steady.precession(places, scenario.radius)
-    rate.plot(places, exact, color="tab:red", linewidth=1.2, linestyle=":", label="Ω² sin α = 4 g / a")
+    rate.plot(places, exact, color="tab:red", linewidth=1.2, linestyle=":", label=r"$\Omega^2 \sin\alpha = 4 g / a$")
     rate.set_ylim(0.0, None)
-    rate.set_xlabel("tilt α [rad]")
-    rate.set_ylabel("precession rate Ω [rad/s]")
+    rate.set_xlabel(r"tilt $\alpha$ [rad]")
+    rate.set_ylabel(r"precession rate $\Omega$ [rad/s]")
     for axis in (time, rate):
         axis.grid(color="0.9", linewidth=0.6)
         axis.set_axisbelow(True)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from nonsmooth.engine.modes import SLIP_TO_STICK
 from scenarios.rolling_disc import steady
 from scenarios.rolling_disc.scenario import RollingDisc
 
@@ -99,10 +98,11 @@ def _time_over_theory(**given: float) -> float:
 
 
 def test_settling_on_a_smooth_table() -> None:
-    """Without friction sin^3(alpha) falls linearly, the better the slower: the error tends to zero with the viscosity."""
-    errors = [abs(_time_over_theory(tilt=0.3, friction=0.0, viscosity=eta)) for eta in (0.2, 0.1, 0.05)]
-    assert errors[0] > 1.5 * errors[1] > 2.25 * errors[2]
-    assert errors[2] < 1e-3
+    """Without friction sin^3(alpha) falls linearly, up to an error that the viscosity bounds."""
+    viscosities = np.array([0.2, 0.1, 0.05, 0.01, 0.0025])
+    errors = [_time_over_theory(tilt=0.3, friction=0.0, viscosity=eta) for eta in viscosities.tolist()]
+    assert errors[0] > 0.05
+    assert np.all(np.abs(errors) < 0.3 * viscosities)
 
 
 def test_settling_of_a_rolling_disc() -> None:
@@ -114,11 +114,11 @@ def test_settling_of_a_rolling_disc() -> None:
 
 def test_precession_rises_as_it_settles() -> None:
     """The quasi-steady relation holds all the way down, and the rate rises."""
-    scenario = RollingDisc(viscosity=1e-3, t_end=2.0)
+    scenario = RollingDisc(viscosity=2e-4, t_end=9.5)
     solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
     tilts, rates = scenario.tilts(solution), scenario.precession(solution)
     assert tilts[-1] < 0.021 < 0.099 < tilts[0]
-    assert rates[-1] > 2.2 * rates[0]
+    assert rates[-1] > 2.2 * rates[0] > 0.0
     np.testing.assert_allclose(rates / steady.precession(tilts, scenario.radius), 1.0, atol=0.01)
 
 
@@ -134,29 +134,33 @@ def test_power_of_the_air(tilt: float) -> None:
 
 def test_slip_ends_in_rolling() -> None:
     """A spin about the own axis slides, friction takes energy until the disc rolls, and nothing does after that."""
-    scenario = RollingDisc(tilt=0.5, spin=30.0, viscosity=0.0)
-    longer, shorter = (ns.simulate(scenario.build(), t, options=FINE) for t in (0.8, 0.6))
-    caught = longer.events.time[longer.events.cause == SLIP_TO_STICK]
-    assert 0.0 < caught[-1] < 0.6
+    scenario = RollingDisc(tilt=0.5, spin=10.0, viscosity=0.0)
+    longer, shorter = (ns.simulate(scenario.build(), t, options=FINE) for t in (0.6, 0.3))
+    assert longer.events.causes() == ["start", "slip to stick"]
+    caught = longer.events.time[1]
+    assert 0.0 < caught < 0.2
     losses = [run.energy.friction_loss for run in (longer, shorter)]
-    assert losses[0] > 0.01 * longer.energy.kinetic_start
+    assert losses[0] > 0.1 * longer.energy.kinetic_start
     assert losses[0] == pytest.approx(losses[1], rel=1e-12)
     assert longer.energy.change == pytest.approx(-losses[0], rel=1e-9)
-    block = longer.u[longer.t > caught[-1]]
-    # rolling: the disc's spin and the velocity along the rim belong together, so neither is what it was
-    assert np.max(np.abs(block[:, 5])) < 25.0
+    axis, rate = scenario.axis(longer)
+    spin = np.cross(axis, rate) + longer.u[:, 5, None] * axis
+    arm = np.append(scenario.contact_points(longer), np.zeros((len(axis), 1)), axis=1) - longer.q[:, :3]
+    slip = np.linalg.norm(longer.u[:, :3] + np.cross(spin, arm), axis=1)
+    assert slip[0] == pytest.approx(10.0 * scenario.radius)
+    assert np.max(slip[longer.t > caught]) <= 1e-7
 
 
 @pytest.mark.parametrize("given", [{"pace": 0.8, "viscosity": 0.0}, {"pace": 0.8, "viscosity": 0.02}, {"spin": 20.0}])
 def test_energy_account_converges(given: dict[str, Any]) -> None:
-    """What the account does not explain falls as the tolerance, from 1e-6 to 1e-12."""
+    """What the account does not explain falls at least as the tolerance, from 1e-6 to 1e-12."""
     scenario = RollingDisc(tilt=0.5, **given)
     residuals = []
     for tolerance in (1e-6, 1e-8, 1e-10, 1e-12):
         run = ns.simulate(scenario.build(), 0.3, options=ns.Options(tolerance=tolerance))
         residuals.append(run.energy.residual)
     slope = np.polyfit([-6.0, -8.0, -10.0, -12.0], np.log10(residuals), 1)[0]
-    assert 0.8 < slope < 1.3
+    assert slope > 0.8
     assert residuals[-1] < 1e-10
 
 
