@@ -1,5 +1,7 @@
 """nonsmooth: event-driven multibody dynamics with friction and energetic multiple impacts."""
 
+from nonsmooth.contact import solve_contact
+from nonsmooth.contact_result import ContactResult
 from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFailed, UnknownName
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.model.options import Options
@@ -9,6 +11,7 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
 __all__ = [
+    "ContactResult",
     "ImpactResult",
     "InvalidInput",
     "NonsmoothError",
@@ -21,6 +24,7 @@ __all__ = [
     "at_height",
     "resting",
     "simulate",
+    "solve_contact",
     "solve_impact",
     "touching",
 ]

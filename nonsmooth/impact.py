@@ -12,7 +12,8 @@ from nonsmooth.engine.impact_problem import FINISHED
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
-from nonsmooth.model.layout import COUNTS, Heap, Memory, allocate
+from nonsmooth.model.layout import COUNTS
+from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.plugins.compile import bind
 
 Floats = NDArray[np.float64]
@@ -155,7 +156,7 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
             ("friction", friction[i], friction[i].coefficient),
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_contacts": n})
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_linkages": 0})
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.scalars["impact_rtol"] = tolerance

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.plane_point import evaluate_point_over_plane
+from bodies.contacts.plane_point import evaluate_ball_over_plane
 from bodies.shapes.box import Box
 from bodies.shapes.plane import Plane
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -25,6 +25,10 @@ class PlaneBox(ContactKinematics):
     z: float = parameter(doc="vertex in its body frame, third coordinate", unit="m")
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
 
+    def parameters(self) -> dict[str, float]:
+        """Return the numbers given, and a radius of 0: a vertex is the smallest ball."""
+        return {"radius": 0.0, **self.numbers()}
+
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PlaneBox, ...]:
         """Return the contacts of the eight vertices."""
@@ -35,7 +39,7 @@ class PlaneBox(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
-        return evaluate_point_over_plane
+        return evaluate_ball_over_plane
 
     @property
     def features(self) -> tuple[str, ...]:

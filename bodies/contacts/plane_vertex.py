@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.plane_point import evaluate_point_over_plane
+from bodies.contacts.plane_point import evaluate_ball_over_plane
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -25,6 +25,10 @@ class PlaneVertex(ContactKinematics):
     z: float = parameter(doc="point in its body frame, third coordinate", unit="m")
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
 
+    def parameters(self) -> dict[str, float]:
+        """Return the numbers given, and a radius of 0: a point is the smallest ball."""
+        return {"radius": 0.0, **self.numbers()}
+
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PlaneVertex, ...]:
         """Return the single contact of a plane and a point."""
@@ -33,7 +37,7 @@ class PlaneVertex(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
-        return evaluate_point_over_plane
+        return evaluate_ball_over_plane
 
     @property
     def features(self) -> tuple[str, ...]:

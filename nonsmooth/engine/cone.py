@@ -10,7 +10,7 @@ import math
 
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 
-_SWEEPS = 4000
+SWEEPS = 4000
 _SETTLED = 1e-15
 _FLAT = 1e-14
 """Determinant of a tangential block, relative to its trace squared, below which it has rank one."""
@@ -98,10 +98,14 @@ def _cut_to_disc(w: Floats, t: int, g11: float, g12: float, g22: float, c1: floa
     w[t + 1] *= radius / norm
 
 
-@room()
-def gauss_seidel(S: Scalars, w: Floats, k: Integers) -> None:
-    """Sweep until the forces settle; leave ``f``, ``tangent_held`` and, for incipient slip, ``d``."""
-    for _sweep in range(_SWEEPS):
+@room("i8(S, F, I, i8)")
+def gauss_seidel(S: Scalars, w: Floats, k: Integers, sweeps: int) -> int:
+    """Sweep until the forces settle; leave ``f``, ``tangent_held`` and, for incipient slip, ``d``.
+
+    Return 1 if they settled within so many sweeps.
+    """
+    settled = 0
+    for _sweep in range(sweeps):
         change = size = 0.0
         for a in range(S.n_active):
             f = S.f + 3 * a
@@ -112,6 +116,7 @@ def gauss_seidel(S: Scalars, w: Floats, k: Integers) -> None:
             change = max(change, abs(w[f] - old0), abs(w[f + 1] - old1), abs(w[f + 2] - old2))
             size = max(size, abs(w[f]), abs(w[f + 1]), abs(w[f + 2]))
         if change <= _SETTLED * size:
+            settled = 1
             break
     for a in range(S.n_active):
         t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
@@ -125,3 +130,4 @@ def gauss_seidel(S: Scalars, w: Floats, k: Integers) -> None:
             norm = math.sqrt(v1 * v1 + v2 * v2)
             w[S.d + 2 * a] = v1 / norm if norm > 0.0 else 1.0
             w[S.d + 2 * a + 1] = v2 / norm if norm > 0.0 else 0.0
+    return settled

@@ -41,7 +41,7 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
 def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Solve the reduced system ``reduced . x = right`` of the unknowns in ``column``, for least norm if singular."""
     S.n_unknown = n
-    S.n_redundant = 0
+    S.n_redundant = S.deficient = 0
     if n == 1 and w[S.reduced] != 0.0:
         w[S.x] = w[S.right] / w[S.reduced]
         return
@@ -81,6 +81,13 @@ def friction_of_slip(S: Scalars, w: Floats, a: int) -> None:
     w[S.f + 3 * a + 2] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + 1]
 
 
+@kernel("f8(S, F, i8)")
+def reduced_coefficient(S: Scalars, w: Floats, a: int) -> float:
+    """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
+    g = S.delassus + 3 * a * 3 * S.n_active + 3 * a
+    return float(w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2]))
+
+
 @kernel("f8(S, F, I, i8, i8)")
 def _entry(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
     """Return the effect on row ``line`` of a unit unknown, friction of a sliding contact included."""
@@ -97,6 +104,7 @@ def _least_norm(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     for i in range(n * n):
         w[S.matrix + i] = w[S.reduced + i]
     minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
+    S.deficient = 1
     for i in range(n):
         for j in range(n):
             total = 1.0 if i == j else 0.0
@@ -136,8 +144,7 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     for i in range(n):
         if k[S.column + i] == 3 * a + 1:
             own = i
-    normal = sum1 = sum2 = 0.0
-    mu_static = w[S.mu_static + a]
+    bound = sum1 = sum2 = 0.0
     for i in range(n - 1):
         other = k[S.column + i] // 3
         if k[S.column + i] != 3 * other + 1 or k[S.redundant + other] == 0:
@@ -149,11 +156,10 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
             + abs(w[S.null + (own + 1) * n + i + 1])
         )
         if coupling > _COUPLED or other == a:
-            normal += w[S.f + 3 * other]
+            bound += w[S.mu_static + other] * w[S.f + 3 * other]
             sum1 += w[S.f + 3 * other + 1]
             sum2 += w[S.f + 3 * other + 2]
-            mu_static = min(mu_static, w[S.mu_static + other])
-    group = mu_static * normal - math.sqrt(sum1 * sum1 + sum2 * sum2)
+    group = bound - math.sqrt(sum1 * sum1 + sum2 * sum2)
     # the part of the force orthogonal to this contact's share of the null space
     p11, p12 = w[S.null + own * n + own], w[S.null + own * n + own + 1]
     p22 = w[S.null + (own + 1) * n + own + 1]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.cone import gauss_seidel
+from nonsmooth.engine.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact_problem import friction_coefficient
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.impact_rates import (
@@ -76,7 +76,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     if open_question == 1:
         for i in range(3 * S.n_active):
             w[S.b + i] = 0.0
-        gauss_seidel(S, w, k)
+        gauss_seidel(S, w, k, SWEEPS)
     for a in range(S.n_active):
         c = k[S.active + a]
         if w[S.f + 3 * a] <= 0.0:

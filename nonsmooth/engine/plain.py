@@ -7,7 +7,8 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from nonsmooth.model.layout import ROOMS, SCALARS, Memory
+from nonsmooth.model.layout import ROOMS, SCALARS
+from nonsmooth.model.memory import Memory
 
 _functions: list[Callable[..., Any]] = []
 _rooms: dict[str, Callable[..., Any]] = {}
@@ -81,6 +82,11 @@ def call_map(address: int, n: int, g: Any, z: Any, p: Any, out: Any) -> None:
 
 
 def jit(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Leave the function as it is."""
+    return function
+
+
+def shared(function: Callable[..., Any]) -> Callable[..., Any]:
     """Leave the function as it is."""
     return function
 

@@ -44,8 +44,7 @@ Bodies tied by joints form a linkage, every other body is a linkage of its own; 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -59,6 +58,27 @@ JOINT_ROW = 14
 """Floats of one row of a joint."""
 LOAD = 9
 """Floats that a load writes."""
+CATALOGUE = (
+    "frame_a",
+    "frame_b",
+    "nu_a",
+    "nu_b",
+    "shift_a",
+    "shift_b",
+    "linkage_a",
+    "linkage_b",
+    "geometry_function",
+    "geometry_parameters",
+    "friction_function",
+    "friction_parameters",
+    "force_function",
+    "force_parameters",
+    "efficiency_function",
+    "efficiency_parameters",
+    "map_parameters",
+    "mode",
+)
+"""Integers of a declared contact; in a slot each of them is an array of its own."""
 N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair."""
 
@@ -70,6 +90,14 @@ ROOMS = (
     "windowed_impact",
     "evaluate_impact_forces",
     "solve_contact",
+    "solve_from_rates",
+    "find_modes",
+    "verify",
+    "spread",
+    "polish",
+    "enumerate_modes",
+    "search_by_pivots",
+    "search_by_newton",
     "right_hand_side",
     "slope",
     "evaluate_contact",
@@ -82,6 +110,8 @@ ROOMS = (
     "touch",
     "project_rates",
     "project_joints",
+    "project_closed",
+    "list_contacts",
     "set_up",
     "first_crossing",
     "locate",
@@ -92,7 +122,12 @@ ROOMS = (
 
 INTEGER_SCALARS = (
     "n_bodies",
+    "n_slots",
     "n_contacts",
+    "n_declared",
+    "n_units",
+    "n_partners",
+    "n_paired",
     "n_own_guards",
     "n_loads",
     "n_joints",
@@ -104,26 +139,40 @@ INTEGER_SCALARS = (
     "n_active",
     "n_unknown",
     "n_redundant",
+    "deficient",
+    "lenient",
+    "n_pivoted",
+    "solver",
     "map_width",
-    "event_capacity",
+    "event_floats",
+    "event_integers",
     "sample_capacity",
     "n_events",
+    "floats_used",
+    "integers_used",
+    "last_floats",
+    "last_contact",
+    "last_integers",
     "n_samples",
-    "event_width",
     "status",
     "started",
     "steps",
     "rejected",
+    "listings",
     "impacts",
     "phases",
     "impact_steps",
     "culprit",
     "impact_map",
     "painleve",
+    "singular",
+    "policy",
     "trigger",
     "aimed",
     "lone",
     "windowed",
+    "n_groups",
+    "n_grouped",
     "n_colliding",
     "may_be_lone",
     "phases_kept",
@@ -144,6 +193,7 @@ FLOAT_SCALARS = (
     "step_error",
     "h_max",
     "h_free",
+    "h_listed",
     "h_first",
     "h_closed",
     "rtol",
@@ -166,21 +216,24 @@ FLOAT_SCALARS = (
     "last_event_t",
     "guard_slope",
     "rest_speed",
+    "margin_of_list",
     "acceleration_scale",
+    "small_acceleration",
+    "small_force",
 )
 
-_Size = Callable[[Mapping[str, int]], int]
+Size = Callable[[Mapping[str, int]], int]
 
 
-def _per(stride: int, count: str) -> _Size:
+def _per(stride: int, count: str) -> Size:
     return lambda n: stride * n[count]
 
 
 def _guards(n: Mapping[str, int]) -> int:
-    return 2 * n["n_contacts"] + n["n_own_guards"]
+    return 2 * n["n_slots"] + n["n_own_guards"]
 
 
-_FLOAT_ARRAYS: dict[str, _Size] = {
+FLOAT_ARRAYS: dict[str, Size] = {
     "stages": lambda n: 6 * N_STAGES,
     "error_weights": lambda n: N_STAGES,
     "dense": lambda n: 4 * N_STAGES,
@@ -190,76 +243,90 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "y_scale": _per(1, "n_y"),
     "slopes": _per(N_STAGES, "n_y"),
     "du": _per(1, "n_u"),
-    "geometry": _per(GEOMETRY, "n_contacts"),
-    "axes": _per(9, "n_contacts"),
+    "geometry": _per(GEOMETRY, "n_slots"),
+    "axes": _per(9, "n_slots"),
     "small": lambda n: 4,
-    "rate": _per(3, "n_contacts"),
-    "prescribed_rate": _per(3, "n_contacts"),
-    "bias": _per(3, "n_contacts"),
-    "direction": _per(2, "n_contacts"),
+    "rate": _per(3, "n_slots"),
+    "prescribed_rate": _per(3, "n_slots"),
+    "bias": _per(3, "n_slots"),
+    "direction": _per(2, "n_slots"),
     "guard": _guards,
-    "least_force": _per(1, "n_contacts"),
+    "least_force": _per(1, "n_slots"),
     "guard_middle": _guards,
     "guard_first": _guards,
     "guard_start": _guards,
-    "gap_rate": _per(1, "n_contacts"),
-    "gap_rate_first": _per(1, "n_contacts"),
-    "gap_rate_middle": _per(1, "n_contacts"),
-    "gap_rate_end": _per(1, "n_contacts"),
-    "gap_middle": _per(1, "n_contacts"),
-    "gap_end": _per(1, "n_contacts"),
+    "gap_rate": _per(1, "n_slots"),
+    "gap_rate_first": _per(1, "n_slots"),
+    "gap_rate_middle": _per(1, "n_slots"),
+    "gap_rate_end": _per(1, "n_slots"),
+    "gap_middle": _per(1, "n_slots"),
+    "gap_end": _per(1, "n_slots"),
     "guard_end": _guards,
-    "rate_end": _per(3, "n_contacts"),
-    "map_block": lambda n: n["map_width"] * n["n_contacts"],
-    "contact_time": _per(1, "n_contacts"),
+    "rate_end": _per(3, "n_slots"),
+    "map_block": lambda n: n["map_width"] * n["n_slots"],
+    "contact_time": _per(1, "n_slots"),
     # the local problem of the active contacts
-    "delassus": lambda n: (3 * n["n_contacts"]) ** 2,
-    "b": _per(3, "n_contacts"),
-    "f": _per(3, "n_contacts"),
-    "d": _per(2, "n_contacts"),
-    "mu": _per(1, "n_contacts"),
-    "mu_static": _per(1, "n_contacts"),
-    "mu_kept": _per(1, "n_contacts"),
-    "margin": _per(1, "n_contacts"),
-    "acceleration": _per(3, "n_contacts"),
+    "b": _per(3, "n_slots"),
+    "f": _per(3, "n_slots"),
+    "d": _per(2, "n_slots"),
+    "mu": _per(1, "n_slots"),
+    "mu_static": _per(1, "n_slots"),
+    "mu_kept": _per(1, "n_slots"),
+    "static_kept": _per(1, "n_slots"),
+    "d_found": _per(2, "n_slots"),
+    "d_closed": _per(2, "n_slots"),
+    "f_raw": _per(3, "n_slots"),
+    "f_kept": _per(3, "n_slots"),
+    "margin": _per(1, "n_slots"),
+    "acceleration": _per(3, "n_slots"),
     "event_head": lambda n: 5,
-    "event_impulse": _per(3, "n_contacts"),
+    "catalogue_floats": _per(3, "n_declared"),
+    "unit_radius": _per(1, "n_units"),
+    "unit_speed": _per(1, "n_units"),
+    "unit_place": _per(3, "n_units"),
+    "event_impulse": _per(3, "n_slots"),
+    "force": _per(3, "n_slots"),
+    "static_margin": _per(1, "n_slots"),
+    "direction_agreed": _per(2, "n_slots"),
     # linear algebra
-    "reduced": lambda n: (3 * n["n_contacts"]) ** 2,
-    "matrix": lambda n: (3 * n["n_contacts"]) ** 2,
-    "basis": lambda n: (3 * n["n_contacts"]) ** 2,
-    "null": lambda n: (3 * n["n_contacts"]) ** 2,
-    "right": _per(3, "n_contacts"),
-    "x": _per(3, "n_contacts"),
-    "sigma": _per(3, "n_contacts"),
+    "right": _per(3, "n_slots"),
+    "x": _per(3, "n_slots"),
+    "sigma": _per(3, "n_slots"),
     # the impact
-    "impact_y": _per(8, "n_contacts"),
-    "impact_new": _per(8, "n_contacts"),
-    "impact_stage": _per(8, "n_contacts"),
-    "impact_slopes": _per(8 * N_STAGES, "n_contacts"),
-    "impact_z0": _per(3, "n_contacts"),
-    "impact_z": _per(3, "n_contacts"),
-    "impact_guard": _per(3, "n_contacts"),
-    "impact_guard_first": _per(3, "n_contacts"),
-    "impact_x_scale": _per(1, "n_contacts"),
-    "impact_f_scale": _per(1, "n_contacts"),
-    "impact_energy_scale": _per(1, "n_contacts"),
-    "impact_kept": _per(8, "n_contacts"),
-    "books_kept": _per(5, "n_contacts"),
-    "impact_mark": _per(1, "n_contacts"),
-    "stored": _per(1, "n_contacts"),
-    "returned": _per(1, "n_contacts"),
-    "rubbed": _per(1, "n_contacts"),
-    "impulse": _per(3, "n_contacts"),
+    "impact_y": _per(8, "n_slots"),
+    "impact_new": _per(8, "n_slots"),
+    "impact_stage": _per(8, "n_slots"),
+    "impact_slopes": _per(8 * N_STAGES, "n_slots"),
+    "impact_z0": _per(3, "n_slots"),
+    "impact_z": _per(3, "n_slots"),
+    "impact_guard": _per(3, "n_slots"),
+    "impact_guard_first": _per(3, "n_slots"),
+    "impact_x_scale": _per(1, "n_slots"),
+    "impact_f_scale": _per(1, "n_slots"),
+    "impact_energy_scale": _per(1, "n_slots"),
+    "impact_kept": _per(8, "n_slots"),
+    "books_kept": _per(5, "n_slots"),
+    "impact_mark": _per(1, "n_slots"),
+    "stored": _per(1, "n_slots"),
+    "returned": _per(1, "n_slots"),
+    "rubbed": _per(1, "n_slots"),
+    "impulse": _per(3, "n_slots"),
     "u_before": _per(1, "n_u"),
     "u_own": _per(1, "n_u"),
     "u_impact": _per(1, "n_u"),
-    "impact_total": _per(8, "n_contacts"),
+    "impact_total": _per(8, "n_slots"),
     # output
-    "events": lambda n: n["event_capacity"] * n["event_width"],
+    "events": _per(1, "event_floats"),
     "samples": lambda n: n["sample_capacity"] * (n["n_y"] + 1),
+    # square in the number of contacts and mostly unused: they come last and cost no memory before they are written
+    "delassus": lambda n: (3 * n["n_slots"]) ** 2,
+    "reduced": lambda n: (3 * n["n_slots"]) ** 2,
+    "matrix": lambda n: (3 * n["n_slots"]) ** 2,
+    "basis": lambda n: (3 * n["n_slots"]) ** 2,
+    "null": lambda n: (3 * n["n_slots"]) ** 2,
+    "tableau": lambda n: 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2),
 }
-_INTEGER_ARRAYS: dict[str, _Size] = {
+INTEGER_ARRAYS: dict[str, Size] = {
     "rooms": lambda n: len(ROOMS),
     "body_q": _per(1, "n_bodies"),
     "body_u": _per(1, "n_bodies"),
@@ -305,72 +372,101 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "load_body_a": _per(1, "n_loads"),
     "load_body_b": _per(1, "n_loads"),
     "load_out": _per(1, "n_loads"),
-    "frame_a": _per(1, "n_contacts"),
-    "frame_b": _per(1, "n_contacts"),
-    "nu_a": _per(1, "n_contacts"),
-    "nu_b": _per(1, "n_contacts"),
-    "shift_a": _per(1, "n_contacts"),
-    "shift_b": _per(1, "n_contacts"),
-    "linkage_a": _per(1, "n_contacts"),
-    "linkage_b": _per(1, "n_contacts"),
-    "geometry_function": _per(1, "n_contacts"),
-    "geometry_parameters": _per(1, "n_contacts"),
-    "friction_function": _per(1, "n_contacts"),
-    "friction_parameters": _per(1, "n_contacts"),
-    "force_function": _per(1, "n_contacts"),
-    "force_parameters": _per(1, "n_contacts"),
-    "efficiency_function": _per(1, "n_contacts"),
-    "efficiency_parameters": _per(1, "n_contacts"),
-    "map_parameters": _per(1, "n_contacts"),
-    "jacobian_a": _per(1, "n_contacts"),
-    "jacobian_b": _per(1, "n_contacts"),
-    "response_a": _per(1, "n_contacts"),
-    "response_b": _per(1, "n_contacts"),
-    "mode": _per(1, "n_contacts"),
-    "code_before": _per(1, "n_contacts"),
-    "code_during": _per(1, "n_contacts"),
-    "mode_tried": _per(1, "n_contacts"),
-    "touching": _per(1, "n_contacts"),
-    "impacting": _per(1, "n_contacts"),
-    "active": _per(1, "n_contacts"),
-    "normal_held": _per(1, "n_contacts"),
-    "tangent_held": _per(1, "n_contacts"),
-    "at_rest": _per(1, "n_contacts"),
-    "redundant": _per(1, "n_contacts"),
-    "freed": _per(1, "n_contacts"),
-    "column": _per(3, "n_contacts"),
-    "row_contact": _per(3, "n_contacts"),
-    "row_index": _per(3, "n_contacts"),
-    "phase": _per(1, "n_contacts"),
-    "phase_kept": _per(1, "n_contacts"),
-    "held_kept": _per(1, "n_contacts"),
-    "colliding": _per(1, "n_contacts"),
-    "depth": _per(1, "n_contacts"),
-    "rim": _per(1, "n_contacts"),
-    "waves": _per(1, "n_contacts"),
-    "chain": _per(2, "n_contacts"),
+    "frame_a": _per(1, "n_slots"),
+    "frame_b": _per(1, "n_slots"),
+    "nu_a": _per(1, "n_slots"),
+    "nu_b": _per(1, "n_slots"),
+    "shift_a": _per(1, "n_slots"),
+    "shift_b": _per(1, "n_slots"),
+    "linkage_a": _per(1, "n_slots"),
+    "linkage_b": _per(1, "n_slots"),
+    "geometry_function": _per(1, "n_slots"),
+    "geometry_parameters": _per(1, "n_slots"),
+    "friction_function": _per(1, "n_slots"),
+    "friction_parameters": _per(1, "n_slots"),
+    "force_function": _per(1, "n_slots"),
+    "force_parameters": _per(1, "n_slots"),
+    "efficiency_function": _per(1, "n_slots"),
+    "efficiency_parameters": _per(1, "n_slots"),
+    "map_parameters": _per(1, "n_slots"),
+    "jacobian_a": _per(1, "n_slots"),
+    "jacobian_b": _per(1, "n_slots"),
+    "response_a": _per(1, "n_slots"),
+    "response_b": _per(1, "n_slots"),
+    "mode": _per(1, "n_slots"),
+    "code_before": _per(1, "n_slots"),
+    "code_during": _per(1, "n_slots"),
+    "mode_tried": _per(1, "n_slots"),
+    "touching": _per(1, "n_slots"),
+    "impacting": _per(1, "n_slots"),
+    "active": _per(1, "n_slots"),
+    "normal_held": _per(1, "n_slots"),
+    "tangent_held": _per(1, "n_slots"),
+    "at_rest": _per(1, "n_slots"),
+    "redundant": _per(1, "n_slots"),
+    "freed": _per(1, "n_slots"),
+    "mode_past": _per(1, "n_slots"),
+    "mode_found": _per(1, "n_slots"),
+    "mode_closed": _per(1, "n_slots"),
+    "lemke_contact": _per(6, "n_pivoted"),
+    "lemke_corner": _per(6, "n_pivoted"),
+    "lemke_row": _per(6, "n_pivoted"),
+    "lemke_column": lambda n: 6 * n["n_pivoted"] + 1,
+    "column": _per(3, "n_slots"),
+    "row_contact": _per(3, "n_slots"),
+    "row_index": _per(3, "n_slots"),
+    "phase": _per(1, "n_slots"),
+    "phase_kept": _per(1, "n_slots"),
+    "held_kept": _per(1, "n_slots"),
+    "colliding": _per(1, "n_slots"),
+    "depth": _per(1, "n_slots"),
+    "rim": _per(1, "n_slots"),
+    "waves": _per(1, "n_slots"),
+    "chain": _per(2, "n_slots"),
     "linkage_head": _per(1, "n_linkages"),
-    "kept": _per(2, "n_contacts"),
-    "armed": _per(3, "n_contacts"),
+    "linkage_root": _per(1, "n_linkages"),
+    "linkage_group": _per(1, "n_linkages"),
+    "kept": _per(2, "n_slots"),
+    "armed": _per(3, "n_slots"),
     "guard_armed": _guards,
     "guard_deflated": _guards,
     "own_guard_function": _per(1, "n_own_guards"),
     "own_guard_parameters": _per(1, "n_own_guards"),
     "own_guard_ends": _per(1, "n_own_guards"),
     "own_guard_spent": _per(1, "n_own_guards"),
-    "event_codes": lambda n: n["event_capacity"] * (4 + n["n_contacts"]),
+    "event_codes": _per(1, "event_integers"),
+    "identity": _per(1, "n_slots"),
+    "member": _per(1, "n_slots"),
+    "grouped": _per(1, "n_slots"),
+    "group_of": _per(1, "n_slots"),
+    "group_next": _per(1, "n_slots"),
+    "group_start": lambda n: n["n_slots"] + 1,
+    "mode_agreed": _per(1, "n_slots"),
+    "listed": _per(1, "n_slots"),
+    # what the contacts of a system are, whether in a slot or not, and which of them may come near each other
+    "catalogue": _per(len(CATALOGUE), "n_declared"),
+    "unit_frame": _per(1, "n_units"),
+    "unit_partner": lambda n: n["n_units"] + 1,
+    "unit_order": _per(1, "n_units"),
+    "partner_unit": _per(1, "n_partners"),
+    "partner_contact": lambda n: n["n_partners"] + 1,
+    "paired_contact": _per(1, "n_paired"),
 }
 
 SCALARS = np.dtype(
     [(name, "i8") for name in INTEGER_SCALARS]
     + [(name, "f8") for name in FLOAT_SCALARS]
-    + [(name, "i8") for name in (*_FLOAT_ARRAYS, *_INTEGER_ARRAYS)],
+    + [(name, "i8") for name in (*FLOAT_ARRAYS, *INTEGER_ARRAYS)],
     align=True,
 )
 """The record ``S``."""
 COUNTS = (
     "n_bodies",
-    "n_contacts",
+    "n_slots",
+    "n_declared",
+    "n_units",
+    "n_partners",
+    "n_paired",
     "n_own_guards",
     "n_loads",
     "n_joints",
@@ -378,80 +474,12 @@ COUNTS = (
     "n_q",
     "n_u",
     "n_y",
+    "n_pivoted",
     "map_width",
-    "event_capacity",
-    "event_width",
+    "event_floats",
+    "event_integers",
     "sample_capacity",
 )
 """The run-time sizes that :func:`allocate` takes."""
-CONSTANT_SCALARS = frozenset((*COUNTS, *_FLOAT_ARRAYS, *_INTEGER_ARRAYS))
+CONSTANT_SCALARS = frozenset((*COUNTS, *FLOAT_ARRAYS, *INTEGER_ARRAYS))
 """What never changes once the memory is laid out."""
-
-
-class Heap:
-    """The blocks that come behind the fixed arrays: output blocks, Jacobians, parameters."""
-
-    def __init__(self, memory: Memory) -> None:
-        self._memory = memory
-        self._blocks: list[np.ndarray] = []
-        self._next = len(memory.floats)
-
-    def block(self, size: int) -> int:
-        """Reserve floats; return their offset."""
-        return self.store(np.zeros(size))
-
-    def store(self, values: Sequence[float] | np.ndarray) -> int:
-        """Append values; return their offset."""
-        start = self._next
-        self._blocks.append(np.asarray(values, dtype=float))
-        self._next += len(values)
-        return start
-
-    def close(self) -> Memory:
-        """Return the memory with all blocks in it."""
-        old = self._memory
-        return Memory(old.scalars, np.concatenate([old.floats, *self._blocks, np.zeros(1)]), old.integers)
-
-
-@dataclass(frozen=True)
-class Memory:
-    """Scalars and heaps of one trajectory.
-
-    Attributes
-    ----------
-    scalars : numpy.ndarray
-        The record ``S``, shape [1].
-    floats : numpy.ndarray
-        The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
-    integers : numpy.ndarray
-        The heap ``k``.
-    """
-
-    scalars: np.ndarray
-    floats: np.ndarray
-    integers: np.ndarray
-
-    def array(self, name: str, size: int) -> np.ndarray:
-        """Return a view of ``size`` entries of the named array."""
-        heap = self.floats if name in _FLOAT_ARRAYS else self.integers
-        start = int(self.scalars[0][name])
-        return heap[start : start + size]
-
-
-def allocate(counts: Mapping[str, int]) -> Memory:
-    """Lay out the arrays for the given counts, all of ``COUNTS``; blocks are appended by :class:`Heap`."""
-    scalars = np.zeros(1, SCALARS)
-    totals: list[int] = []
-    for table in (_FLOAT_ARRAYS, _INTEGER_ARRAYS):
-        total = 0
-        for name, size in table.items():
-            scalars[name] = total
-            total += size(counts)
-        totals.append(total)
-    for name, value in counts.items():
-        scalars[name] = value
-    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
-    memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
-    memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
-    memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
-    return memory

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def heights(runs: Mapping[str, tuple[SliderCrank, Solution]]) -> Figure:
+def heights(runs: Mapping[str, tuple[SliderCrank, Solution]], title: str) -> Figure:
     """Draw the slider's height over the turns of the crank, one panel per law."""
     from matplotlib.figure import Figure
 
@@ -32,5 +32,5 @@ def heights(runs: Mapping[str, tuple[SliderCrank, Solution]]) -> Figure:
         axis.grid(color="0.9", linewidth=0.6)
         axis.set_axisbelow(True)
     axes[-1].set_xlabel("turns of the crank")
-    figure.suptitle("The slider crosses its clearance, rattles at the guide, and lets go again", fontsize=11)
+    figure.suptitle(title, fontsize=11)
     return figure

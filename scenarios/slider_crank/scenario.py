@@ -132,7 +132,7 @@ class SliderCrank(Scenario):
         """Return the slider's height in its guide."""
         from scenarios.slider_crank.figures import heights
 
-        return {"height": heights({self.law: (self, solution)})}
+        return {"height": heights({self.law: (self, solution)}, "The slider in its guide")}
 
     @classmethod
     def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
@@ -146,4 +146,4 @@ class SliderCrank(Scenario):
                 scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
             )
             runs[law] = scenario, run
-        return {"heights": heights(runs)}
+        return {"heights": heights(runs, "The slider crosses its clearance, rattles at the guide, and lets go again")}

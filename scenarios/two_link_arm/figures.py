@@ -54,7 +54,7 @@ def critical_friction(scenario: TwoLinkArm) -> Figure:
     return figure
 
 
-def gaps(runs: Mapping[str, Sequence[tuple[TwoLinkArm, Solution]]]) -> Figure:
+def gaps(runs: Mapping[str, Sequence[tuple[TwoLinkArm, Solution]]], title: str) -> Figure:
     """Draw the height of the tip over the belt, one panel per name; crosses mark impacts without collision."""
     from matplotlib.figure import Figure
 
@@ -72,7 +72,10 @@ def gaps(runs: Mapping[str, Sequence[tuple[TwoLinkArm, Solution]]]) -> Figure:
         axis.set_axisbelow(True)
         axis.legend(fontsize=8, frameon=False, loc="upper right")
     axes[-1].set_xlabel("time [s]")
-    figure.suptitle(
-        "An impact without collision (x) throws the tip off the belt; then it bounces, though e = 0", fontsize=11
+    # room for the legend above the highest curve
+    highest = max(
+        1e3 * float(np.max(scenario.gap(solution))) for pairs in runs.values() for scenario, solution in pairs
     )
+    axes[0].set_ylim(-0.05 * highest - 1e-6, 1.3 * highest + 1e-6)
+    figure.suptitle(title, fontsize=11)
     return figure

@@ -142,7 +142,12 @@ class TwoLinkArm(Scenario):
         """Return the gap over time."""
         from scenarios.two_link_arm.figures import gaps
 
-        return {"gap": gaps({f"damper {self.damping:g} N m s/rad": [(self, solution)]})}
+        runs = {f"damper {self.damping:g} N m s/rad": [(self, solution)]}
+        return {
+            "gap": gaps(
+                runs, f"Height of the tip over the belt, e = {self.restitution:g} (x: impact without collision)"
+            )
+        }
 
     @classmethod
     def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
@@ -156,4 +161,7 @@ class TwoLinkArm(Scenario):
                 scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
             )
             runs.setdefault(f"damper {damping:g} N m s/rad", []).append((scenario, run))
-        return {"critical_friction": critical_friction(cls()), "bouncing": gaps(runs)}
+        title = (
+            f"An impact without collision (x) throws the tip off the belt; it bounces, with e = {cls().restitution:g}"
+        )
+        return {"critical_friction": critical_friction(cls()), "bouncing": gaps(runs, title)}

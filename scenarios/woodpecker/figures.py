@@ -47,10 +47,10 @@ def cycles(scenario: Woodpecker, solution: Solution) -> Figure:
         axis.grid(color="0.9", linewidth=0.6)
         axis.set_axisbelow(True)
     duration, descent = scenario.cycle(solution)
-    figure.suptitle(
-        f"From peck to peck (dotted) {1e3 * duration:.1f} ms and {1e3 * descent:.2f} mm, with the law {scenario.law!r}",
-        fontsize=11,
-    )
+    title = f"The woodpecker on its way down, with the law {scenario.law!r}"
+    if np.isfinite(duration):
+        title = f"From peck to peck (dotted) {1e3 * duration:.1f} ms and {1e3 * descent:.2f} mm, law {scenario.law!r}"
+    figure.suptitle(title, fontsize=11)
     return figure
 
 

@@ -14,62 +14,26 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from bodies import Coordinate, Dumbbell, GeneralisedBody, Plate, Point, PointFrame, Sphere, TurningFrame
+from nonsmooth.compiled import compiled
 from nonsmooth.plugins.call import body_caller
 from nonsmooth.types import Floats
+from tests.bodies.planar_functions import (
+    END,
+    PART,
+    end_bias,
+    end_jacobian,
+    end_position,
+    gyroscopic,
+    no_bias,
+    no_power,
+    part_jacobian,
+    part_pose,
+    planar,
+    rigid_mass,
+    weight_potential,
+)
 
 GRAVITY = 9.81
-
-
-# a rigid body in the x-z plane: coordinates x, z and the angle from x to z
-
-
-def _mass(q: Floats, out: Floats, weight: float, inertia: float) -> None:
-    out[0] = out[4] = weight
-    out[8] = inertia
-
-
-def _force(t: float, q: Floats, u: Floats, out: Floats, weight: float, gravity_z: float) -> None:
-    out[1] = weight * gravity_z
-
-
-def _potential(q: Floats, weight: float, gravity_z: float) -> float:
-    return -weight * gravity_z * q[1]
-
-
-def _pose(q: Floats, out: Floats) -> None:
-    out[0], out[2] = q[0], q[1]
-    c, s = math.cos(q[2]), math.sin(q[2])
-    out[3], out[5], out[7], out[9], out[11] = c, -s, 1.0, s, c
-
-
-def _jacobian(q: Floats, out: Floats) -> None:
-    out[0] = out[7] = 1.0
-    out[14] = -1.0
-
-
-def _end(q: Floats, out: Floats, half: float) -> None:
-    out[0], out[2] = q[0] + half * math.cos(q[2]), q[1] + half * math.sin(q[2])
-
-
-def _end_jacobian(q: Floats, out: Floats, half: float) -> None:
-    out[0] = out[7] = 1.0
-    out[2], out[8] = -half * math.sin(q[2]), half * math.cos(q[2])
-
-
-def _end_bias(q: Floats, u: Floats, out: Floats, half: float) -> None:
-    out[0], out[2] = -half * math.cos(q[2]) * u[2] ** 2, -half * math.sin(q[2]) * u[2] ** 2
-
-
-def _nothing(q: Floats, u: Floats, out: Floats) -> None:
-    pass
-
-
-def _planar(
-    frames: Any, weight: float, inertia: float, q: Any = (0, 0, 0), u: Any = (0, 0, 0), **more: Any
-) -> GeneralisedBody:
-    coordinates = tuple(Coordinate(n, float(a), float(b)) for n, a, b in zip("xza", q, u, strict=True))
-    constants = {"weight": weight, "inertia": inertia, **more}
-    return GeneralisedBody(coordinates, _mass, _force, _potential, tuple(frames), constants)
 
 
 @pytest.mark.parametrize(("tilt", "slip", "friction"), [(0.3, 0.4, 0.2), (-0.2, -1.0, 0.6)])
@@ -77,11 +41,11 @@ def test_a_turning_frame_moves_as_the_free_body(build: Any, tilt: float, slip: f
     """A dumbbell in its three planar coordinates falls, hits, slides and sticks as the spatial one does."""
     spatial = Dumbbell()
     q = (0.0, 0.02, tilt)
-    frame = TurningFrame(_pose, _jacobian, _nothing, spatial.shapes)
-    planar = _planar([frame], spatial.total_mass, spatial.inertia[1], q, (slip, 0.0, 2.0))
+    frame = TurningFrame(part_pose, part_jacobian, no_bias, spatial.shapes)
+    flat = planar([frame], spatial.total_mass, spatial.inertia[1], q, (slip, 0.0, 2.0))
     one, two = (
         build.over(spatial, friction=friction, restitution=0.3),
-        build.over(planar, friction=friction, restitution=0.3),
+        build.over(flat, friction=friction, restitution=0.3),
     )
     # the free body turns about -y where the angle runs from x to z
     start = {"position": (0, 0, 0.02), "orientation": (math.cos(tilt / 2), 0, -math.sin(tilt / 2), 0)}
@@ -97,8 +61,8 @@ def test_a_turning_frame_moves_as_the_free_body(build: Any, tilt: float, slip: f
 def test_a_vertex_slides_without_friction(build: Any) -> None:
     """A rod slips down on its tip: one equation for its angle, by scipy, through the second-order term of a vertex."""
     half, weight, inertia, tilt = 0.5, 2.0, 0.1, 1.2
-    frame = PointFrame(_end, _end_jacobian, _end_bias, (Point(),))
-    rod = _planar([frame], weight, inertia, (0.0, half * math.sin(tilt), math.pi + tilt), half=half)
+    frame = PointFrame(end_position, end_jacobian, end_bias, (Point(),))
+    rod = planar([frame], weight, inertia, (0.0, half * math.sin(tilt), math.pi + tilt), half=half)
     system = build.over(rod, friction=0.0)
     solution = ns.simulate(system, 0.3, options=ns.Options(tolerance=1e-11))
 
@@ -228,110 +192,9 @@ def test_a_mass_that_degenerates_on_the_way_stops_the_run() -> None:
         ns.simulate(ns.System([body]), 10.0)
 
 
-# one mistake at a time
-
-
-def _too_far(q: Floats, out: Floats, weight: float, inertia: float) -> None:
-    out[0] = out[4] = weight
-    out[8] = out[9] = inertia
-
-
-def _not_a_number(t: float, q: Floats, u: Floats, out: Floats, weight: float) -> None:
-    out[1] = math.nan * weight
-
-
-def _beyond(q: Floats, weight: float, gravity_z: float) -> float:
-    return -weight * gravity_z * q[3]
-
-
-def _upwards(t: float, q: Floats, u: Floats, out: Floats, weight: float, gravity_z: float) -> None:
-    out[1] = -weight * gravity_z
-
-
-def _gyroscopic(t: float, q: Floats, u: Floats, out: Floats, weight: float, gravity_z: float) -> None:
-    out[0], out[1] = u[1], weight * gravity_z - u[0]
-
-
-def _without(t: float, q: Floats, u: Floats) -> float:
-    return 0.0
-
-
-def _wrong_turn(q: Floats, out: Floats) -> None:
-    out[0] = out[7] = 1.0
-    out[14] = 1.0
-
-
-def _skewed(q: Floats, out: Floats) -> None:
-    out[0], out[2] = q[0], q[1]
-    out[3] = out[7] = 1.0
-    out[11] = 1.01
-
-
-def _wrong_sign(q: Floats, out: Floats, half: float) -> None:
-    out[0] = out[7] = 1.0
-    out[2], out[8] = half * math.sin(q[2]), half * math.cos(q[2])
-
-
-def _half_bias(q: Floats, u: Floats, out: Floats, half: float) -> None:
-    out[0], out[2] = -0.5 * half * math.cos(q[2]) * u[2] ** 2, -0.5 * half * math.sin(q[2]) * u[2] ** 2
-
-
-def _misspelt(q: Floats, out: Floats, halv: float) -> None:
-    out[0] = halv
-
-
-def _no_square(q: Floats, u: Floats, out: Floats, half: float) -> None:
-    out[0], out[2] = -half * math.cos(q[2]) * u[2], -half * math.sin(q[2]) * u[2]
-
-
-_END: dict[str, Any] = {"pose": _end, "jacobian": _end_jacobian, "bias": _end_bias}
-_PART: dict[str, Any] = {"pose": _pose, "jacobian": _jacobian, "bias": _nothing}
-MISTAKES: list[tuple[dict[str, Any], tuple[str, ...]]] = [
-    ({"mass": _too_far}, ("mass: _too_far", "must write 9 numbers")),
-    ({"force": _not_a_number}, ("force: _not_a_number", "finite", "nan")),
-    ({"potential": _beyond}, ("potential: _beyond", "finite", "index beyond")),
-    ({"force": _upwards}, ("force: _upwards", "Lagrange's equations: entry [1] should be -19", "signs")),
-    ({"force": _gyroscopic}, ("force: _gyroscopic", "Lagrange's equations", "give their power")),
-    ({"force": _upwards, "power": _without}, ("force: _upwards", "power 0 W beside that of the potential")),
-    ({"part": {"jacobian": _wrong_turn}}, ("moving_frames[1].jacobian: _wrong_turn", "derivative of the rotation")),
-    ({"part": {"pose": _skewed}}, ("moving_frames[1].pose: _skewed", "rotation matrix", "right-handed")),
-    ({"end": {"jacobian": _wrong_sign}}, ("moving_frames[0].jacobian: _wrong_sign", "derivative of the position")),
-    ({"end": {"bias": _half_bias}}, ("moving_frames[0].bias: _half_bias", "derivative of the Jacobian times u")),
-    ({"end": {"bias": _no_square}}, ("moving_frames[0].bias: _no_square", "derivative of the Jacobian times u")),
-    ({"end": {"pose": _misspelt}}, ("_misspelt asks for a constant", "'halv'", "Did you mean 'half'")),
-    ({"mass": _force}, ("mass: _force", "must begin with ('q', 'out')")),
-    ({"potential": 3.0}, ("potential", "plain function", "3.0")),
-    ({"coordinates": ()}, ("coordinates", "at least one")),
-    ({"coordinates": (Coordinate("x"), Coordinate("x"), Coordinate("z"))}, ("coordinates", "another name")),
-    ({"coordinates": "xza"}, ("coordinates", "tuple of Coordinate")),
-    ({"moving_frames": Point()}, ("moving_frames", "tuple of MovingFrame")),
-    ({"constants": {"gravity_z": 1.0}}, ("constants['gravity_z']", "variable of its own")),
-    ({"constants": {"half": "wide"}}, ("constants['half']", "finite number", "'wide'")),
-]
-
-
-@pytest.mark.parametrize(("mistake", "words"), MISTAKES, ids=lambda x: str(x)[:40])
-def test_mistakes_are_named(mistake: dict[str, Any], words: tuple[str, ...]) -> None:
-    """The message names the function, the rule, the value and the remedy, before anything runs."""
-    mistake = dict(mistake)
-    frames = PointFrame(**(_END | mistake.pop("end", {}))), TurningFrame(**(_PART | mistake.pop("part", {})))
-    good: dict[str, Any] = {
-        "coordinates": tuple(Coordinate(name) for name in "xza"),
-        "mass": _mass,
-        "force": _force,
-        "potential": _potential,
-        "moving_frames": frames,
-        "constants": {"weight": 2.0, "inertia": 0.1, "half": 0.5},
-    }
-    with pytest.raises(ns.InvalidInput) as caught:
-        ns.System([GeneralisedBody(**(good | mistake))])
-    for word in words:
-        assert word in str(caught.value)
-
-
 def test_starts() -> None:
     """Words, shapes, numbers; frames refuse what is no shape."""
-    rod = _planar([PointFrame(**_END)], 1.0, 1.0, half=0.5)
+    rod = planar([PointFrame(**END)], 1.0, 1.0, half=0.5)
     with pytest.raises(ns.UnknownName, match="start of GeneralisedBody"):
         rod.state(position=(0, 0, 0))
     with pytest.raises(ns.InvalidInput, match="q of GeneralisedBody must be 3 finite numbers"):
@@ -339,27 +202,47 @@ def test_starts() -> None:
     q, u = rod.state(q=(1, 2, 3), u=(4, 5, 6))
     np.testing.assert_array_equal([q, u], [[1, 2, 3], [4, 5, 6]])
     with pytest.raises(ns.InvalidInput, match=r"PointFrame\.carried must contain shapes only"):
-        PointFrame(**_END, carried=(3.0,))  # type: ignore[arg-type]
+        PointFrame(**END, carried=(3.0,))  # type: ignore[arg-type]
 
 
 def test_forces_that_do_no_work_need_a_power_that_says_so() -> None:
     """A gyroscopic force is no mistake where the power is given as zero: the path is a circle."""
     coordinates = Coordinate("x", rate=1.0), Coordinate("z"), Coordinate("a")
     body = GeneralisedBody(
-        coordinates, _mass, _gyroscopic, _potential, power=_without, constants={"weight": 1.0, "inertia": 1.0}
+        coordinates, rigid_mass, gyroscopic, weight_potential, power=no_power, constants={"weight": 1.0, "inertia": 1.0}
     )
     solution = ns.simulate(ns.System([body], gravity=0.0), 2.0)
     np.testing.assert_allclose(solution.q[:, 0], np.sin(solution.t), rtol=0, atol=1e-7)
     np.testing.assert_allclose(solution.q[:, 1], np.cos(solution.t) - 1.0, rtol=0, atol=1e-7)
 
 
+@compiled
+def _square(x: float) -> float:
+    return x * x
+
+
+def _quartic(q: Floats, stiffness: float) -> float:
+    return float(0.25 * stiffness * _square(_square(q[0])))
+
+
+def _cubic(t: float, q: Floats, u: Floats, out: Floats, stiffness: float) -> None:
+    out[0] = -stiffness * q[0] * _square(q[0])
+
+
+def test_functions_may_share_a_compiled_helper() -> None:
+    """And keep the energy of an anharmonic oscillator."""
+    constants = {"weight": 1.0, "stiffness": 4.0}
+    body = GeneralisedBody((Coordinate("x", 1.0),), _unit, _cubic, _quartic, constants=constants)
+    solution = ns.simulate(ns.System([body]), 5.0)
+    energy = solution.q[:, 0] ** 4 + 0.5 * solution.u[:, 0] ** 2
+    np.testing.assert_allclose(energy, 1.0, rtol=0, atol=1e-7)
+
+
 def test_equal_bodies_share_what_is_compiled() -> None:
     """The evaluator is one function, whatever the constants, starts and shapes."""
-    bodies = [
-        _planar([PointFrame(**_END, carried=shapes)], m, 1.0, half=0.5) for m, shapes in ((1, ()), (2, (Point(),)))
-    ]
+    bodies = [planar([PointFrame(**END, carried=shapes)], m, 1.0, half=0.5) for m, shapes in ((1, ()), (2, (Point(),)))]
     assert bodies[0].evaluator is bodies[1].evaluator
-    other: Callable[..., None] = _planar([PointFrame(**_PART)], 1.0, 1.0).evaluator
+    other: Callable[..., None] = planar([PointFrame(**PART)], 1.0, 1.0).evaluator
     assert other is not bodies[0].evaluator
 
 
@@ -367,7 +250,7 @@ def test_a_point_and_a_small_sphere_agree(build: Any) -> None:
     """As the radius goes to zero, the vertex is its limit."""
 
     def end(shape: Any) -> ns.Solution:
-        rod = _planar([PointFrame(**_END, carried=(shape,))], 1.0, 0.05, (0, 0.6, 4.0), (0.3, 0, 1.0), half=0.5)
+        rod = planar([PointFrame(**END, carried=(shape,))], 1.0, 0.05, (0, 0.6, 4.0), (0.3, 0, 1.0), half=0.5)
         return ns.simulate(build.over(rod, friction=0.1), 0.6)
 
     sharp, round_ = end(Point()), end(Sphere(1e-7))
@@ -378,7 +261,7 @@ def test_a_point_and_a_small_sphere_agree(build: Any) -> None:
 
 def test_a_plane_carries_the_vertex_pair_either_way(build: Any) -> None:
     """The plate is first, whatever the order."""
-    rod, plate = _planar([PointFrame(**_END, carried=(Point(),))], 1.0, 1.0, half=0.5), Plate()
+    rod, plate = planar([PointFrame(**END, carried=(Point(),))], 1.0, 1.0, half=0.5), Plate()
     system = ns.System([rod, plate])
     (contact,) = system.contact(rod, plate, **build.laws())
     assert contact.first is plate

@@ -112,7 +112,7 @@ def _ratio(block: RockingBlock) -> float:
 @pytest.mark.parametrize("alpha", [0.02, 0.2, 0.5, 0.9])
 @pytest.mark.parametrize("exponent", [1.0, 1.5])
 def test_velocity_ratio(alpha: float, exponent: float) -> None:
-    """Housner's ratio is met without slip and bounce at every slenderness, whatever the exponent: the other corner takes no impulse."""
+    """Housner's ratio is met without slip and bounce at every slenderness: the other corner takes no impulse."""
     ratio, share = _first_impact(_no_slip(alpha, exponent=exponent))
     assert ratio == pytest.approx(1.0 - 1.5 * math.sin(alpha) ** 2, abs=1e-9)
     assert share == 0.0

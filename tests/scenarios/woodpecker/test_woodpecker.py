@@ -11,6 +11,7 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.engine.modes import IMPACT
 from scenarios.woodpecker.scenario import Woodpecker
+from tests.scenarios.woodpecker.time_stepping import cycle
 
 
 def _run(scenario: Woodpecker) -> ns.Solution:
@@ -30,6 +31,12 @@ def test_published_limit_cycle(long: Any) -> None:
     duration, descent = scenario.cycle(solution)
     assert duration == pytest.approx(0.146, abs=1e-4)
     assert descent == pytest.approx(19.5e-3, abs=1e-4)
+
+
+def test_against_time_stepping(long: Any) -> None:
+    """Moreau's scheme, which sees no events, has the same cycle to the order of its step."""
+    scenario, solution = long["newton"]
+    assert cycle(scenario, 2e-6, 4.0) == pytest.approx(scenario.cycle(solution), rel=2e-4)
 
 
 def test_the_energetic_law_gives_another_cycle(long: Any) -> None:

@@ -1,0 +1,138 @@
+"""Sustained contact at an instant by itself, on matrices."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.contact_result import MODES, ContactResult
+from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.interfaces import FrictionLaw
+from nonsmooth.model.layout import COUNTS
+from nonsmooth.model.memory import Heap, Memory, allocate
+from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
+from nonsmooth.plugins.compile import bind
+
+
+def solve_contact(
+    mass: ArrayLike,
+    normal: ArrayLike,
+    tangential: ArrayLike,
+    force: ArrayLike,
+    friction: Sequence[FrictionLaw],
+    *,
+    slip: ArrayLike | None = None,
+    bias: ArrayLike | None = None,
+    solver: str = "auto",
+) -> ContactResult:
+    """Solve for forces and modes of closed contacts, M u' = h + W lambda_N + N lambda_T with Eqs. (14)-(18).
+
+    Every contact has zero gap and gap rate.  One with slip rubs against it or opens; one without sticks within its
+    static coefficient, starts to slide against its slip acceleration with the kinetic one, or opens.  Nothing is
+    assumed of the past.
+
+    Parameters
+    ----------
+    mass : array
+        Mass matrix M, symmetric positive definite, shape [n_u, n_u].
+    normal : array
+        W, column i the generalised normal direction of contact i, shape [n_u, n].
+    tangential : array
+        N, two columns per contact, shape [n_u, n, 2]; zeros for a direction that does not exist, as in the plane.
+    force : array
+        h, the generalised force on the system without contacts, shape [n_u].
+    friction : sequence of FrictionLaw
+        Friction law of every contact, length n.
+    slip : array, optional
+        Slip velocity [m/s], shape [n, 2]; exactly zero is at rest, as are all by default.
+    bias : array, optional
+        Accelerations of the contacts while u' = 0, S of Eq. (13) [m/s^2], shape [n, 3]; zero by default.
+    solver : str
+        "auto", "enumeration" (at most eight contacts), "lemke", "gauss_seidel" or "newton"; see
+        :mod:`nonsmooth.model.solvers` for the rule of "auto".
+
+    Raises
+    ------
+    InvalidInput
+        If a shape is wrong, a number not finite, M not symmetric positive definite, a contact cannot be moved
+        along its normal, or there are too many contacts to enumerate.
+    UnknownName
+        If there is no such solver.
+    RunFailed
+        If the solver finds no forces that fulfil the laws, as in Painlevé's paradox, or, for mu_s > mu, between
+        the two bounds.
+    """
+    number = solver_number(solver)
+    h = np.array(force, dtype=float, copy=True)
+    n_u, n = h.size, len(friction)
+    m, w, t = (np.array(x, dtype=float, copy=True) for x in (mass, normal, tangential))
+    v = np.zeros((n, 2)) if slip is None else np.array(slip, dtype=float, copy=True)
+    s = np.zeros((n, 3)) if bias is None else np.array(bias, dtype=float, copy=True)
+    for name, array, shape in (
+        ("force", h, (n_u,)),
+        ("mass", m, (n_u, n_u)),
+        ("normal", w, (n_u, n)),
+        ("tangential", t, (n_u, n, 2)),
+        ("slip", v, (n, 2)),
+        ("bias", s, (n, 3)),
+    ):
+        if array.shape != shape or not np.all(np.isfinite(array)):
+            raise InvalidInput(
+                f"solve_contact: {name}",
+                f"must be finite with shape {shape}",
+                array.shape,
+                "Give one friction law per contact.",
+            )
+    if n == 0:
+        raise InvalidInput("solve_contact: friction", "must have a law for at least one contact", n, "")
+    if number == ENUMERATION and n > MOST_ENUMERATED:
+        raise InvalidInput(
+            "solve_contact: solver",
+            f"enumerates at most {MOST_ENUMERATED} contacts",
+            n,
+            "Take another solver; they find the same answer.",
+        )
+    if not np.allclose(m, m.T, rtol=1e-12, atol=0.0) or np.linalg.eigvalsh(m)[0] <= 0.0:
+        raise InvalidInput("solve_contact: mass", "must be symmetric positive definite", m.tolist(), "Check M.")
+    columns = np.concatenate([w[:, :, None], t], axis=2).reshape(n_u, 3 * n)
+    # with M = L L^T everything goes by L^-1 times the columns
+    scaled = np.linalg.solve(np.linalg.cholesky(m), columns)
+    if np.any(np.linalg.norm(scaled[:, ::3], axis=0) == 0.0):
+        raise InvalidInput("solve_contact: normal", "must have no column of zeros", w.tolist(), "Leave it out.")
+    free = np.linalg.solve(m, h)
+    memory = _memory(friction, number)
+    memory.array("delassus", 9 * n * n)[:] = (scaled.T @ scaled).ravel()
+    memory.array("b", 3 * n)[:] = s.ravel() + columns.T @ free
+    memory.scalars["acceleration_scale"] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
+    memory.array("rate", 3 * n).reshape(n, 3)[:, 1:] = v
+    if call_room("solve_from_rates", memory) == 0:
+        raise RunFailed(f"The solver {solver!r} finds no contact forces that fulfil the laws.")
+    f = memory.array("f", 3 * n).reshape(n, 3).copy()
+    return ContactResult(
+        normal_force=f[:, 0],
+        tangential_force=f[:, 1:],
+        acceleration=free + np.linalg.solve(m, columns @ f.ravel()),
+        contact_acceleration=memory.array("acceleration", 3 * n).reshape(n, 3).copy(),
+        modes=tuple(MODES[mode] for mode in memory.array("mode_tried", n)),
+        _memory=memory,
+        _scaled=scaled,
+    )
+
+
+def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:
+    n = len(friction)
+    bound = [bind(law.coefficient, "scalar", law.parameters(), type(law).__name__) for law in friction]
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
+    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.scalars["n_active"], memory.scalars["solver"] = n, solver
+    memory.array("active", n)[:] = np.arange(n)
+    memory.array("direction", 2 * n)[::2] = 1.0
+    memory.array("mode_tried", n)[:] = -1
+    heap = Heap(memory)
+    for i, (address, values) in enumerate(bound):
+        memory.array("friction_function", n)[i] = address
+        memory.array("friction_parameters", n)[i] = heap.store(values)
+    return heap.close()

@@ -1,0 +1,147 @@
+"""A trial of the contact problem: modes guessed from forces, and the one test that every answer must pass."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact_spread import spread
+from nonsmooth.engine.forces import friction_of_slip, reduced_coefficient, resolve
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.modes import OPEN, SLIDE, STICK
+
+_TOLERANCE = 1e-9
+
+
+@kernel("void(S, F, I)")
+def hold_tried(S: Scalars, w: Floats, k: Integers) -> None:
+    """Translate the modes under trial into what is held, and find the forces that hold it."""
+    for a in range(S.n_active):
+        mode = k[S.mode_tried + a]
+        k[S.normal_held + a] = 0 if mode == OPEN else 1
+        k[S.tangent_held + a] = 1 if mode == STICK else 0
+        if mode == OPEN:
+            w[S.f + 3 * a] = 0.0
+    resolve(S, w, k)
+
+
+@kernel("void(S, F, I)")
+def set_scales(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write the accelerations and what counts as zero among them and among the forces."""
+    width = 3 * S.n_active
+    # the accelerations that may cancel one another in b set the scale, not b itself
+    scale = S.acceleration_scale
+    force_scale = 0.0
+    for i in range(width):
+        force_scale = max(force_scale, abs(w[S.f + i]))
+    for a in range(S.n_active):
+        own = w[S.delassus + 3 * a * width + 3 * a]
+        if own > 0.0:
+            force_scale = max(force_scale, scale / own)
+    for i in range(width):
+        total = w[S.b + i]
+        for j in range(width):
+            product = w[S.delassus + i * width + j] * w[S.f + j]
+            total += product
+            scale = max(scale, abs(product))
+        w[S.acceleration + i] = total
+    S.small_acceleration, S.small_force = _TOLERANCE * scale, _TOLERANCE * force_scale
+
+
+@room("i8(S, F, I)")
+def verify(S: Scalars, w: Floats, k: Integers) -> int:
+    """Find the forces of the modes under trial; return 1 if modes and forces fulfil the laws themselves.
+
+    Where the forces are not unique those of least norm are found; where they break Coulomb's bound, others that
+    give the same motion and keep it are looked for, and the modes pass iff there are such.
+    """
+    hold_tried(S, w, k)
+    return judge(S, w, k)
+
+
+@kernel("i8(S, F, I)")
+def _compare(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
+    set_scales(S, w, k)
+    small, small_force = S.small_acceleration, S.small_force
+    result = 1
+    for a in range(S.n_active):
+        mode = k[S.mode_tried + a]
+        normal = w[S.acceleration + 3 * a]
+        if mode == OPEN:
+            if not normal >= -small:
+                return 0
+            continue
+        if not abs(normal) <= small:
+            return 0
+        # sliding on which more force gives more approach is balanced on an edge, and falls off either side
+        if mode == SLIDE and k[S.at_rest + a] == 0 and reduced_coefficient(S, w, a) <= 0.0:
+            return 0
+        if not w[S.f + 3 * a] >= -small_force:
+            if S.lenient == 0 or S.deficient == 0:
+                return 0
+            result = 2
+        a1, a2 = w[S.acceleration + 3 * a + 1], w[S.acceleration + 3 * a + 2]
+        if mode == STICK:
+            if not abs(a1) + abs(a2) <= small:
+                return 0
+            t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+            if not math.sqrt(t1 * t1 + t2 * t2) <= w[S.mu_static + a] * w[S.f + 3 * a] + small_force:
+                if k[S.redundant + a] == 0:
+                    return 0
+                result = 2
+        elif k[S.at_rest + a] == 1:
+            forward = a1 * w[S.d + 2 * a] + a2 * w[S.d + 2 * a + 1]
+            across = a1 * w[S.d + 2 * a + 1] - a2 * w[S.d + 2 * a]
+            if not (forward >= -small and abs(across) <= small):
+                return 0
+    return result
+
+
+@kernel("i8(S, F, I)")
+def judge(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, once spread where they are not unique."""
+    result = _compare(S, w, k)
+    if result == 2 and spread(S, w, k) == 1:
+        # the share of sliding contacts may have moved with their normal forces: all is looked at again
+        for a in range(S.n_active):
+            if k[S.mode_tried + a] == SLIDE:
+                friction_of_slip(S, w, a)
+        result = _compare(S, w, k)
+    return 1 if result == 1 else 0
+
+
+@kernel("void(S, F, I)")
+def identify(S: Scalars, w: Floats, k: Integers) -> None:
+    """Guess modes and directions from the forces ``f``, by the side of the natural map on which they stand."""
+    width = 3 * S.n_active
+    for a in range(S.n_active):
+        line = 3 * a
+        push = 0.0
+        for r in range(3):
+            total = w[S.b + line + r]
+            for j in range(width):
+                total += w[S.delassus + (line + r) * width + j] * w[S.f + j]
+            if r == 0:
+                push = w[S.f + line] * w[S.delassus + line * width + line] - total
+            w[S.acceleration + line + r] = total
+        k[S.mode_tried + a] = SLIDE
+        if k[S.at_rest + a] == 1:
+            g = slope_of_slip(S, w, a)
+            y1 = g * w[S.f + line + 1] - w[S.acceleration + line + 1]
+            y2 = g * w[S.f + line + 2] - w[S.acceleration + line + 2]
+            norm = math.sqrt(y1 * y1 + y2 * y2)
+            if norm > 0.0:
+                w[S.d + 2 * a], w[S.d + 2 * a + 1] = -y1 / norm, -y2 / norm
+            if k[S.freed + a] == 0 and norm <= g * w[S.mu + a] * w[S.f + line]:
+                k[S.mode_tried + a] = STICK
+        if push <= 0.0:
+            k[S.mode_tried + a] = OPEN
+
+
+@kernel("f8(S, F, i8)")
+def slope_of_slip(S: Scalars, w: Floats, a: int) -> float:
+    """Return how fast contact ``a`` slips under a unit of its own friction, or a number like it where it cannot."""
+    width = 3 * S.n_active
+    g = S.delassus + 3 * a * width + 3 * a
+    largest = max(w[g + width + 1], w[g + 2 * width + 2])
+    return largest if largest > 0.0 else w[g]

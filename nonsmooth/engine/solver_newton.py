@@ -1,0 +1,140 @@
+"""Semismooth Newton on the cones: the natural map of Alart and Curnier (1991), with a line search.
+
+The equations of a contact at rest, y = f - rho a being where its force would go:
+
+    f_N - max(0, y_N) = 0,    f_T - (projection of y_T on the disc of radius mu max(0, y_N)) = 0
+
+They hold iff Eqs. (16) and (17) do.  Sweeps of Gauss-Seidel bring the start near.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact_trial import slope_of_slip
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.linear import eliminate
+from nonsmooth.engine.solver_gauss_seidel import sweep
+
+STAGES = 4
+_SWEEPS = 10
+_STEPS = 30
+_HALVINGS = 8
+_FLOOR = 1e-8
+"""Added to the diagonal, whose entries are near 1: forces that are not unique must not stop the elimination."""
+_SETTLED = 1e-11
+
+
+@kernel("f8(S, F, I)")
+def _residual(S: Scalars, w: Floats, k: Integers) -> float:
+    """Write the natural map to ``right``; return its square."""
+    width = 3 * S.n_active
+    square = 0.0
+    for a in range(S.n_active):
+        line = 3 * a
+        for r in range(3):
+            total = w[S.b + line + r]
+            for j in range(width):
+                total += w[S.delassus + (line + r) * width + j] * w[S.f + j]
+            w[S.acceleration + line + r] = total
+        y = w[S.f + line] - w[S.acceleration + line] / w[S.delassus + line * width + line]
+        w[S.right + line] = w[S.f + line] - max(0.0, y)
+        radius = w[S.mu + a] * max(0.0, y)
+        t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
+        if k[S.at_rest + a] == 0:
+            pull = w[S.mu + a] * w[S.f + line]
+            w[S.right + line + 1] = t1 + pull * w[S.d + 2 * a]
+            w[S.right + line + 2] = t2 + pull * w[S.d + 2 * a + 1]
+        else:
+            g = slope_of_slip(S, w, a)
+            y1 = t1 - w[S.acceleration + line + 1] / g
+            y2 = t2 - w[S.acceleration + line + 2] / g
+            length = math.sqrt(y1 * y1 + y2 * y2)
+            cut = radius / length if length > radius else 1.0
+            w[S.right + line + 1], w[S.right + line + 2] = t1 - cut * y1, t2 - cut * y2
+        for r in range(3):
+            square += w[S.right + line + r] ** 2
+    return square
+
+
+@kernel("void(S, F, I)")
+def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write the derivative of the natural map to ``matrix``; accelerations must be those of ``f``."""
+    width = 3 * S.n_active
+    for a in range(S.n_active):
+        line = 3 * a
+        row, g = S.matrix + line * width, S.delassus + line * width
+        for i in range(3 * width):
+            w[row + i] = 0.0
+        own = w[g + line]
+        y = w[S.f + line] - w[S.acceleration + line] / own
+        if y > 0.0:
+            for j in range(width):
+                w[row + j] = w[g + j] / own
+            w[row + line] += _FLOOR
+        else:
+            w[row + line] = 1.0
+        for r in range(1, 3):
+            w[row + r * width + line + r] = 1.0
+        if k[S.at_rest + a] == 0:
+            for r in range(1, 3):
+                w[row + r * width + line] = w[S.mu + a] * w[S.d + 2 * a + r - 1]
+            continue
+        slope = slope_of_slip(S, w, a)
+        y1 = w[S.f + line + 1] - w[S.acceleration + line + 1] / slope
+        y2 = w[S.f + line + 2] - w[S.acceleration + line + 2] / slope
+        length, radius = math.sqrt(y1 * y1 + y2 * y2), w[S.mu + a] * max(0.0, y)
+        if length <= radius:
+            for r in range(1, 3):
+                for j in range(width):
+                    w[row + r * width + j] = w[g + r * width + j] / slope
+                w[row + r * width + line + r] += _FLOOR
+        elif radius > 0.0:
+            cut = radius / length
+            c1, c2 = y1 / length, y2 / length
+            for j in range(width):
+                z1, z2 = -w[g + width + j] / slope, -w[g + 2 * width + j] / slope
+                z1 += 1.0 if j == line + 1 else 0.0
+                z2 += 1.0 if j == line + 2 else 0.0
+                across = c2 * z1 - c1 * z2
+                grown = w[S.mu + a] * ((1.0 if j == line else 0.0) - w[g + j] / own)
+                w[row + width + j] -= cut * c2 * across + c1 * grown
+                w[row + 2 * width + j] += cut * c1 * across - c2 * grown
+
+
+@room("i8(S, F, I, i8)")
+def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
+    """Improve the forces by sweeps, ten times more of them in every stage, and Newton steps; return 1 if settled."""
+    sweeps = _SWEEPS
+    for _stage in range(stage):
+        sweeps *= 10
+    width = 3 * S.n_active
+    sweep(S, w, k, sweeps)
+    square = _residual(S, w, k)
+    for _step in range(_STEPS):
+        size = 0.0
+        for i in range(width):
+            size += w[S.f + i] ** 2
+        if square <= _SETTLED * _SETTLED * size:
+            return 1
+        _lay_jacobian(S, w, k)
+        for i in range(width):
+            w[S.x + i] = -w[S.right + i]
+        if eliminate(w, S.matrix, width, S.x) == 0:
+            return 0
+        for i in range(width):
+            w[S.f_kept + i] = w[S.f + i]
+        share, better = 1.0, 0
+        for _halving in range(_HALVINGS):
+            for i in range(width):
+                w[S.f + i] = w[S.f_kept + i] + share * w[S.x + i]
+            new = _residual(S, w, k)
+            if new < (1.0 - 1e-4 * share) * square:
+                square, better = new, 1
+                break
+            share *= 0.5
+        if better == 0:
+            for i in range(width):
+                w[S.f + i] = w[S.f_kept + i]
+            return 0
+    return 0
