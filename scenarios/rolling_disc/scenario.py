@@ -99,23 +99,15 @@ class RollingDisc(Scenario):
 
     def axis(self, solution: Solution) -> tuple[Floats, Floats]:
         """Return the disc's axis and its rate [1/s] in world axes over the samples, shapes [n_samples, 3]."""
-        a, b, c, d = solution.q[:, 3:7].T
-        first = np.stack([a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)], axis=1)
-        second = np.stack([2.0 * (b * c - a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d + a * b)], axis=1)
-        third = np.stack([2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a - b * b - c * c + d * d], axis=1)
-        return third, solution.u[:, 4, None] * first - solution.u[:, 3, None] * second
+        return _axis(solution.q, solution.u)
 
     def tilts(self, solution: Solution) -> Floats:
         """Return the angle between disc and table over the samples [rad]."""
-        axis, _ = self.axis(solution)
-        angles: Floats = np.arctan2(np.hypot(axis[:, 0], axis[:, 1]), np.abs(axis[:, 2]))
-        return angles
+        return _tilt_and_precession(solution.q, solution.u)[0]
 
     def precession(self, solution: Solution) -> Floats:
         """Return the rate at which the lowest point runs round over the samples [rad/s]."""
-        axis, rate = self.axis(solution)
-        turned: Floats = axis[:, 0] * rate[:, 1] - axis[:, 1] * rate[:, 0]
-        return turned / (axis[:, 0] ** 2 + axis[:, 1] ** 2)
+        return _tilt_and_precession(solution.q, solution.u)[1]
 
     def contact_points(self, solution: Solution) -> Floats:
         """Return where the lowest point is over the samples [m], shape [n_samples, 2]."""
@@ -133,8 +125,9 @@ class RollingDisc(Scenario):
         return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return tilt and precession rate at the last sample, that rate over that of steady rolling, and losses."""
-        tilt, rate = float(self.tilts(solution)[-1]), float(self.precession(solution)[-1])
+        """Return tilt and precession rate at the end, that rate over that of steady rolling, and losses."""
+        ends = _tilt_and_precession(solution.q_end[None], solution.u_end[None])
+        tilt, rate = (float(end[0]) for end in ends)
         return {
             "time": solution.t_end,
             "tilt": tilt,
@@ -177,3 +170,21 @@ class RollingDisc(Scenario):
             "settling": settling(settled, "The flatter the disc, the faster its contact runs round"),
             "paths": paths(runs, "Only steady rolling keeps the centre at rest (no air)"),
         }
+
+
+def _axis(q: Floats, u: Floats) -> tuple[Floats, Floats]:
+    """Return the disc's axis and its rate in world axes, shapes [n, 3]."""
+    a, b, c, d = q[:, 3:7].T
+    first = np.stack([a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)], axis=1)
+    second = np.stack([2.0 * (b * c - a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d + a * b)], axis=1)
+    third = np.stack([2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a - b * b - c * c + d * d], axis=1)
+    return third, u[:, 4, None] * first - u[:, 3, None] * second
+
+
+def _tilt_and_precession(q: Floats, u: Floats) -> tuple[Floats, Floats]:
+    """Return the angle between disc and table and the rate at which the lowest point runs round, shapes [n]."""
+    axis, rate = _axis(q, u)
+    across = np.hypot(axis[:, 0], axis[:, 1])
+    tilts: Floats = np.arctan2(across, np.abs(axis[:, 2]))
+    turned: Floats = axis[:, 0] * rate[:, 1] - axis[:, 1] * rate[:, 0]
+    return tilts, turned / across**2

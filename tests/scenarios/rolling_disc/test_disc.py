@@ -118,6 +118,7 @@ def test_precession_rises_as_it_settles() -> None:
     solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
     tilts, rates = scenario.tilts(solution), scenario.precession(solution)
     assert tilts[-1] < 0.021 < 0.099 < tilts[0]
+    assert scenario.summarise(solution)["tilt"] == pytest.approx(scenario.end_tilt, abs=1e-9)
     assert rates[-1] > 2.2 * rates[0] > 0.0
     np.testing.assert_allclose(rates / steady.precession(tilts, scenario.radius), 1.0, atol=0.01)
 
