@@ -15,6 +15,7 @@ from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
 from bodies.contacts.plane_sphere import PlaneSphere
+from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
@@ -22,6 +23,7 @@ from bodies.driven_body import DrivenBody
 from bodies.dumbbell import Dumbbell
 from bodies.ellipsoid_body import EllipsoidBody
 from bodies.free import FreeBody
+from bodies.generalised import Coordinate, GeneralisedBody, PointFrame, TurningFrame
 from bodies.joints.ball_joint import BallJoint
 from bodies.joints.distance import Distance
 from bodies.joints.fixed import Fixed
@@ -47,6 +49,7 @@ from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
 from bodies.shapes.plane import Plane
+from bodies.shapes.point import Point
 from bodies.shapes.sphere import Sphere
 
 __all__ = [
@@ -62,6 +65,7 @@ __all__ = [
     "CapsuleSphere",
     "Compound",
     "ConstantVelocity",
+    "Coordinate",
     "Cylinder",
     "CylinderBody",
     "CylinderSphere",
@@ -77,6 +81,7 @@ __all__ = [
     "FreeBody",
     "FunctionLoad",
     "FunctionMotion",
+    "GeneralisedBody",
     "Harmonic",
     "Hinge",
     "LineBody",
@@ -89,7 +94,10 @@ __all__ = [
     "PlaneDisc",
     "PlaneEllipsoid",
     "PlaneSphere",
+    "PlaneVertex",
     "Plate",
+    "Point",
+    "PointFrame",
     "Rest",
     "RigidBody",
     "Rod",
@@ -99,4 +107,5 @@ __all__ = [
     "Spring",
     "Table",
     "TorsionSpring",
+    "TurningFrame",
 ]

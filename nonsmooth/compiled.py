@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.kernel import jit as compiled
+from nonsmooth.engine.kernel import shared as compiled
 
 __all__ = ["compiled"]

@@ -124,7 +124,7 @@ def solve_contact(
 def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:
     n = len(friction)
     bound = [bind(law.coefficient, "scalar", law.parameters(), type(law).__name__) for law in friction]
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_contacts": n, "n_pivoted": n})
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"], memory.scalars["solver"] = n, solver
     memory.array("active", n)[:] = np.arange(n)

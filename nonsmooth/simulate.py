@@ -107,17 +107,15 @@ def _drain(model: Model, chunks: _Chunks) -> None:
     scalars, memory = model.memory.scalars, model.memory
     key = int(scalars["steps"][0]), int(scalars["impacts"][0])
     if key not in chunks:
-        n_events, n_samples = int(scalars["n_events"][0]), int(scalars["n_samples"][0])
+        n_samples = int(scalars["n_samples"][0])
         width = model.n_y + 1
-        found = memory.array("events", n_events * model.event_width)
-        marks = memory.array("event_codes", n_events * model.code_width)
-        samples = memory.array("samples", n_samples * width)
         chunks[key] = (
-            found.reshape(n_events, model.event_width).copy(),
-            marks.reshape(n_events, model.code_width).copy(),
-            samples.reshape(n_samples, width).copy(),
+            memory.array("events", int(scalars["floats_used"][0])).copy(),
+            memory.array("event_codes", int(scalars["integers_used"][0])).copy(),
+            memory.array("samples", n_samples * width).reshape(n_samples, width).copy(),
         )
-    scalars["n_events"] = scalars["n_samples"] = 0
+    for name in ("n_events", "n_samples", "floats_used", "integers_used", "last_floats"):
+        scalars[name] = 0
 
 
 def _solution(
@@ -155,7 +153,7 @@ def _solution(
         table[:, 0],
         table[:, 1 : 1 + n_q],
         table[:, 1 + n_q : 1 + n_q + n_u],
-        Events.from_rows(all_rows, all_codes, len(model.system.contacts), n_q, n_u),
+        Events.from_buffers(all_rows, all_codes, len(model.system.contacts), n_q, n_u),
         energy,
         counters,
         float(scalars["t"][0]),

@@ -11,6 +11,7 @@ from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal, write_rou
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import join_cores
 from bodies.contacts.sides import by_side
+from bodies.contacts.tangents import tangent_of
 from bodies.shapes.capsule import Capsule
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -97,7 +98,12 @@ def _evaluate(
             s, t, shortest = s_tried, t_tried, distance
     out[7], out[8], out[9] = first_x + s * ux, first_y + s * uy, first_z + s * uz
     out[10], out[11], out[12] = second_x + t * vx, second_y + t * vy, second_z + t * vz
-    join_cores(a, out, radius_a, radius_b)
+    if square > 0.0:
+        sine = math.sqrt(square)
+        cx, cy, cz = cx / sine, cy / sine, cz / sine
+    else:
+        cx, cy, cz = tangent_of(ux, uy, uz)
+    join_cores(a, out, radius_a, radius_b, cx, cy, cz)
     side_a, side_b = abs(s) < half_length_a, abs(t) < half_length_b
     write_round(out, SIDE_A, radius_a)
     write_round(out, SIDE_B, radius_b)

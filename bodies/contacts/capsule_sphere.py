@@ -10,6 +10,7 @@ from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal, write_rou
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import join_cores
 from bodies.contacts.sides import by_side
+from bodies.contacts.tangents import tangent_of
 from bodies.shapes.capsule import Capsule
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -40,7 +41,8 @@ def _evaluate(
     along = (out[10] - x) * axis_x + (out[11] - y) * axis_y + (out[12] - z) * axis_z
     near = min(max(along, -half_length_a), half_length_a)
     out[7], out[8], out[9] = x + near * axis_x, y + near * axis_y, z + near * axis_z
-    join_cores(a, out, radius_a, radius_b)
+    nx, ny, nz = tangent_of(axis_x, axis_y, axis_z)
+    join_cores(a, out, radius_a, radius_b, nx, ny, nz)
     if near == along:
         write_principal(out, SIDE_A, axis_x, axis_y, axis_z, 0.0, 1.0, 1.0, radius_a)
         out[29] = 1.0

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.contacts.across import across
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
-from bodies.contacts.cylindrical import cylindrical
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import place_sphere
 from bodies.contacts.sides import by_side
@@ -39,7 +39,7 @@ def _evaluate(
     x, y, z = point_in_world(a, x_a, y_a, z_a)
     axis_x, axis_y, axis_z = vector_in_world(a, axis_x_a, axis_y_a, axis_z_a)
     center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
-    along, away, ex, ey, ez = cylindrical(center_x - x, center_y - y, center_z - z, axis_x, axis_y, axis_z)
+    along, away, ex, ey, ez = across(center_x - x, center_y - y, center_z - z, axis_x, axis_y, axis_z)
     sign = 1.0 if along >= 0.0 else -1.0
     over, beyond = abs(along) - half_length_a, away - radius_a
     if over > 0.0 and beyond > 0.0:

@@ -10,17 +10,20 @@ from nonsmooth.types import Floats
 
 
 @compiled
-def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float) -> None:
-    """Write gap, axes and witness points; the nearest points of the two cores stand in place of the latter."""
-    x, y, z = out[10] - out[7], out[11] - out[8], out[12] - out[9]
-    distance = math.sqrt(x * x + y * y + z * z)
-    out[0] = distance - radius_a - radius_b
-    if distance > 0.0:
-        out[1], out[2], out[3] = x / distance, y / distance, z / distance
-    else:
-        # cores that meet have no normal; any will do there
-        out[1], out[2], out[3] = a[5], a[8], a[11]
+def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: float, ny: float, nz: float) -> None:
+    """Write gap, axes and witness points; the nearest points of the two cores stand in place of the latter.
+
+    Cores that meet have no normal: (nx, ny, nz) is taken, and must be across both.
+    """
+    square = 0.0
     for i in range(3):
+        square += (out[10 + i] - out[7 + i]) * (out[10 + i] - out[7 + i])
+    distance = math.sqrt(square)
+    out[0] = distance - radius_a - radius_b
+    out[1], out[2], out[3] = nx, ny, nz
+    for i in range(3):
+        if distance > 0.0:
+            out[1 + i] = (out[10 + i] - out[7 + i]) / distance
         out[7 + i] += radius_a * out[1 + i]
         out[10 + i] -= radius_b * out[1 + i]
     write_tangent(a, out)

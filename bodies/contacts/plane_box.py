@@ -6,29 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
-from bodies.contacts.frames import point_in_world
-from bodies.contacts.plane_point import place_over_plane
+from bodies.contacts.plane_point import evaluate_ball_over_plane
 from bodies.shapes.box import Box
 from bodies.shapes.plane import Plane
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
-from nonsmooth.types import Floats
-
-
-def _evaluate(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    x: float,
-    y: float,
-    z: float,
-    height: float,
-) -> None:
-    vertex_x, vertex_y, vertex_z = point_in_world(b, x, y, z)
-    place_over_plane(a, out, vertex_x, vertex_y, vertex_z, 0.0, height)
-    write_flat(out, SIDE_A)
-    write_round(out, SIDE_B, 0.0)
 
 
 @final
@@ -43,6 +25,10 @@ class PlaneBox(ContactKinematics):
     z: float = parameter(doc="vertex in its body frame, third coordinate", unit="m")
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
 
+    def parameters(self) -> dict[str, float]:
+        """Return the numbers given, and a radius of 0: a vertex is the smallest ball."""
+        return {"radius": 0.0, **self.numbers()}
+
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PlaneBox, ...]:
         """Return the contacts of the eight vertices."""
@@ -53,7 +39,7 @@ class PlaneBox(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
-        return _evaluate
+        return evaluate_ball_over_plane
 
     @property
     def features(self) -> tuple[str, ...]:

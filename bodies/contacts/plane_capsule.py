@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.plane_point import evaluate_sphere_over_plane
+from bodies.contacts.plane_point import evaluate_ball_over_plane
 from bodies.shapes.capsule import Capsule
 from bodies.shapes.plane import Plane
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -36,7 +36,7 @@ class PlaneCapsule(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
-        return evaluate_sphere_over_plane
+        return evaluate_ball_over_plane
 
     @property
     def features(self) -> tuple[str, ...]:

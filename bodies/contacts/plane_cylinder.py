@@ -16,7 +16,11 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class PlaneCylinder(ContactKinematics):
-    """The lowest point of one rim of a cylinder over a plane; a cylinder has two such contacts."""
+    """The lowest point of one rim of a cylinder over a plane; a cylinder has two such contacts.
+
+    They hold a cylinder that lies on its side.  One that stands has no lowest point: the numbers stay finite, but a
+    single contact cannot hold it.
+    """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Cylinder)
 

@@ -16,7 +16,10 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class PlaneDisc(ContactKinematics):
-    """The lowest point of a disc's rim over a plane."""
+    """The lowest point of a disc's rim over a plane.
+
+    A disc that lies flat has no lowest point: the numbers stay finite, but a single contact cannot hold it.
+    """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Disc)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat
+from bodies.contacts.curvature import SIDE_B
 from bodies.contacts.frames import point_in_world, turned_by, vector_in_body
 from bodies.contacts.plane_point import place_over_plane
 from bodies.shapes.ellipsoid import Ellipsoid
@@ -46,8 +46,7 @@ def _evaluate(
     px, py, pz = ax * nx / reach, ay * ny / reach, az * nz / reach
     low_x, low_y, low_z = turned_by(orientation_w, orientation_x, orientation_y, orientation_z, px, py, pz)
     low_x, low_y, low_z = point_in_world(b, x + low_x, y + low_y, z + low_z)
-    place_over_plane(a, out, low_x, low_y, low_z, 0.0, height)
-    write_flat(out, SIDE_A)
+    place_over_plane(a, out, low_x, low_y, low_z, height)
     # slide 1, turn the second derivative of h in the tangent plane: the inverse of the shape operator
     ps, pt = px * sx + py * sy + pz * sz, px * tx + py * ty + pz * tz
     out[SIDE_B] = out[SIDE_B + 3] = 1.0

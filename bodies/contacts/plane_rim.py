@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal
+from bodies.contacts.across import across
+from bodies.contacts.curvature import SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.plane_point import place_over_plane
-from bodies.contacts.tangents import tangent_of
 from nonsmooth.types import Floats
 
 FLATTEST = 1e-9
@@ -33,15 +31,8 @@ def evaluate_rim_over_plane(
     """
     x, y, z = point_in_world(b, x, y, z)
     axis_x, axis_y, axis_z = vector_in_world(b, axis_x, axis_y, axis_z)
-    along = axis_x * a[5] + axis_y * a[8] + axis_z * a[11]
-    down_x, down_y, down_z = along * axis_x - a[5], along * axis_y - a[8], along * axis_z - a[11]
-    sine = math.sqrt(down_x * down_x + down_y * down_y + down_z * down_z)
-    if sine > 0.0:
-        down_x, down_y, down_z = down_x / sine, down_y / sine, down_z / sine
-    else:
-        down_x, down_y, down_z = tangent_of(axis_x, axis_y, axis_z)
-    place_over_plane(a, out, x + radius * down_x, y + radius * down_y, z + radius * down_z, 0.0, height)
-    write_flat(out, SIDE_A)
+    _, sine, down_x, down_y, down_z = across(-a[5], -a[8], -a[11], axis_x, axis_y, axis_z)
+    place_over_plane(a, out, x + radius * down_x, y + radius * down_y, z + radius * down_z, height)
     rim_x = axis_y * down_z - axis_z * down_y
     rim_y = axis_z * down_x - axis_x * down_z
     rim_z = axis_x * down_y - axis_y * down_x

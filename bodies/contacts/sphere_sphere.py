@@ -6,8 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
-from bodies.contacts.frames import point_in_world
 from bodies.contacts.offset import join_cores
 from bodies.contacts.sides import by_side
 from bodies.shapes.sphere import Sphere
@@ -29,11 +27,14 @@ def _evaluate(
     y_b: float,
     z_b: float,
 ) -> None:
-    out[7], out[8], out[9] = point_in_world(a, x_a, y_a, z_a)
-    out[10], out[11], out[12] = point_in_world(b, x_b, y_b, z_b)
-    join_cores(a, out, radius_a, radius_b)
-    write_round(out, SIDE_A, radius_a)
-    write_round(out, SIDE_B, radius_b)
+    for i in range(3):
+        out[7 + i] = a[i] + a[3 + 3 * i] * x_a + a[3 + 3 * i + 1] * y_a + a[3 + 3 * i + 2] * z_a
+        out[10 + i] = b[i] + b[3 + 3 * i] * x_b + b[3 + 3 * i + 1] * y_b + b[3 + 3 * i + 2] * z_b
+    join_cores(a, out, radius_a, radius_b, a[5], a[8], a[11])
+    # sphere: slide 1, turn its radius
+    out[13] = out[16] = out[21] = out[24] = 1.0
+    out[17] = out[20] = radius_a
+    out[25] = out[28] = radius_b
 
 
 @final

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
-from bodies.contacts.frames import vector_in_body, vector_in_world
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -30,8 +27,10 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
 @compiled
 def write_tangent(a: Floats, out: Floats) -> None:
     """Write the first tangent for the normal that stands in ``out``, fixed to the first body but for the normal."""
-    x, y, z = vector_in_body(a, out[1], out[2], out[3])
-    # the frame of a body may miss unit length by the error of a step
-    size = math.sqrt(x * x + y * y + z * z)
-    x, y, z = tangent_of(x / size, y / size, z / size)
-    out[4], out[5], out[6] = vector_in_world(a, x, y, z)
+    x, y, z = tangent_of(
+        a[3] * out[1] + a[6] * out[2] + a[9] * out[3],
+        a[4] * out[1] + a[7] * out[2] + a[10] * out[3],
+        a[5] * out[1] + a[8] * out[2] + a[11] * out[3],
+    )
+    for i in range(3):
+        out[4 + i] = a[3 + 3 * i] * x + a[4 + 3 * i] * y + a[5 + 3 * i] * z

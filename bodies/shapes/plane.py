@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import final
 
@@ -20,3 +21,8 @@ class Plane(Shape):
     def length(self) -> float:
         """0: a plane is unbounded."""
         return 0.0
+
+    @property
+    def extent(self) -> float:
+        """Infinite [m]."""
+        return math.inf

@@ -66,8 +66,7 @@ def _lay_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 
 @room()
 def set_up(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics being known."""
-    free_acceleration(S, w, k)
+    """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics and M^-1 h being known."""
     assemble_delassus(S, w, k)
     S.acceleration_scale = 0.0
     for a in range(S.n_active):

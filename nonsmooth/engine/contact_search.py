@@ -245,16 +245,45 @@ def _search_from(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
 
 
 @kernel("void(S, F, I)")
+def _keep_answer(S: Scalars, w: Floats, k: Integers) -> None:
+    _keep_found(S, w, k)
+    for i in range(3 * S.n_active):
+        w[S.f_raw + i] = w[S.f + i]
+
+
+@kernel("void(S, F, I)")
+def _take_answer(S: Scalars, w: Floats, k: Integers) -> None:
+    _take_raw(S, w, k)
+    set_scales(S, w, k)
+
+
+@kernel("void(S, F, I)")
 def _close_idle(S: Scalars, w: Floats, k: Integers) -> None:
     """Of several sets of forces for the motion found take that of all contacts that it leaves closed."""
-    _keep_found(S, w, k)
+    _keep_answer(S, w, k)
     if _lay_by_motion(S, w, k) == 0:
         return
     polish(S, w, k)
     if _accept(S, w, k) == 1:
         return
-    _take_found(S, w, k)
-    verify(S, w, k)
+    _take_answer(S, w, k)
+
+
+@kernel("void(S, F, I)")
+def _prefer_stick(S: Scalars, w: Floats, k: Integers) -> None:
+    """Between the two bounds a contact at rest may stick and may slide: what is at rest stays so if all can."""
+    _keep_answer(S, w, k)
+    changed = 0
+    for a in range(S.n_active):
+        undecided = k[S.at_rest + a] == 1 and k[S.mode_past + a] != SLIDE and w[S.mu_static + a] != w[S.mu + a]
+        if undecided and k[S.mode_tried + a] == SLIDE:
+            k[S.mode_tried + a] = STICK
+            changed = 1
+    if changed == 0:
+        return
+    polish(S, w, k)
+    if _accept(S, w, k) == 0:
+        _take_answer(S, w, k)
 
 
 @room("i8(S, F, I, i8)")
@@ -279,5 +308,6 @@ def find_modes(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
         if found == 0:
             found = _search_from(S, w, k, solver)
     if found == 1:
+        _prefer_stick(S, w, k)
         _close_idle(S, w, k)
     return found

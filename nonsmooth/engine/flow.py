@@ -6,10 +6,12 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
+from nonsmooth.engine.forces import evaluate_margins
 from nonsmooth.engine.held_contacts import hold_contacts, lay_rows
+from nonsmooth.engine.islands import activate_group
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
-from nonsmooth.engine.modes import OPEN, STICK
+from nonsmooth.engine.modes import STICK
 from nonsmooth.engine.runge_kutta import stage_state, step_errors
 
 
@@ -17,27 +19,29 @@ from nonsmooth.engine.runge_kutta import stage_state, step_errors
 def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
-    In free flight the driven bodies are left alone.
+    The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.
     """
-    m = 0
-    for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            k[S.active + m] = c
-            m += 1
-    S.n_active = m
     evaluate_free_bodies(S, w, k, t, y)
     free_acceleration(S, w, k)
-    if m == 0:
+    if S.n_grouped == 0:
         return
     evaluate_driven_bodies(S, w, k, t, y)
-    for a in range(m):
-        c = k[S.active + a]
-        evaluate_geometry(S, w, k, c)
-        evaluate_rates(S, w, k, c)
-        evaluate_bias(S, w, k, c, 3 if k[S.mode + c] == STICK else 1)
-        _set_friction(S, w, k, a)
-        lay_rows(S, w, k, a)
-    hold_contacts(S, w, k)
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        for a in range(S.n_active):
+            c = k[S.active + a]
+            evaluate_geometry(S, w, k, c)
+            evaluate_rates(S, w, k, c)
+            evaluate_bias(S, w, k, c, 3 if k[S.mode + c] == STICK else 1)
+            _set_friction(S, w, k, a)
+            lay_rows(S, w, k, a)
+        hold_contacts(S, w, k)
+        evaluate_margins(S, w, k)
+        for a in range(S.n_active):
+            c = k[S.active + a]
+            w[S.static_margin + c] = w[S.margin + a]
+            for r in range(3):
+                w[S.force + 3 * c + r] = w[S.f + 3 * a + r]
 
 
 @kernel("void(S, F, I, i8)")
@@ -81,15 +85,15 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
         h = k[S.body_tail + body] + k[S.body_nq + body]
         for i in range(k[S.body_nu + body]):
             own += w[h + i] * w[y + S.n_q + k[S.body_u + body] + i]
-    for a in range(S.n_active):
-        c = k[S.active + a]
-        for r in range(3):
-            force = w[S.f + 3 * a + r]
-            if r > 0 and k[S.tangent_held + a] == 0:
-                lost -= force * w[S.rate + 3 * c + r]
-        w[S.least_force + c] = min(w[S.least_force + c], w[S.f + 3 * a])
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        sticks = k[S.mode + c] == STICK
+        if not sticks:
+            for r in range(1, 3):
+                lost -= w[S.force + 3 * c + r] * w[S.rate + 3 * c + r]
+        w[S.least_force + c] = min(w[S.least_force + c], w[S.force + 3 * c])
         slip = w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
-        if k[S.tangent_held + a] == 1 or w[S.f + 3 * a] < 0.0 or slip < 0.0:
+        if sticks or w[S.force + 3 * c] < 0.0 or slip < 0.0:
             S.suspect = 1
     w[out + S.n_q + S.n_u] = S.driven_power
     w[out + S.n_q + S.n_u + 1] = lost

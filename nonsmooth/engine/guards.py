@@ -17,7 +17,6 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.flow import right_hand_side
-from nonsmooth.engine.forces import evaluate_margins
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_guard, kernel
 from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, STICK
@@ -32,15 +31,14 @@ _WRONG = -1e-9
 @kernel("void(S, F, I, f8, i8, i8)")
 def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: int) -> None:
     """Write the guards after the right-hand side at ``t`` and ``y``; of closed contacts if ``forces`` are known (1)."""
-    if S.n_active == 0:
+    if S.n_grouped == 0:
         evaluate_driven_bodies(S, w, k, t, y)
     elif forces == 1:
-        evaluate_margins(S, w, k)
-        for a in range(S.n_active):
-            c = k[S.active + a]
-            w[S.guard + 2 * c] = w[S.f + 3 * a]
+        for i in range(S.n_grouped):
+            c = k[S.grouped + i]
+            w[S.guard + 2 * c] = w[S.force + 3 * c]
             if k[S.mode + c] == STICK:
-                w[S.guard + 2 * c + 1] = w[S.margin + a]
+                w[S.guard + 2 * c + 1] = w[S.static_margin + c]
             else:
                 w[S.guard + 2 * c + 1] = (
                     w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies import evaluate_bodies
+from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
 from nonsmooth.engine.instant_impulses import is_jammed
+from nonsmooth.engine.islands import activate_group, group_closed
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.kinematics import evaluate_contact
+from nonsmooth.engine.listing import list_contacts, longest_step, overran_list
 from nonsmooth.engine.location import first_crossing, locate
 from nonsmooth.engine.modes import (
     DONE,
@@ -18,6 +21,7 @@ from nonsmooth.engine.modes import (
     IMPACT,
     JAM,
     LIFT_OFF,
+    NO_SLOT,
     NOT_FINITE,
     OPEN,
     PAUSED,
@@ -31,13 +35,11 @@ from nonsmooth.engine.modes import (
     STOPPED,
 )
 from nonsmooth.engine.projection import (
-    activate_closed,
     normalise_quaternions,
-    project_gaps,
+    project_closed,
     project_joints,
-    project_rates,
 )
-from nonsmooth.engine.record import record_event, record_samples, remember
+from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, record_event, record_samples, remember
 from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
 
@@ -66,13 +68,20 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             closed = 1
-    h = min(S.h_closed if closed == 1 else S.h_free, S.h_max, S.t_end - S.t)
+    h = min(S.h_closed if closed == 1 else S.h_free, S.h_max, S.t_end - S.t, S.h_listed)
     if S.fresh == 0:
         h = min(h, S.h_first)
     if S.sample_interval > 0.0:
         h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
     for _attempt in range(200):
         error = try_step(S, w, k, h)
+        if error <= 1.0 and S.n_units > 0:
+            evaluate_driven_bodies(S, w, k, S.t + h, S.y_new)
+            if overran_list(S, w, k, h) == 1:
+                h *= 0.5
+                if h < S.time_tolerance:
+                    return STEP_TOO_SMALL
+                continue
         if error <= 1.0:
             S.h = h
             S.step_error = error
@@ -116,10 +125,8 @@ def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     normalise_quaternions(S, w, k)
     if S.n_joints > 0:
         project_joints(S, w, k)
-    if _drifted(S, w, k) == 1 and activate_closed(S, w, k) > 0:
-        S.closing_loss += project_rates(S, w, k)
-        # the gap that goes here is the error of the step, which no energy paid for
-        project_gaps(S, w, k)
+    if _drifted(S, w, k) == 1:
+        S.closing_loss += project_closed(S, w, k, 0)
 
 
 @kernel("i8(S, F, I)")
@@ -164,11 +171,15 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I)")
 def _singular(S: Scalars, w: Floats, k: Integers) -> int:
     """Return a contact that slides at the Painleve singularity, or -1."""
-    activate_closed(S, w, k)
-    assemble_delassus(S, w, k)
-    for a in range(S.n_active):
-        if is_jammed(S, w, k, a) == 1:
-            return k[S.active + a]
+    evaluate_bodies(S, w, k, S.t, S.y)
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        for a in range(S.n_active):
+            evaluate_contact(S, w, k, k[S.active + a], 1)
+        assemble_delassus(S, w, k)
+        for a in range(S.n_active):
+            if is_jammed(S, w, k, a) == 1:
+                return k[S.active + a]
     return -1
 
 
@@ -176,12 +187,18 @@ def _singular(S: Scalars, w: Floats, k: Integers) -> int:
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
     if S.fresh == 0:
+        group_closed(S, w, k)
         slope(S, w, k, S.t, S.y, S.slopes)
         write_guards(S, w, k, S.t, S.y, 1)
         keep_end(S, w, k)
     else:
         for i in range(S.n_y):
             w[S.slopes + i] = w[S.slopes + 6 * S.n_y + i]
+    S.h_listed = 1e300
+    if S.n_units > 0:
+        S.h_listed = longest_step(S, w, k)
+        if S.h_listed == 0.0:
+            return RUNNING if list_contacts(S, w, k) == 1 else NO_SLOT
     for c in range(S.n_contacts):
         w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
     # a gap that closes exactly where the last step ended is an event of that step
@@ -242,13 +259,11 @@ def _own_event(S: Scalars, w: Floats, k: Integers, number: int) -> int:
 @kernel("void(S, F, I, i8)")
 def _break_direction(S: Scalars, w: Floats, k: Integers, contact: int) -> None:
     """Let a contact that breaks away slip against the friction that held it."""
-    for a in range(S.n_active):
-        if k[S.active + a] == contact:
-            t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
-            norm = math.sqrt(t1 * t1 + t2 * t2)
-            if norm > 0.0:
-                w[S.direction + 2 * contact] = -t1 / norm
-                w[S.direction + 2 * contact + 1] = -t2 / norm
+    t1, t2 = w[S.force + 3 * contact + 1], w[S.force + 3 * contact + 2]
+    norm = math.sqrt(t1 * t1 + t2 * t2)
+    if norm > 0.0:
+        w[S.direction + 2 * contact] = -t1 / norm
+        w[S.direction + 2 * contact + 1] = -t2 / norm
 
 
 @room("i8(S, F, I, i8)")
@@ -263,7 +278,11 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
     for _index in range(most_steps):
         if S.t_end - S.t <= S.time_tolerance:
             return DONE
-        if S.event_capacity - S.n_events < _ROOM or 2 * S.n_samples > S.sample_capacity:
+        row = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * S.n_contacts
+        floats_left, integers_left = S.event_floats - S.floats_used, S.event_integers - S.integers_used
+        if floats_left < _ROOM * row or integers_left < _ROOM * (CODE_HEAD + 2 * S.n_contacts):
+            return PAUSED
+        if 2 * S.n_samples > S.sample_capacity:
             return PAUSED
         status = _step(S, w, k)
         if status != RUNNING:

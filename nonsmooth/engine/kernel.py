@@ -59,6 +59,8 @@ call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.cal
 
 jit: Callable[[Callable[..., Any]], Any] = _half.jit
 """Compile a plug-in's function on demand."""
+shared: Callable[[Callable[..., Any]], Any] = _half.shared
+"""Let the functions of plug-ins call this one, compiled or not."""
 address_of: Callable[[Callable[..., Any], str], int] = _half.address_of
 """Compile a shim of a form ("scalar", "guard", "body", "load", "pair", "map") and return its address."""
 COMPILATION_ERRORS: tuple[type[Exception], ...] = _half.COMPILATION_ERRORS
@@ -84,4 +86,5 @@ __all__ = [
     "kernel",
     "room",
     "room_addresses",
+    "shared",
 ]

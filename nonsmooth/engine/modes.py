@@ -23,7 +23,7 @@ CAUSES = (
 
 RUNNING, DONE, PAUSED = 0, 1, 2
 STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
-SINGULAR_SLIDING, STOPPED = 9, 10
+SINGULAR_SLIDING, STOPPED, NO_SLOT = 9, 10, 11
 """Status of the engine."""
 
 REASONS = {
@@ -35,6 +35,7 @@ REASONS = {
     IMPACT_ENDLESS: "an impact did not end within its steps",
     NO_CONTACT_SOLUTION: "the contact forces have no solution and the impact without collision did not help",
     SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
+    NO_SLOT: "more contacts came near each other than a system of this size has room for",
     SINGULAR_SLIDING: "sliding ran into the Painleve singularity, and no pushing impulse stops it there",
     EVENTS_ENDLESS: "events repeat without end within the time tolerance",
 }

@@ -23,7 +23,7 @@ from llvmlite.binding import get_host_cpu_name
 from numba import types
 from numba.core.caching import CacheImpl, _CacheLocator
 from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
-from numba.extending import intrinsic
+from numba.extending import intrinsic, typeof_impl
 
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
 from nonsmooth.model.layout import ROOMS, Memory
@@ -288,6 +288,28 @@ _C_SIGNATURES = {
 def jit(function: Callable[..., Any]) -> Any:
     """Compile a plug-in's function on demand; never cached on disk."""
     return numba.jit(**_OPTIONS)(function)
+
+
+class _Shared:
+    """A function that compiled functions call compiled, and Python calls as it stands."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self.function = function
+        self.dispatcher = jit(function)
+        functools.update_wrapper(self, function)
+
+    def __call__(self, *arguments: Any) -> Any:
+        return self.function(*arguments)
+
+
+@typeof_impl.register(_Shared)
+def _type_of_shared(value: _Shared, context: Any) -> Any:
+    return types.Dispatcher(value.dispatcher)
+
+
+def shared(function: Callable[..., Any]) -> Any:
+    """Let the compiled functions of plug-ins call this one; Python calls it as it stands."""
+    return _Shared(function)
 
 
 def address_of(shim: Callable[..., Any], form: str) -> int:

@@ -85,6 +85,11 @@ def jit(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+def shared(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Leave the function as it is."""
+    return function
+
+
 def address_of(shim: Callable[..., Any], form: str) -> int:
     """Register ``shim`` and return the number it answers to."""
     _functions.append(shim)

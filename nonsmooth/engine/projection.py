@@ -7,30 +7,15 @@ import math
 from nonsmooth.engine.bodies import evaluate_bodies, evaluate_free_bodies
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.islands import activate_group, group_closed
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact
-from nonsmooth.engine.modes import OPEN, STICK
+from nonsmooth.engine.modes import STICK
 from nonsmooth.model.layout import GEOMETRY
 
 _MOST_ITERATIONS = 5
 _CLOSED = 1e-3
 """A residual of the joints below this part of the gap tolerance counts as none."""
-
-
-@kernel("i8(S, F, I)")
-def activate_closed(S: Scalars, w: Floats, k: Integers) -> int:
-    """Make the closed contacts the active ones, kinematics evaluated; return how many they are."""
-    m = 0
-    for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            k[S.active + m] = c
-            m += 1
-    S.n_active = m
-    if m > 0:
-        evaluate_bodies(S, w, k, S.t, S.y)
-        for a in range(m):
-            evaluate_contact(S, w, k, k[S.active + a], 1)
-    return m
 
 
 @room("f8(S, F, I)")
@@ -107,6 +92,29 @@ def project_gaps(S: Scalars, w: Floats, k: Integers) -> float:
             w[S.y + k[S.body_q + body] + i] += w[k[S.body_tail + body] + i]
     evaluate_free_bodies(S, w, k, S.t, S.y)
     return before - _potential_energy(S, w, k)
+
+
+@room("f8(S, F, I, i8)")
+def project_closed(S: Scalars, w: Floats, k: Integers, book_gaps: int) -> float:
+    """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
+
+    What the gaps take counts if ``book_gaps`` is 1; within a step it is the error of the step, which no energy
+    paid for.
+    """
+    group_closed(S, w, k)
+    if S.n_grouped == 0:
+        return 0.0
+    evaluate_bodies(S, w, k, S.t, S.y)
+    loss = 0.0
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        for a in range(S.n_active):
+            evaluate_contact(S, w, k, k[S.active + a], 1)
+        loss += project_rates(S, w, k)
+        removed = project_gaps(S, w, k)
+        if book_gaps == 1:
+            loss += removed
+    return loss
 
 
 @kernel()

@@ -5,13 +5,19 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
-from nonsmooth.engine.modes import OPEN, SLIDE
+from nonsmooth.engine.modes import GUARD, OPEN, SLIDE
 from nonsmooth.engine.runge_kutta import dense_state
 
 EVENT_HEAD = 5
-"""Floats at the head of an event: time, driven work, restitution loss, friction loss, closing loss."""
-CODE_HEAD = 4
-"""Integers at the head of an event: cause, contact, phases, whether cut short; then one code per contact."""
+"""Floats at the head of an event: time, driven work, restitution loss, friction loss, closing loss.
+
+Coordinates follow, velocities before and after, and the impulses of the contacts listed.
+"""
+CODE_HEAD = 5
+"""Integers at the head of an event: cause, contact, phases, whether cut short, number of contacts listed.
+
+Contact and code of each of these follow, and their impulses at the end of the floats.
+"""
 
 
 @kernel("i8(S, F, I, i8)")
@@ -51,47 +57,66 @@ def remember(S: Scalars, w: Floats, k: Integers) -> None:
         w[S.event_head + i] = 0.0
 
 
+@kernel("i8(S, F, I, i8)")
+def _list_event(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
+    """List the contacts that an event is about: all that are or were closed, and the one that caused it."""
+    n = 0
+    for c in range(S.n_contacts):
+        if c == contact or k[S.code_before + c] + k[S.code_during + c] + code(S, w, k, c) > 0:
+            k[S.listed + n] = c
+            n += 1
+    return n
+
+
 @kernel("void(S, F, I, i8, i8, i8)")
 def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
     S.recorded += 1
-    if S.n_events >= S.event_capacity:
+    n = _list_event(S, w, k, -1 if cause == GUARD else contact)
+    width = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * n
+    if S.floats_used + width > S.event_floats or S.integers_used + CODE_HEAD + 2 * n > S.event_integers:
         return
-    n = S.n_contacts
-    row = S.events + S.n_events * S.event_width
+    S.last_floats, S.last_integers = S.floats_used, S.integers_used
+    row = S.events + S.floats_used
     w[S.event_head] = S.t
     for i in range(EVENT_HEAD):
         w[row + i] = w[S.event_head + i]
     row += EVENT_HEAD
-    for i in range(3 * n):
-        w[row + i] = w[S.event_impulse + i]
-    row += 3 * n
     for i in range(S.n_q):
         w[row + i] = w[S.y + i]
     row += S.n_q
     for i in range(S.n_u):
         w[row + i] = w[S.u_before + i]
         w[row + S.n_u + i] = w[S.y + S.n_q + i]
-    codes = S.event_codes + S.n_events * (CODE_HEAD + n)
+    row += 2 * S.n_u
+    codes = S.event_codes + S.integers_used
     k[codes], k[codes + 1], k[codes + 2] = cause, contact, phases
+    if contact >= 0 and cause != GUARD:
+        k[codes + 1] = k[S.identity + contact]
     k[codes + 3] = S.truncated if phases > 0 else 0
-    for c in range(n):
-        k[codes + CODE_HEAD + c] = k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
+    k[codes + 4] = n
+    for i in range(n):
+        c = k[S.listed + i]
+        for r in range(3):
+            w[row + 3 * i + r] = w[S.event_impulse + 3 * c + r]
+        k[codes + CODE_HEAD + 2 * i] = k[S.identity + c]
+        k[codes + CODE_HEAD + 2 * i + 1] = k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
+    S.floats_used += width
+    S.integers_used += CODE_HEAD + 2 * n
     S.n_events += 1
+    S.last_contact = contact
 
 
 @kernel()
 def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write the modes that the instant ended in, and its final velocities, into its last event."""
-    if S.n_events == 0:
+    """Write the last event anew, with the modes that the instant ended in and its final velocities."""
+    if S.n_events == 0 or S.floats_used == S.last_floats:
         return
-    n = S.n_contacts
-    row = S.events + (S.n_events - 1) * S.event_width + EVENT_HEAD + 3 * n + S.n_q + S.n_u
-    for i in range(S.n_u):
-        w[row + i] = w[S.y + S.n_q + i]
-    codes = S.event_codes + (S.n_events - 1) * (CODE_HEAD + n) + CODE_HEAD
-    for c in range(n):
-        k[codes + c] = k[codes + c] % 64 + 64 * code(S, w, k, c)
+    S.floats_used, S.integers_used = S.last_floats, S.last_integers
+    S.n_events -= 1
+    S.recorded -= 1
+    codes = S.event_codes + S.last_integers
+    record_event(S, w, k, k[codes], S.last_contact, k[codes + 2])
 
 
 @kernel("void(S, F, I, f8)")

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies import evaluate_bodies
-from nonsmooth.engine.contact_problem import accelerate, set_up, solve_contact
+from nonsmooth.engine.contact_problem import accelerate, free_acceleration, set_up, solve_contact
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact_problem import ENDLESS, FINISHED, energetic_impact
 from nonsmooth.engine.impact_window import LARGE, windowed_impact
 from nonsmooth.engine.instant_impulses import jam_slips, map_impact, reduced_coefficient
+from nonsmooth.engine.islands import activate_group, group_members, group_touching
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates, row
 from nonsmooth.engine.modes import (
@@ -30,7 +31,7 @@ from nonsmooth.engine.modes import (
     STICK,
     STICK_TO_SLIP,
 )
-from nonsmooth.engine.projection import activate_closed, project_gaps, project_rates
+from nonsmooth.engine.projection import project_closed, project_rates
 from nonsmooth.engine.record import amend_last, code, impact_code, record_event, remember
 from nonsmooth.model.layout import GEOMETRY
 
@@ -64,31 +65,65 @@ def _speed(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     return math.sqrt(v1 * v1 + v2 * v2)
 
 
-@kernel("void(S, F, I)")
-def _activate_touching(S: Scalars, w: Floats, k: Integers) -> None:
-    m = 0
+@kernel("i8(S, F, I)")
+def _fastest_approach(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return the touching contact that approaches most."""
+    contact, worst = -1, 1e300
     for c in range(S.n_contacts):
-        if k[S.touching + c] == 1:
-            k[S.active + m] = c
-            m += 1
-    S.n_active = m
+        if k[S.touching + c] == 1 and w[S.rate + 3 * c] < worst:
+            contact, worst = c, w[S.rate + 3 * c]
+    return contact
 
 
-@room("i8(S, F, I, i8)")
-def collide(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
-    """Run the impact law on the touching contacts, book its energies, record it; return the status."""
+@kernel("i8(S, F, I, i8, i8)")
+def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Return 1 if the active contacts collide: one of them approaches, or it is the one that jams or has no force."""
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        if c == contact or (cause == IMPACT and w[S.rate + 3 * c] < -S.velocity_tolerance):
+            return 1
+    return 0
+
+
+@room("i8(S, F, I, i8, i8)")
+def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Run the impact law on the touching contacts, island by island, book and record it; return the status."""
     remember(S, w, k)
-    _activate_touching(S, w, k)
-    assemble_delassus(S, w, k)
+    group_touching(S, w, k)
+    phases = truncated = 0
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        if _takes_part(S, w, k, cause, contact) == 0:
+            continue
+        status = _collide_island(S, w, k, cause)
+        if status != RUNNING:
+            return status
+        phases += S.phases
+        truncated = max(truncated, S.truncated)
+    S.impacts += 1
+    S.phases, S.truncated = phases, truncated
+    S.driven_work += w[S.event_head + 1]
+    S.restitution_loss += w[S.event_head + 2]
+    S.friction_loss += w[S.event_head + 3]
+    # until the instant is settled: apart is open, the rest goes by its slip
+    S.approaching = touch(S, w, k)
+    for c in range(S.n_contacts):
+        if k[S.code_during + c] != k[S.code_before + c] or k[S.mode + c] != OPEN:
+            _provisional_mode(S, w, k, c)
+    record_event(S, w, k, cause, contact, S.phases)
+    return RUNNING
+
+
+@kernel("i8(S, F, I, i8)")
+def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
+    """Run the impact law on the active contacts and give the bodies its impulses; return the status."""
     m = S.n_active
-    contact = -1
-    worst = 1e300
+    large = m > LARGE and S.painleve == 0 and S.impact_map == 0 and cause != JAM
+    if not large:
+        assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
         k[S.code_during + c] = impact_code(S, w, k, c)
-        if w[S.rate + 3 * c] < worst:
-            worst = w[S.rate + 3 * c]
-            contact = c
         for r in range(3):
             w[S.impact_z0 + 3 * a + r] = w[S.rate + 3 * c + r]
     S.phases, S.truncated = 1, 0
@@ -98,31 +133,20 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     elif S.impact_map != 0:
         map_impact(S, w, k)
     else:
-        outcome = windowed_impact(S, w, k) if m > LARGE and S.painleve == 0 else energetic_impact(S, w, k)
+        outcome = windowed_impact(S, w, k) if large else energetic_impact(S, w, k)
         if outcome != FINISHED:
             return IMPACT_ENDLESS if outcome == ENDLESS else NOT_FINITE
-    S.impacts += 1
     add_response(S, w, k, S.impulse, S.y + S.n_q)
-    driven = restitution = friction = 0.0
     for a in range(m):
         c = k[S.active + a]
-        restitution += w[S.stored + a] - w[S.returned + a]
-        friction += w[S.rubbed + a]
+        w[S.event_head + 2] += w[S.stored + a] - w[S.returned + a]
+        w[S.event_head + 3] += w[S.rubbed + a]
         for r in range(3):
             impulse = w[S.impulse + 3 * a + r]
             w[S.event_impulse + 3 * c + r] = impulse
-            driven -= impulse * w[S.prescribed_rate + 3 * c + r]
+            w[S.event_head + 1] -= impulse * w[S.prescribed_rate + 3 * c + r]
             if not abs(impulse) < 1e300:
                 return NOT_FINITE
-    w[S.event_head + 1], w[S.event_head + 2], w[S.event_head + 3] = driven, restitution, friction
-    S.driven_work += driven
-    S.restitution_loss += restitution
-    S.friction_loss += friction
-    # until the instant is settled: apart is open, the rest goes by its slip
-    S.approaching = touch(S, w, k)
-    for c in range(S.n_contacts):
-        _provisional_mode(S, w, k, c)
-    record_event(S, w, k, cause, contact, S.phases)
     return RUNNING
 
 
@@ -150,11 +174,12 @@ def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 @kernel("void(S, F, I, i8, i8)")
 def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
-    """Activate the contacts at rest in the normal direction and guess their modes: the past ones, and the event's."""
-    m = 0
+    """Group the contacts at rest in the normal direction and guess their modes: the past ones, and the event's."""
     for c in range(S.n_contacts):
+        k[S.member + c] = 0
+        k[S.mode_found + c] = OPEN
         if k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
-            k[S.active + m] = c
+            k[S.member + c] = 1
             # a slip about to start from rest is found anew, not remembered
             mode = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
             # one that touches without having closed parts again
@@ -164,9 +189,28 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
                 mode = OPEN
             if c == contact and cause == STICK_TO_SLIP:
                 mode = SLIDE
-            k[S.mode_tried + m] = mode
-            m += 1
-    S.n_active = m
+            k[S.mode_found + c] = mode
+    group_members(S, w, k)
+
+
+@kernel("i8(S, F, I)")
+def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
+    """Find modes and forces of the grouped contacts; return 1, or 0 with an island active that has no solution."""
+    free_acceleration(S, w, k)
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        for a in range(S.n_active):
+            k[S.mode_tried + a] = k[S.mode_found + k[S.active + a]]
+        set_up(S, w, k)
+        if solve_contact(S, w, k) == 0:
+            return 0
+        accelerate(S, w, k)
+        for a in range(S.n_active):
+            c = k[S.active + a]
+            k[S.mode_found + c] = k[S.mode_tried + a]
+            for i in range(2):
+                w[S.direction_found + 2 * c + i] = w[S.d + 2 * a + i]
+    return 1
 
 
 @kernel("i8(S, F, I)")
@@ -174,12 +218,16 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
     """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
     for c in range(S.n_contacts):
         k[S.impacting + c] = 0
+    contact = -1
     for a in range(S.n_active):
         if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, a) <= 0.0:
-            k[S.impacting + k[S.active + a]] = 1
-            S.impact_seed = max(S.impact_seed, _speed(S, w, k, k[S.active + a]))
+            contact = k[S.active + a]
+            k[S.impacting + contact] = 1
+            S.impact_seed = max(S.impact_seed, _speed(S, w, k, contact))
+    if contact < 0:
+        return NO_CONTACT_SOLUTION
     S.painleve = 1
-    status = collide(S, w, k, PAINLEVE)
+    status = collide(S, w, k, PAINLEVE, contact)
     S.painleve = 0
     S.impact_seed = 0.0
     return status
@@ -207,15 +255,15 @@ def _close(S: Scalars, w: Floats, k: Integers) -> int:
             k[S.mode + c] = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
     if closing == 0:
         return 0
-    # contacts that close here and those that rest take the step together, the others are left alone
-    m = 0
+    # contacts that close here and those of their island that rest take the step together, the others are left alone
     for c in range(S.n_contacts):
-        if k[S.touching + c] == 1 and k[S.mode + c] != OPEN:
-            k[S.active + m] = c
-            m += 1
-    S.n_active = m
+        k[S.member + c] = 1 if k[S.touching + c] == 1 and k[S.mode + c] != OPEN else 0
+    group_members(S, w, k)
     before = S.driven_work
-    w[S.event_head + 4] = project_rates(S, w, k)
+    w[S.event_head + 4] = 0.0
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        w[S.event_head + 4] += project_rates(S, w, k)
     w[S.event_head + 1] = S.driven_work - before
     S.closing_loss += w[S.event_head + 4]
     record_event(S, w, k, CLOSING, contact, 0)
@@ -229,13 +277,13 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     resting = 0
     approaching = touch(S, w, k)
     if cause == JAM:
-        status = collide(S, w, k, JAM)
+        status = collide(S, w, k, JAM, contact)
         if status != RUNNING:
             return status
         approaching = S.approaching
     for _attempt in range(_ATTEMPTS):
         if approaching == 1:
-            status = collide(S, w, k, IMPACT)
+            status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k))
             if status != RUNNING:
                 return status
             approaching = S.approaching
@@ -243,21 +291,18 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
         if S.recorded == 0:
             remember(S, w, k)
         _expect(S, w, k, cause, contact)
-        set_up(S, w, k)
-        if S.n_active > 0:
-            if solve_contact(S, w, k) == 0:
-                for a in range(S.n_active):
-                    if not (w[S.mu + a] >= 0.0 and w[S.mu_static + a] >= 0.0):
-                        return NOT_FINITE
-                resting += 1
-                if resting > _PAINLEVE_ATTEMPTS:
-                    return NO_CONTACT_SOLUTION
-                status = _impact_without_collision(S, w, k)
-                if status != RUNNING:
-                    return status
-                approaching = S.approaching
-                continue
-            accelerate(S, w, k)
+        if _solve_islands(S, w, k) == 0:
+            for a in range(S.n_active):
+                if not (w[S.mu + a] >= 0.0 and w[S.mu_static + a] >= 0.0):
+                    return NOT_FINITE
+            resting += 1
+            if resting > _PAINLEVE_ATTEMPTS:
+                return NO_CONTACT_SOLUTION
+            status = _impact_without_collision(S, w, k)
+            if status != RUNNING:
+                return status
+            approaching = S.approaching
+            continue
         _adopt(S, w, k)
         if _close(S, w, k) == 0:
             _finish(S, w, k, cause, contact)
@@ -270,21 +315,16 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
 def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
     """Take over the modes and slip directions that the contact problem found."""
     for c in range(S.n_contacts):
-        k[S.mode + c] = OPEN
-    for a in range(S.n_active):
-        c = k[S.active + a]
-        k[S.mode + c] = k[S.mode_tried + a]
+        k[S.mode + c] = k[S.mode_found + c]
         if k[S.mode + c] == SLIDE:
             for i in range(2):
-                w[S.direction + 2 * c + i] = w[S.d + 2 * a + i]
+                w[S.direction + 2 * c + i] = w[S.direction_found + 2 * c + i]
 
 
 @kernel("void(S, F, I, i8, i8)")
 def _finish(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
     """Put the closed contacts exactly on their constraints and write the event."""
-    if activate_closed(S, w, k) > 0:
-        S.closing_loss += project_rates(S, w, k)
-        S.closing_loss += project_gaps(S, w, k)
+    S.closing_loss += project_closed(S, w, k, 1)
     if S.recorded > 0:
         amend_last(S, w, k)
         return

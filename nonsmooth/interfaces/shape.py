@@ -24,3 +24,8 @@ class Shape(Component, ABC):
     @abstractmethod
     def length(self) -> float:
         """Distance of the farthest point from the origin of the body frame [m]; 0 for an unbounded shape."""
+
+    @property
+    def extent(self) -> float:
+        """Radius of a ball about the origin of the body frame that holds the shape [m]; infinite if unbounded."""
+        return self.length

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.kernel import room_addresses
+from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
 from nonsmooth.model.checks import check_start
-from nonsmooth.model.laying import lay_bodies, lay_contact, lay_guards, lay_joints, lay_loads
+from nonsmooth.model.laying import lay_bodies, lay_contact, lay_guards, lay_joints, lay_loads, lay_slots
 from nonsmooth.model.layout import COUNTS, Heap, allocate
 from nonsmooth.model.linkages import linkages
-from nonsmooth.model.model import N_ACCOUNTS, Model, event_width, map_width
+from nonsmooth.model.model import N_ACCOUNTS, Model, map_width
 from nonsmooth.model.options import Options
 from nonsmooth.model.solvers import pivoted_contacts, solver_number
+from nonsmooth.model.units import find_units, lay_units
 from nonsmooth.system.system import System
 
-_EVENT_ROWS = 4096
+_EVENTS = 2048
+"""Events of the usual size that the buffers hold."""
+_TYPICAL = 32
+"""Contacts listed in an event of the usual size."""
 _SAMPLE_ROWS = 4096
 
 
@@ -37,9 +42,15 @@ def lay_out(system: System, options: Options) -> Model:
     n_q = sum(body.n_q for body in bodies)
     n_u = sum(body.n_u for body in bodies)
     groups = linkages(system)
+    units = find_units(contacts)
+    row = EVENT_HEAD + 3 * units.n_slots + n_q + 2 * n_u
     counts = {
         "n_bodies": len(bodies),
-        "n_contacts": len(contacts),
+        "n_slots": units.n_slots,
+        "n_declared": len(contacts),
+        "n_units": len(units.radii),
+        "n_partners": len(units.pairs),
+        "n_paired": len(contacts),
         "n_own_guards": len(system.guards),
         "n_loads": len(system.loads),
         "n_joints": len(system.joints),
@@ -47,10 +58,10 @@ def lay_out(system: System, options: Options) -> Model:
         "n_q": n_q,
         "n_u": n_u,
         "n_y": n_q + n_u + N_ACCOUNTS,
-        "n_pivoted": pivoted_contacts(solver_number(options.solver), len(contacts)),
+        "n_pivoted": pivoted_contacts(solver_number(options.solver), units.n_slots),
         "map_width": map_width(contacts),
-        "event_capacity": _EVENT_ROWS,
-        "event_width": event_width(len(contacts), n_q, n_u),
+        "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + 64 * row,
+        "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL)) + 64 * 2 * (row + CODE_HEAD),
         "sample_capacity": _SAMPLE_ROWS,
     }
     assert set(counts) == set(COUNTS)
@@ -62,9 +73,12 @@ def lay_out(system: System, options: Options) -> Model:
     lay_loads(system, memory, heap, places)
     for number, contact in enumerate(contacts):
         lay_contact(memory, heap, number, contact, places)
+    lay_slots(memory, heap, contacts, places)
+    lay_units(memory, units, {(i, f): at for i, place in places.items() for f, at in enumerate(place.frames)})
     lay_guards(system, memory, heap)
     model = Model(system, heap.close(), n_q, n_u)
     _set_scalars(model, options)
+    call_room("list_contacts", model.memory)
     return model
 
 

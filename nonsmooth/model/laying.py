@@ -6,10 +6,11 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from nonsmooth.engine.modes import OPEN
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ImpactMap, ImpactProcess, Joint, Load
 from nonsmooth.interfaces.guard import guard_value
-from nonsmooth.model.layout import FRAME, JOINT_ROW, LOAD, Heap, Memory
+from nonsmooth.model.layout import CATALOGUE, FRAME, JOINT_ROW, LOAD, Heap, Memory
 from nonsmooth.model.linkages import Linkage
 from nonsmooth.parameters import Value
 from nonsmooth.plugins.compile import bind, parameter_names
@@ -156,28 +157,31 @@ def lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, place
     if isinstance(impact, ImpactProcess):
         functions["force"] = (impact.force, "scalar", impact.parameters())
         functions["efficiency"] = (impact.efficiency, "scalar", impact.parameters())
-    elif isinstance(impact, ImpactMap):
-        _lay_map(memory, heap, number, impact)
+    fields: dict[str, int] = {"mode": OPEN}
     for name, (function, form, available) in functions.items():
         address, values = bind(function, form, available, contact.name)
-        _write(memory, name, number, {"function": address, "parameters": heap.store(values)})
+        fields |= {f"{name}_function": address, f"{name}_parameters": heap.store(values)}
     for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
         place = places[id(body)]
-        values_of_side = {
-            "frame": place.frames[frame],
-            "nu": body.n_u,
-            "shift": place.shift,
-            "linkage": place.linkage,
-            "jacobian": heap.block(3 * place.linkage_nu),
-            "response": heap.block(3 * place.linkage_nu),
-        }
-        for name, value in values_of_side.items():
-            memory.array(f"{name}_{side}", number + 1)[number] = value
-    memory.array("contact_time", number + 1)[number] = impact.contact_time
-    memory.array("direction", 2 * number + 2)[2 * number] = 1.0
+        fields |= {f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
+        fields |= {f"shift_{side}": place.shift, f"linkage_{side}": place.linkage}
+    if isinstance(impact, ImpactMap):
+        fields["map_parameters"] = _lay_map(memory, heap, impact)
+    row = memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
+    for name, value in fields.items():
+        row[CATALOGUE.index(name)] = value
+    memory.array("catalogue_floats", 3 * number + 3)[3 * number :] = impact.contact_time, 1.0, 0.0
 
 
-def _lay_map(memory: Memory, heap: Heap, number: int, impact: ImpactMap) -> None:
+def lay_slots(memory: Memory, heap: Heap, contacts: Sequence[Contact], places: Places) -> None:
+    """Reserve the Jacobians of the slots."""
+    widths = [places[id(body)].linkage_nu for contact in contacts for body in (contact.first, contact.second)]
+    for slot in range(int(memory.scalars["n_slots"][0])):
+        for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
+            memory.array(name, slot + 1)[slot] = heap.block(3 * max(widths))
+
+
+def _lay_map(memory: Memory, heap: Heap, impact: ImpactMap) -> int:
     names = parameter_names(impact.impulses, "map")
     if names[:1] != ("friction",):
         raise InvalidInput(
@@ -189,7 +193,7 @@ def _lay_map(memory: Memory, heap: Heap, number: int, impact: ImpactMap) -> None
     offered: dict[str, Value] = {**impact.parameters(), "friction": 0.0}
     address, values = bind(impact.impulses, "map", offered, type(impact).__name__)
     memory.scalars["impact_map"] = address
-    memory.array("map_parameters", number + 1)[number] = heap.store(values[1:])
+    return heap.store(values[1:])
 
 
 def lay_guards(system: System, memory: Memory, heap: Heap) -> None:

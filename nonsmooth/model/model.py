@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.engine.kernel import call_room
-from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.model.layout import GEOMETRY, Memory
 from nonsmooth.plugins.compile import parameter_names
@@ -42,16 +41,6 @@ class Model:
         """Length of the integrated state: q, u, accounts."""
         return self.n_q + self.n_u + N_ACCOUNTS
 
-    @property
-    def event_width(self) -> int:
-        """Floats of an event."""
-        return event_width(len(self.system.contacts), self.n_q, self.n_u)
-
-    @property
-    def code_width(self) -> int:
-        """Integers of an event."""
-        return CODE_HEAD + len(self.system.contacts)
-
     def energy(self) -> tuple[float, float]:
         """Return kinetic and potential energy [J] of the present state."""
         bodies = self.system.bodies
@@ -66,15 +55,13 @@ class Model:
         return kinetic, potential
 
     def gaps(self) -> np.ndarray:
-        """Return the gaps [m, n_contacts] at the present state."""
+        """Return the gaps [m, n_contacts] at the present state; infinite for contacts too far to be listed."""
         call_room("evaluate_at", self.memory)
-        n = len(self.system.contacts)
-        return self.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, 0].copy()
-
-
-def event_width(n_contacts: int, n_q: int, n_u: int) -> int:
-    """Return the floats of an event: head, impulses, q, u before and after."""
-    return EVENT_HEAD + 3 * n_contacts + n_q + 2 * n_u
+        n = int(self.memory.scalars["n_contacts"][0])
+        gaps = np.full(len(self.system.contacts), np.inf)
+        listed = self.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, 0]
+        gaps[self.memory.array("identity", n)] = listed
+        return gaps
 
 
 def map_width(contacts: tuple[Contact, ...]) -> int:

@@ -82,21 +82,26 @@ def load(group: str, name: str) -> Any:
     if name not in _points(group):
         raise UnknownName(KINDS[group], name, names(group))
     point = _points(group)[name]
-    title = f"{KINDS[group]} {name!r} ({point.value}, from {source(group, name)})"
     try:
         loaded = point.load()
     except Exception as error:
         reason = f"{type(error).__name__}: {error}"
-        raise PluginError(" ".join([f"{title} cannot be loaded: {reason}.", *_hidden()])) from error
+        raise PluginError(" ".join([f"{_title(group, name)} cannot be loaded: {reason}.", *_hidden()])) from error
     if not (isinstance(loaded, type) and issubclass(loaded, GROUPS[group])):
         wanted = " or ".join(base.__name__ for base in GROUPS[group])
-        raise PluginError(f"{title} must be a subclass of {wanted}, not {loaded!r}.")
+        raise PluginError(f"{_title(group, name)} must be a subclass of {wanted}, not {loaded!r}.")
     if inspect.isabstract(loaded):
         missing = ", ".join(sorted(vars(loaded)["__abstractmethods__"]))
-        raise PluginError(f"{title} must define {missing}.")
+        raise PluginError(f"{_title(group, name)} must define {missing}.")
     if not dataclasses.is_dataclass(loaded):
-        raise PluginError(f"{title} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}.")
+        raise PluginError(
+            f"{_title(group, name)} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}."
+        )
     return loaded
+
+
+def _title(group: str, name: str) -> str:
+    return f"{KINDS[group]} {name!r} ({_points(group)[name].value}, from {source(group, name)})"
 
 
 def load_all(group: str) -> dict[str, Any]:

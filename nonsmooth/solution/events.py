@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,17 +32,22 @@ class Events:
         Changes of phase within an impact, else 0; shape [n].
     truncated : array
         1 where an endless cascade inside an impact was cut short, shape [n].
-    before, during, after : array
-        Bits a + 2 b + 4 c of Eq. (29) per contact, shape [n, n_contacts]; ``during`` differs from ``before``
-        in an impact, where it shows who collides.
     driven_work, restitution_loss, friction_loss, closing_loss : array
         Energies of the event [J], shape [n].
-    impulse : array
-        Normal and two tangential impulses per contact [N s], shape [n, n_contacts, 3].
     q : array
         Coordinates, shape [n, n_q].
     u_before, u_after : array
         Velocities, shape [n, n_u].
+    n_contacts : int
+        Contacts of the system.
+    first : array
+        Where the contacts listed with each event begin in the three arrays below, shape [n + 1].
+    listed : array
+        Contacts that were closed before, during or after the event, or caused it, shape [n_listed].
+    codes : array
+        Their bits of Eq. (29) before + 8 during + 64 after the event, shape [n_listed].
+    listed_impulse : array
+        Their normal and two tangential impulses [N s], shape [n_listed, 3].
     """
 
     time: Floats
@@ -49,42 +55,90 @@ class Events:
     contact: Integers
     phases: Integers
     truncated: Integers
-    before: Integers
-    during: Integers
-    after: Integers
     driven_work: Floats
     restitution_loss: Floats
     friction_loss: Floats
     closing_loss: Floats
-    impulse: Floats
     q: Floats
     u_before: Floats
     u_after: Floats
+    n_contacts: int
+    first: Integers
+    listed: Integers
+    codes: Integers
+    listed_impulse: Floats
 
     @classmethod
-    def from_rows(cls, rows: Floats, codes: Integers, n_contacts: int, n_q: int, n_u: int) -> Events:
-        """Cut the engine's rows into columns."""
-        ends = np.cumsum([EVENT_HEAD, 3 * n_contacts, n_q, n_u])
-        head, impulse, q, u_before, u_after = np.split(rows, ends, axis=1)
-        bits = codes[:, CODE_HEAD:]
+    def from_buffers(cls, floats: Floats, integers: Integers, n_contacts: int, n_q: int, n_u: int) -> Events:
+        """Cut the engine's buffers into columns."""
+        heads, places, starts = [], [], []
+        i = f = 0
+        while i < len(integers):
+            n = int(integers[i + CODE_HEAD - 1])
+            heads.append(i)
+            starts.append(f)
+            places.append(n)
+            i += CODE_HEAD + 2 * n
+            f += EVENT_HEAD + n_q + 2 * n_u + 3 * n
+        first = np.concatenate([[0], np.cumsum(places, dtype=np.int64)]).astype(np.int64)
+        head, start = np.array(heads, dtype=np.int64), np.array(starts, dtype=np.int64)
+        row = floats[start[:, None] + np.arange(EVENT_HEAD + n_q + 2 * n_u)]
+        time_and_energies, q, u_before, u_after = np.split(row, np.cumsum([EVENT_HEAD, n_q, n_u]), axis=1)
+        # entry j of the list of event e stands j places behind that event's head
+        event = np.repeat(np.arange(len(head)), np.diff(first))
+        j = np.arange(int(first[-1])) - first[event]
+        pair = head[event] + CODE_HEAD + 2 * j
+        push = start[event] + row.shape[1] + 3 * j
         return cls(
-            head[:, 0],
-            codes[:, 0],
-            codes[:, 1],
-            codes[:, 2],
-            codes[:, 3],
-            bits % 8,
-            bits // 8 % 8,
-            bits // 64,
-            head[:, 1],
-            head[:, 2],
-            head[:, 3],
-            head[:, 4],
-            impulse.reshape(len(rows), n_contacts, 3),
+            time_and_energies[:, 0],
+            integers[head],
+            integers[head + 1],
+            integers[head + 2],
+            integers[head + 3],
+            time_and_energies[:, 1],
+            time_and_energies[:, 2],
+            time_and_energies[:, 3],
+            time_and_energies[:, 4],
             q,
             u_before,
             u_after,
+            n_contacts,
+            first,
+            integers[pair],
+            integers[pair + 1],
+            floats[push[:, None] + np.arange(3)],
         )
+
+    def _bits(self, shift: int) -> Integers:
+        """Return the bits of every contact at every event, shape [n, n_contacts]."""
+        bits = np.zeros((len(self), self.n_contacts), dtype=np.int64)
+        bits[self._event_of_entry(), self.listed] = self.codes >> shift & 7
+        return bits
+
+    def _event_of_entry(self) -> Integers:
+        return np.repeat(np.arange(len(self)), np.diff(self.first))
+
+    @functools.cached_property
+    def before(self) -> Integers:
+        """Bits a + 2 b + 4 c of Eq. (29) per contact before the event, shape [n, n_contacts]."""
+        return self._bits(0)
+
+    @functools.cached_property
+    def during(self) -> Integers:
+        """The bits during the event; they differ from ``before`` in an impact, where they show who collides."""
+        return self._bits(3)
+
+    @functools.cached_property
+    def after(self) -> Integers:
+        """The bits after the event."""
+        return self._bits(6)
+
+    @functools.cached_property
+    def impulse(self) -> Floats:
+        """Normal and two tangential impulses per contact [N s], shape [n, n_contacts, 3]."""
+        impulse = np.zeros((len(self), self.n_contacts, 3))
+        impulse[self._event_of_entry(), self.listed] = self.listed_impulse
+        return impulse
 
     def __len__(self) -> int:
         return len(self.time)

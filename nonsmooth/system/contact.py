@@ -21,8 +21,8 @@ class Contact:
         Number of the frame on either body.
     kinematics : ContactKinematics
         Geometry of the pair of shapes.
-    size : float
-        Distance of the farthest point of either shape from its frame [m].
+    extents : tuple of float
+        Radius about its frame's origin that holds either shape [m].
     normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw
         The laws.
     """
@@ -32,10 +32,15 @@ class Contact:
     second: Body
     frames: tuple[int, int]
     kinematics: ContactKinematics
-    size: float
+    extents: tuple[float, float]
     normal: NormalLaw
     friction: FrictionLaw
     impact: ImpactLaw
+
+    @property
+    def size(self) -> float:
+        """The smaller of the extents [m]."""
+        return min(self.extents)
 
 
 @dataclass(frozen=True)

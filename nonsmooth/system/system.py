@@ -242,7 +242,7 @@ class System:
                             two,
                             (i, j),
                             geometry,
-                            max(a.length, b.length),
+                            (a.extent, b.extent),
                             normal,
                             friction,
                             impact,

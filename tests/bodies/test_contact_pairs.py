@@ -218,3 +218,96 @@ def test_rates_and_bias_are_derivatives(build: Any, name: str, place: Any, turns
         expected = change + spin * np.array([rate[c, 2], -rate[c, 1]])
         np.testing.assert_allclose(bias[c, 1:], expected, rtol=0, atol=1e-6 * scale)
     assume(checked > 0)
+
+
+AT_ORIGIN = (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
+LEVEL_X = {"axis_x": 1.0, "axis_z": 0.0}
+DEGENERATE: dict[str, tuple[tuple[Shape, Shape], Any, float]] = {
+    "flat disc": ((Plane(), Disc(0.3)), (0.0, 0.0, 0.1), 0.1),
+    "flat cylinder": ((Plane(), Cylinder(0.3, 0.2)), (0.0, 0.0, 0.3), 0.1),
+    "concentric spheres": ((Sphere(0.1), Sphere(0.2)), (0.0, 0.0, 0.0), -0.3),
+    "sphere in the middle of a box": ((Box(0.3, 0.2, 0.4), Sphere(0.1)), (0.0, 0.0, 0.0), -0.3),
+    "sphere on a vertex of a box": ((Box(0.3, 0.2, 0.4), Sphere(0.1)), (0.3, 0.2, 0.4), -0.1),
+    "sphere in the middle of a capsule": ((Capsule(0.2, 0.3), Sphere(0.1)), (0.0, 0.0, 0.0), -0.3),
+    "sphere in the middle of a long cylinder": ((Cylinder(0.2, 0.3), Sphere(0.1)), (0.0, 0.0, 0.0), -0.3),
+    "sphere in the middle of a flat cylinder": ((Cylinder(0.3, 0.2), Sphere(0.1)), (0.0, 0.0, 0.0), -0.3),
+    "sphere on the rim of a cylinder": ((Cylinder(0.3, 0.2), Sphere(0.1)), (0.3, 0.0, 0.2), -0.1),
+    "sphere in the middle of a disc": ((Disc(0.3), Sphere(0.1)), (0.0, 0.0, 0.0), -0.1),
+    "parallel capsules": ((Capsule(0.1, 0.3), Capsule(0.1, 0.3)), (0.5, 0.0, 0.1), 0.3),
+    "opposite capsules": ((Capsule(0.1, 0.3), Capsule(0.1, 0.3, axis_z=-1.0)), (0.5, 0.0, 0.1), 0.3),
+    "capsules in a row": ((Capsule(0.1, 0.3), Capsule(0.1, 0.3)), (0.0, 0.0, 1.0), 0.2),
+    "capsules that cross": ((Capsule(0.1, 0.3), Capsule(0.1, 0.3, **LEVEL_X)), (0.0, 0.0, 0.0), -0.2),
+}
+
+
+MEETING = ("concentric spheres", "sphere in the middle of a capsule", "capsules that cross")
+"""Where the cores meet, the normal turns infinitely fast and the bias has no value."""
+
+
+@pytest.mark.parametrize("name", DEGENERATE)
+def test_degenerate_positions_give_finite_numbers(build: Any, name: str) -> None:
+    """Where normal or witness is not unique, one is taken; all that follows is finite, also at a high speed."""
+    shapes, place, gap = DEGENERATE[name]
+    rig = Rig(shapes, build.laws())
+    u = np.array([1.0, 2.0, -3.0, 10.0, -5.0, 7.0, -2.0, 1.0, 0.5, 3.0, 20.0, -4.0])
+    rig.put([AT_ORIGIN, (np.array(place), AT_ORIGIN[1])], u)
+    assert np.min(rig.geometry[:, 0]) == pytest.approx(gap, abs=1e-15)
+    bias = np.zeros(1) if name in MEETING else rig.bias
+    for numbers in (rig.geometry, rig.axes, rig.rate, bias):
+        assert np.all(np.isfinite(numbers))
+    np.testing.assert_allclose(rig.axes @ rig.axes.transpose(0, 2, 1) - np.eye(3), 0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize(("along", "overlap"), [(0.0, 0.0), (0.2, 0.1), (-0.3, -0.1), (0.45, 0.225)])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_parallel_capsules_touch_in_the_middle_of_the_overlap(
+    build: Any, along: float, overlap: float, sign: float
+) -> None:
+    """Segments of half-lengths 0.3 and 0.2, shifted along each other; past the overlap the nearest ends."""
+    rig = Rig((Capsule(0.1, 0.3), Capsule(0.05, 0.2, axis_z=sign)), build.laws())
+    rig.put([AT_ORIGIN, (np.array([0.0, 0.5, along]), AT_ORIGIN[1])], np.zeros(12))
+    low, high = max(-0.3, along - 0.2), min(0.3, along + 0.2)
+    np.testing.assert_allclose(rig.geometry[0, 7:10], [0.0, 0.1, 0.5 * (low + high)], rtol=0, atol=1e-15)
+    assert rig.geometry[0, 0] == pytest.approx(0.35)
+
+
+def test_nearly_parallel_capsules_lose_no_digits(build: Any) -> None:
+    """The gap of capsules tilted by 1e-12 to 1e-2 is that at the lower end, or at the crossing of the lines."""
+    rig = Rig((Capsule(0.1, 0.3), Capsule(0.05, 0.2)), build.laws())
+    for tilt in 10.0 ** np.arange(-12.0, -1.5):
+        lean = np.array([np.cos(tilt / 2.0), np.sin(tilt / 2.0), 0.0, 0.0])
+        rig.put([AT_ORIGIN, (np.array([0.0, 0.5, 0.0]), lean)], np.zeros(12))
+        assert rig.geometry[0, 0] == pytest.approx(0.35 - 0.2 * np.sin(tilt), abs=1e-12)
+        twist = np.array([np.cos(tilt / 2.0), 0.0, np.sin(tilt / 2.0), 0.0])
+        rig.put([AT_ORIGIN, (np.array([0.0, 0.5, 0.0]), twist)], np.zeros(12))
+        assert rig.geometry[0, 0] == pytest.approx(0.35, abs=1e-15)
+
+
+def test_tangents_follow_the_normal_without_a_jump(build: Any) -> None:
+    """A small ball led round a box, over all faces but the lowest, sees its first tangent turn with the normal."""
+    rig = Rig((Box(0.3, 0.3, 0.3), Sphere(0.1)), build.laws())
+    before: Any = None
+    for angle in np.linspace(-1.1, 4.2, 20001):
+        place = 0.8 * np.array([np.cos(angle), 0.1, np.sin(angle)])
+        rig.put([AT_ORIGIN, (place, AT_ORIGIN[1])], np.zeros(12))
+        axes = rig.axes[0]
+        if before is not None:
+            turned_by = np.linalg.norm(axes[0] - before[0])
+            assert np.linalg.norm(axes[1] - before[1]) <= 3.0 * turned_by + 1e-12
+        before = axes
+
+
+@pytest.mark.parametrize("shape", [Disc(0.3), Cylinder(0.3, 0.2, z=0.2)], ids=["disc", "cylinder"])
+def test_a_nearly_flat_rim_loses_no_digits(build: Any, shape: Shape) -> None:
+    """The lowest point of a rim tilted by 1e-20 to 1e-1, on planes and discs turned together in any way."""
+    rig = Rig((Plane(), shape), build.laws())
+    rng = np.random.default_rng(5)
+    for tilt in 10.0 ** np.arange(-20.0, -0.5, 0.5):
+        frame = rng.normal(size=4)
+        frame /= np.linalg.norm(frame)
+        up = Rotation.from_quat(np.roll(frame, -1)).apply([0.0, 0.0, 1.0])
+        leaning = np.array([np.cos(tilt / 2.0), np.sin(tilt / 2.0), 0.0, 0.0])
+        lean = Rotation.from_quat(np.roll(frame, -1)) * Rotation.from_quat(np.roll(leaning, -1))
+        rig.put([(np.zeros(3), frame), (0.5 * up, np.roll(lean.as_quat(), 1))], np.ones(12))
+        assert np.min(rig.geometry[:, 0]) == pytest.approx(0.5 - 0.3 * np.sin(tilt), abs=2e-15)
+        assert np.all(np.isfinite(rig.bias))

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Ball, BallJoint, Distance, Dumbbell, Fixed, Harmonic, Hinge, Plate, Slider
+from bodies import Ball, BallJoint, Distance, Dumbbell, Fixed, FreeBody, Harmonic, Hinge, Plate, Slider
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.model.assembly import lay_out
@@ -161,7 +161,7 @@ def test_two_fixed_balls_are_a_dumbbell() -> None:
     ends = []
     for tied in (False, True):
         plate = Plate(Harmonic(amplitude=3.6e-4, frequency=25.0))
-        balls = [Ball(5e-3), Ball(5e-3)] if tied else [dumbbell]
+        balls: list[FreeBody] = [Ball(5e-3), Ball(5e-3)] if tied else [dumbbell]
         system = ns.System([plate, *balls])
         for ball in balls:
             system.contact(plate, ball, **laws)

@@ -19,7 +19,7 @@ from nonsmooth.model.layout import COUNTS, Memory, allocate
 def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:
     """Lay out one contact problem; ``slip`` holds unit vectors of sliding contacts, zeros at rest."""
     n = len(mu)
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_contacts": n})
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n})
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.array("active", n)[:] = np.arange(n)

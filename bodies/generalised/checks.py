@@ -1,0 +1,172 @@
+"""What must hold of the functions of a body, looked at by finite differences around a state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies.generalised.sample import Sampler
+from nonsmooth.errors import InvalidInput
+
+Vector = NDArray[np.float64]
+
+_STEP = 1e-3
+"""Step of the differences, in units of the scales; their error is its fourth power."""
+_ALLOWED = 1e-6
+_LOOK = "Look at the signs of the potential's derivatives and at the terms quadratic in u"
+_ASIDE = 0.01
+"""Shift of the second place that is looked at, in units of the scales: at a symmetric start many terms vanish."""
+
+
+def check_equations(sample: Sampler, q: Vector, u: Vector, q_scale: Vector, u_scale: Vector) -> None:
+    """Look at the functions at a start and a little aside of it, at its velocities and at others.
+
+    Raises
+    ------
+    InvalidInput
+        If the mass matrix is not symmetric and positive definite, a rotation is none, a Jacobian is not the derivative
+        of its pose, a bias not that of its Jacobian times u, or forces and energies contradict each other.
+    """
+    # no number here is 1 or its neighbour's, so that a square forgotten or an index exchanged cannot hide
+    signs = (-1.0) ** np.arange(len(q)) * 1.37 / (1.0 + 0.7 * np.arange(len(q)))
+    places, speeds = (q, q + _ASIDE * q_scale * signs[::-1]), (u, u + u_scale * signs)
+    states = [(place, speed) for place in places for speed in speeds]
+    frames = range(len(sample.equations.frames))
+    # a mistake is found where it is made: the later checks build on the earlier ones
+    for place in places:
+        _check_mass(sample, place, u)
+    for place in places:
+        for i in frames:
+            _check_jacobian(sample, i, place, u, q_scale)
+    for place, speed in states:
+        for i in frames:
+            _check_bias(sample, i, place, speed, q_scale)
+    for place, speed in states:
+        _check_force(sample, place, speed, q_scale)
+
+
+def _check_mass(sample: Sampler, q: Vector, u: Vector) -> None:
+    n = len(q)
+    mass = sample(q, u)["mass"].reshape(n, n)
+    thing, shown = sample.thing("mass"), mass.tolist()
+    # entries may have different units: they are judged by their diagonals
+    size = np.sqrt(np.abs(np.diag(mass)))
+    if not np.all(np.abs(mass - mass.T) <= 1e-12 * np.outer(size, size)):
+        raise InvalidInput(thing, "must write a symmetric matrix", shown, "Write M[i n + j] and M[j n + i] alike.")
+    if not (np.all(np.diag(mass) > 0.0) and np.min(np.linalg.eigvalsh(mass / np.outer(size, size))) > 1e-13):
+        raise InvalidInput(
+            thing,
+            f"must write a positive definite matrix at q = {q.tolist()}",
+            shown,
+            "Every velocity needs inertia: the kinetic energy is u . M u / 2.",
+        )
+
+
+def _slope(function: Callable[[Vector], Vector], q: Vector, along: Vector) -> Vector:
+    """Return the derivative of a function along a direction, of fourth order."""
+    one, two = (function(q + s * along) - function(q - s * along) for s in (_STEP, 2.0 * _STEP))
+    return (8.0 * one - two) / (12.0 * _STEP)
+
+
+def _compare(
+    sample: Sampler, part: str, words: tuple[str, str], given: Vector, found: Vector, weight: Vector, size: float
+) -> None:
+    """Hold what a function gives against what is found; ``size`` is that of the entries times their weight.
+
+    ``words`` are the rule and the remedy.
+    """
+    error = np.abs(given - found) * weight
+    if np.max(error, initial=0.0) > _ALLOWED * size:
+        worst = np.unravel_index(int(np.argmax(error)), error.shape)
+        index = ", ".join(str(int(i)) for i in worst)
+        rule = f"{words[0]}: entry [{index}] should be {found[worst]:.9g}"
+        raise InvalidInput(sample.thing(part), rule, float(given[worst]), words[1])
+
+
+def _derivative_of(name: str) -> tuple[str, str]:
+    return f"must be the derivative of {name}", f"Differentiate {name} once more, or correct that."
+
+
+def _check_jacobian(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) -> None:
+    n, frame = len(q), sample.equations.frames[i]
+    pose_name, jacobian_name = f"moving_frames[{i}].pose", f"moving_frames[{i}].jacobian"
+
+    def pose(at: Vector) -> Vector:
+        return np.asarray(sample(at, u)[pose_name])
+
+    axes = pose(q)[3:].reshape(-1, 3)
+    if len(axes) > 0 and not (np.allclose(axes.T @ axes, np.eye(3), atol=1e-9) and np.linalg.det(axes) > 0.0):
+        raise InvalidInput(
+            sample.thing(pose_name),
+            "must write a rotation matrix behind the position",
+            axes.tolist(),
+            "Its columns are the axes of the part: unit vectors at right angles, right-handed.",
+        )
+    found = np.empty((frame.n_rows, n))
+    for j in range(n):
+        slope = _slope(pose, q, np.eye(n)[j] * q_scale[j]) / q_scale[j]
+        found[:3, j] = slope[:3]
+        if len(axes) > 0:
+            spin = slope[3:].reshape(3, 3) @ axes.T
+            twist = spin - spin.T
+            found[3:, j] = 0.5 * twist[2, 1], 0.5 * twist[0, 2], 0.5 * twist[1, 0]
+    given = sample(q, u)[jacobian_name].reshape(frame.n_rows, n)
+    # what the differences lose to round-off goes with the pose itself
+    lost = 1e-6 * float(np.max(np.abs(pose(q))))
+    for rows, of in ((slice(0, 3), "the position"), (slice(3, 6), "the rotation")):
+        size = float(np.max(np.abs(found[rows] * q_scale), initial=0.0)) + lost
+        _compare(sample, jacobian_name, _derivative_of(of), given[rows], found[rows], q_scale, size)
+
+
+def _check_bias(sample: Sampler, i: int, q: Vector, u: Vector, q_scale: Vector) -> None:
+    n, frame = len(q), sample.equations.frames[i]
+    jacobian_name, bias_name = f"moving_frames[{i}].jacobian", f"moving_frames[{i}].bias"
+
+    def jacobian(at: Vector) -> Vector:
+        return np.asarray(sample(at, u)[jacobian_name]).reshape(frame.n_rows, n)
+
+    here = np.abs(jacobian(q) * q_scale)
+    speed = float(np.max(np.abs(u) / q_scale)) or 1.0
+    rates = _slope(lambda at: np.asarray(jacobian(at) @ u), q, u / speed) * speed
+    bias = np.asarray(sample(q, u)[bias_name])
+    words = _derivative_of("the Jacobian times u")
+    for rows in (slice(0, 3), slice(3, 6)):
+        size = float(np.max(here[rows], initial=0.0)) * speed**2
+        _compare(sample, bias_name, words, bias[rows], rates[rows], np.ones(len(bias[rows])), size)
+
+
+def _derivatives(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> tuple[Vector, Vector]:
+    """Return the derivatives of potential [n] and mass matrix [n, n, n] by each coordinate, the first index."""
+    n = len(q)
+
+    def both(at: Vector) -> Vector:
+        found = sample(at, u)
+        return np.concatenate([found["potential"], found["mass"]])
+
+    slopes = np.array([_slope(both, q, np.eye(n)[j] * q_scale[j]) / q_scale[j] for j in range(n)])
+    return slopes[:, 0], slopes[:, 1:].reshape(n, n, n)
+
+
+def _check_force(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> None:
+    """Without a power, h is that of Lagrange's equations; with one, kinetic and potential energy change by it."""
+    n, here = len(q), sample(q, u)
+    potential, mass = _derivatives(sample, q, u, q_scale)
+    terms = np.array([-potential, 0.5 * (mass @ u) @ u, -np.einsum("kij,k,j->i", mass, u, u)])
+    # what the differences lose to round-off goes with the energies themselves
+    lost = 1e-6 * (abs(float(here["potential"][0])) + 0.5 * float(u @ here["mass"].reshape(n, n) @ u))
+    if "power" not in here:
+        size = float(np.max(np.sum(np.abs(terms), axis=0) * q_scale)) + lost
+        words = "must be that of Lagrange's equations", f"{_LOOK}; for forces without a potential, give their power."
+        _compare(sample, "force", words, here["force"], terms.sum(axis=0), q_scale, size)
+        return
+    power, change = float(here["power"][0]), float(u @ (here["force"] - terms.sum(axis=0)))
+    size = float(np.sum(np.abs(terms) * np.abs(u)) + np.sum(np.abs(here["force"] * u)))
+    if not abs(change - power) <= _ALLOWED * (size + lost * float(np.max(np.abs(u) / q_scale))):
+        raise InvalidInput(
+            sample.thing("force"),
+            f"must have the power {power:.9g} W beside that of the potential at q = {q.tolist()}, u = {u.tolist()}",
+            change,
+            f"{_LOOK}.",
+        )

@@ -1,0 +1,161 @@
+"""From the functions of a body to the evaluator that the engine calls, and to a probe that looks at each of them."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from bodies.generalised.algebra import clear, invert, multiply, quadratic
+from bodies.generalised.frames import Function, MovingFrame
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.kernel import at
+from nonsmooth.model.layout import FRAME
+
+LEADING = {
+    "mass": ("q", "out"),
+    "force": ("t", "q", "u", "out"),
+    "potential": ("q",),
+    "power": ("t", "q", "u"),
+    "pose": ("q", "out"),
+    "jacobian": ("q", "out"),
+    "bias": ("q", "u", "out"),
+}
+"""What the functions of a body take before its constants."""
+
+
+class Part(NamedTuple):
+    """One function of a body: its variable in the text below, its name for messages, its role, and how much it says."""
+
+    variable: str
+    name: str
+    role: str
+    function: Callable[..., Any]
+    size: int
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The functions of a body; ``frames`` are without their shapes, so that equal bodies share what is compiled."""
+
+    n: int
+    mass: Function
+    force: Function
+    potential: Callable[..., float]
+    power: Callable[..., float] | None
+    frames: tuple[MovingFrame, ...]
+
+    def parts(self) -> tuple[Part, ...]:
+        """Return all functions."""
+        n = self.n
+        found = [
+            Part("mass", "mass", "mass", self.mass, n * n),
+            Part("force", "force", "force", self.force, n),
+            Part("potential", "potential", "potential", self.potential, 1),
+        ]
+        if self.power is not None:
+            found.append(Part("power", "power", "power", self.power, 1))
+        for i, frame in enumerate(self.frames):
+            name = f"moving_frames[{i}]"
+            found += [
+                Part(f"pose_{i}", f"{name}.pose", "pose", frame.pose, frame.n_pose),
+                Part(f"jacobian_{i}", f"{name}.jacobian", "jacobian", frame.jacobian, frame.n_rows * n),
+                Part(f"bias_{i}", f"{name}.bias", "bias", frame.bias, frame.n_rows),
+            ]
+        return tuple(found)
+
+
+GUARD = 16
+"""Floats around what each function writes to the probe, in which nothing may be written."""
+
+
+def places(equations: Equations) -> tuple[tuple[Part, int], ...]:
+    """Return every function with the offset at which it writes to the probe."""
+    found, start = [], GUARD
+    for part in equations.parts():
+        found.append((part, start))
+        start += part.size + GUARD
+    return tuple(found)
+
+
+def own_names(function: Callable[..., Any], role: str) -> tuple[str, ...]:
+    """Return the names of the constants that a function asks for."""
+    return tuple(inspect.signature(function).parameters)[len(LEADING[role]) :]
+
+
+@functools.cache
+def evaluator(equations: Equations) -> Callable[..., None]:
+    """Return ``evaluate(t, q, u, out, ...)``, which writes the output block of the body."""
+    n, frame_size = equations.n, FRAME + 6 * equations.n
+    tail = frame_size * len(equations.frames)
+    n_q = n + (equations.power is not None)
+    force, inverse = tail + n_q, tail + n_q + n
+    energy = inverse + n * n
+    lines = []
+    for i, frame in enumerate(equations.frames):
+        start = i * frame_size
+        lines += [
+            f"head_{i}(at(out, {start}))",
+            _call(equations, f"pose_{i}", start),
+            _call(equations, f"jacobian_{i}", start + FRAME),
+            f"multiply({frame.n_rows}, {n}, at(out, {start + FRAME}), u, at(out, {start + 12}))",
+            _call(equations, f"bias_{i}", start + 18),
+        ]
+    lines += [
+        *(f"out[{tail + i}] = u[{i}]" for i in range(n)),
+        f"clear({n + n * n}, at(out, {force}))",
+        _call(equations, "force", force),
+        _call(equations, "mass", inverse),
+        f"out[{energy}] = quadratic({n}, at(out, {inverse}), u)",
+        f"invert({n}, at(out, {inverse}))",
+        f"out[{energy + 1}] = {_call(equations, 'potential', 0)}",
+    ]
+    if equations.power is not None:
+        lines += [f"out[{tail + n}] = {_call(equations, 'power', 0)}", f"out[{energy + 1}] -= q[{n}]"]
+    return _function(equations, "evaluate", lines)
+
+
+@functools.cache
+def probe(equations: Equations) -> Callable[..., None]:
+    """Return ``probe(t, q, u, out, ...)``, which writes what every function says, as :func:`places` tells."""
+    lines = []
+    for part, start in places(equations):
+        call = _call(equations, part.variable, start)
+        lines.append(call if "out" in LEADING[part.role] else f"out[{start}] = {call}")
+    return _function(equations, "probe", lines)
+
+
+def _call(equations: Equations, variable: str, start: int) -> str:
+    """Return the text of a call whose result goes to ``out`` from an offset on."""
+    part = next(part for part in equations.parts() if part.variable == variable)
+    leading = [f"at(out, {start})" if name == "out" else name for name in LEADING[part.role]]
+    constants = [f"c_{name}" for name in own_names(part.function, part.role)]
+    return f"f_{variable}({', '.join([*leading, *constants])})"
+
+
+def _function(equations: Equations, name: str, lines: list[str]) -> Callable[..., None]:
+    """Return a function of these lines, its further arguments being all constants that the body's functions ask for."""
+    parts = equations.parts()
+    names = sorted({own for part in parts for own in own_names(part.function, part.role)})
+    scope: dict[str, Any] = {
+        "at": at,
+        "clear": clear,
+        "multiply": multiply,
+        "quadratic": quadratic,
+        "invert": invert,
+        **{f"f_{part.variable}": _compiled(part.function) for part in parts},
+        **{f"head_{i}": _compiled(frame.head) for i, frame in enumerate(equations.frames)},
+    }
+    # constants come under names of their own, so that none of them can hide what the lines use
+    lines = [*(f"c_{own} = {own}" for own in names), *lines]
+    exec(f"def {name}({', '.join(['t', 'q', 'u', 'out', *names])}):\n " + "\n ".join(lines), scope)
+    made: Callable[..., None] = scope[name]
+    made.__qualname__ = f"{name} of {equations.mass.__qualname__}"
+    return made
+
+
+@functools.cache
+def _compiled(function: Callable[..., Any]) -> Any:
+    return compiled(function)

@@ -1,0 +1,25 @@
+"""Point, a vertex."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+from nonsmooth.interfaces import Shape
+from nonsmooth.parameters import parameter
+
+
+@final
+@dataclass(frozen=True)
+class Point(Shape):
+    """A point at (x, y, z) in the body frame: a corner, a tip, an end."""
+
+    x: float = parameter(0.0, doc="first coordinate", unit="m")
+    y: float = parameter(0.0, doc="second coordinate", unit="m")
+    z: float = parameter(0.0, doc="third coordinate", unit="m")
+
+    @property
+    def length(self) -> float:
+        """The distance from the origin of the frame [m]."""
+        return math.hypot(self.x, self.y, self.z)

@@ -1,0 +1,1 @@
+"""A ball on a vibrating table."""

@@ -1,0 +1,1 @@
+"""Three balls, rigidly joined, on a vibrating plate."""

@@ -1,0 +1,95 @@
+"""What a trimer does in the long run: its regime, how fast it travels and turns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+_LONGEST = 12
+"""Longest repetition looked for [plate periods]."""
+_CLOSED = 1e-9
+"""A largest gap below this is none [m]."""
+_REPEATS = 1e-3
+"""Gaps that differ by less, over the largest gap, count as the same."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A run, in what does not depend on place and heading, and in what does.
+
+    Attributes
+    ----------
+    t : array
+        Times [s], shape [n], the same number in every plate period.
+    period : float
+        Plate period [s].
+    gaps : array
+        Gaps of the balls [m], shape [n, 3].
+    place : array
+        Mass centre on the plate [m], shape [n, 2].
+    turning : array
+        Vertical component of the angular velocity [rad/s], shape [n].
+    tilt : array
+        Angle from the level [rad], shape [n].
+    """
+
+    t: Floats
+    period: float
+    gaps: Floats
+    place: Floats
+    turning: Floats
+    tilt: Floats
+
+    @property
+    def half(self) -> slice:
+        """The second half of the samples."""
+        return slice(len(self.t) // 2, None)
+
+
+def repetition(motion: Motion) -> int | None:
+    """Return after how many plate periods the gaps of the last quarter repeat, up to 12; None if they do not."""
+    last = motion.gaps[-(len(motion.t) // 4) :]
+    per_period = max(1, round(motion.period / (motion.t[1] - motion.t[0])))
+    size = float(np.max(last))
+    for k in range(1, _LONGEST + 1):
+        shift = k * per_period
+        if 2 * shift < len(last) and np.max(np.abs(last[shift:] - last[:-shift])) <= _REPEATS * size:
+            return k
+    return None
+
+
+def summary(motion: Motion) -> Mapping[str, Any]:
+    """Return regime and numbers of the second half of a run.
+
+    ``regime`` is "rest", "period k" (in plate periods), "tumbling" where it turns over, or "irregular"; ``drift`` [m/s]
+    is the distance between start and end over the time, ``wandering`` [m/s] the mean speed along the path seen once a
+    plate period, ``rotation`` and ``turning`` [rad/s] the mean of the vertical angular velocity and of its size.
+    """
+    late = motion.half
+    t, place, turning = motion.t[late], motion.place[late], motion.turning[late]
+    elapsed = float(t[-1] - t[0])
+    per_period = max(1, round(motion.period / (motion.t[1] - motion.t[0])))
+    steps = np.diff(place[::per_period], axis=0)
+    largest = float(np.max(motion.gaps[late]))
+    k = repetition(motion)
+    largest_tilt = float(np.max(motion.tilt[late]))
+    regime = "irregular" if k is None else f"period {k}"
+    if largest < _CLOSED:
+        regime = "rest"
+    elif largest_tilt > 0.5 * np.pi:
+        regime = "tumbling"
+    return {
+        "regime": regime,
+        "drift": float(np.hypot(*(place[-1] - place[0]))) / elapsed,
+        "wandering": float(np.sum(np.hypot(*steps.T))) / elapsed,
+        "rotation": float(np.mean(turning)),
+        "turning": float(np.mean(np.abs(turning))),
+        "largest_gap": largest,
+        "largest_tilt": largest_tilt,
+    }

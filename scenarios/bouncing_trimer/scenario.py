@@ -1,0 +1,184 @@
+"""A rigid triangle of three balls that bounces on a vibrating plate, wanders and turns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import Ball, Compound, Harmonic, Part, Plate
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from scenarios.bouncing_trimer.motion import Motion, summary
+
+Floats = NDArray[np.float64]
+
+GRAVITY = 9.81
+_SAMPLES_PER_PERIOD = 20
+_SAMPLES = 40000
+
+
+@final
+@dataclass(frozen=True)
+class BouncingTrimer(Scenario):
+    """Three equal balls at the corners of an equilateral triangle, dropped a little tilted on a plate A sin(2 pi f t).
+
+    The source gives centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  What holds
+    the balls together has no mass and touches nothing.
+
+    References
+    ----------
+    S. Dorbolo, F. Ludewig, N. Vandewalle, "Bouncing trimer: a random self-propelled particle, chaos and periodical
+    motions", New J. Phys. 11 (2009) 033016.
+    """
+
+    title: ClassVar[str] = "Bouncing trimer"
+
+    gamma: float = parameter(2.0, doc="peak acceleration of the plate over gravity", minimum=0.0, usual=(0.0, 20.0))
+    frequency: float = parameter(50.0, doc="frequency f of the plate", unit="Hz", above=0.0, usual=(1.0, 1e3))
+    restitution: float = parameter(
+        0.6, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, assumed=True
+    )
+    friction: float = parameter(0.2, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), assumed=True)
+    radius: float = parameter(5e-3, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)
+    spacing: float = parameter(
+        0.02, doc="distance between their centres", unit="m", above=0.0, usual=(2e-4, 10.0), assumed=True
+    )
+    density: float = parameter(
+        7800.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4), assumed=True
+    )
+    height: float = parameter(1e-3, doc="height of the lowest ball over the plate at the start", unit="m", minimum=0.0)
+    tilt: float = parameter(0.02, doc="tilt of the triangle at the start", unit="rad", minimum=-1.5, maximum=1.5)
+    direction: float = parameter(0.3, doc="azimuth of the axis of that tilt", unit="rad", minimum=-7.0, maximum=7.0)
+    contact_time: float = parameter(
+        2e-5, doc="contact time T_c that ends an accumulation", unit="s", minimum=0.0, usual=(1e-12, 1e-2), assumed=True
+    )
+    t_end: float = parameter(10.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))
+
+    def _check(self) -> None:
+        if self.spacing < 2.0 * self.radius:
+            raise InvalidInput(
+                "BouncingTrimer.spacing",
+                f"must be at least the diameter {2.0 * self.radius:g} m of the balls",
+                self.spacing,
+                "Move the balls apart, or make them smaller.",
+            )
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A whole fraction of the plate period [s]: 1/20, or one period in long runs."""
+        fraction = max(1, min(_SAMPLES_PER_PERIOD, int(_SAMPLES / max(1.0, self.t_end * self.frequency))))
+        return 1.0 / (self.frequency * fraction)
+
+    @property
+    def amplitude(self) -> float:
+        """Amplitude A of the plate [m]."""
+        return self.gamma * GRAVITY / (2.0 * math.pi * self.frequency) ** 2
+
+    @property
+    def corners(self) -> Floats:
+        """The balls' centres in the axes of the body [m], shape [3, 3]."""
+        angles = 2.0 * math.pi / 3.0 * np.arange(3)
+        distance = self.spacing / math.sqrt(3.0)
+        places: Floats = distance * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(3)])
+        return places
+
+    def body(self) -> Compound:
+        """Return the three balls as one body."""
+        ball = Ball(self.radius, self.density)
+        return Compound(tuple(Part(ball, (float(x), float(y), float(z))) for x, y, z in self.corners))
+
+    def build(self) -> System:
+        """Return plate and trimer at their start."""
+        plate = Plate(Harmonic(self.amplitude, self.frequency))
+        trimer = self.body()
+        friction = Frictionless() if self.friction == 0.0 else Coulomb(self.friction)
+        impact = EnergeticImpact(self.restitution, duration=self.contact_time)
+        system = System([plate, trimer], gravity=GRAVITY)
+        system.contact(trimer, plate, normal=Unilateral(), friction=friction, impact=impact)
+        c, s = math.cos(self.tilt / 2.0), math.sin(self.tilt / 2.0)
+        orientation = (c, s * math.cos(self.direction), s * math.sin(self.direction), 0.0)
+        lowest = float(np.min(_heights(np.array([orientation]), self.corners)))
+        system.place(trimer, position=(0.0, 0.0, self.radius + self.height - lowest), orientation=orientation)
+        return system
+
+    def plate(self, t: Floats) -> Floats:
+        """Return the height of the plate [m] at times [s]."""
+        z: Floats = self.amplitude * np.sin(2.0 * math.pi * self.frequency * t)
+        return z
+
+    def centres(self, q: Floats) -> Floats:
+        """Return the balls' centres [m] in one state, shape [3, 3]."""
+        a, vector = q[3], q[4:7]
+        turned = self.corners + 2.0 * np.cross(vector, np.cross(vector, self.corners) + a * self.corners)
+        places: Floats = q[:3] + turned
+        return places
+
+    def gaps(self, t: Floats, q: Floats) -> Floats:
+        """Return the three gaps [m] of states [n, 7] at times [n], shape [n, 3]."""
+        found: Floats = q[:, 2:3] + _heights(q[:, 3:], self.corners) - self.radius - self.plate(t)[:, None]
+        return found
+
+    def motion(self, solution: Solution) -> Motion:
+        """Return gaps, path, turning and tilt over the samples."""
+        q = solution.q
+        up = _third_row(q[:, 3:])
+        turning = np.sum(up * solution.u[:, 3:], axis=1)
+        tilt = np.arctan2(np.hypot(up[:, 0], up[:, 1]), up[:, 2])
+        return Motion(solution.t, 1.0 / self.frequency, self.gaps(solution.t, q), q[:, :2], turning, tilt)
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return x, y, z [m], turning [rad/s], tilt [rad] and the three gaps [m] over the samples."""
+        motion = self.motion(solution)
+        gaps = {f"gap_{i + 1}": gap for i, gap in enumerate(motion.gaps.T)}
+        places = {name: solution.q[:, i] for i, name in enumerate("xyz")}
+        return places | {"turning": motion.turning, "tilt": motion.tilt} | gaps
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u} at the end: position and quaternion, velocity and angular velocity in body axes."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the regime and its numbers over the second half of the run: see :mod:`.motion`."""
+        return {**summary(self.motion(solution)), "impacts": solution.counters.impacts}
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return path and heading, and the gaps over the last plate periods."""
+        from scenarios.bouncing_trimer.figures import last_bounces, path
+
+        return {"path": path(self, solution), "gaps": last_bounces(self, solution)}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return regimes and speeds over Gamma and frequency, and the path of one run."""
+        from scenarios.bouncing_trimer.figures import gallery
+
+        return gallery(cls, progress)
+
+
+def _third_row(quaternions: Floats) -> Floats:
+    """Return the vertical in body axes, shape [n, 3]."""
+    a, b, c, d = quaternions.T
+    scale = a * a + b * b + c * c + d * d
+    row = np.column_stack([2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d])
+    vertical: Floats = row / scale[:, None]
+    return vertical
+
+
+def _heights(quaternions: Floats, corners: Floats) -> Floats:
+    """Return how far the corners are above the mass centre [m], shape [n, 3]."""
+    heights: Floats = _third_row(quaternions) @ corners.T
+    return heights

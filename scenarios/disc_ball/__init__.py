@@ -1,0 +1,1 @@
+"""A disc that strikes two balls at rest: Bernoulli's problem."""

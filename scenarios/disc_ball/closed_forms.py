@@ -1,0 +1,60 @@
+"""What the collision does in the cases that can be written down."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+_COLLISIONS = 1000
+
+
+def half_angle(radius_ratio: float) -> float:
+    """Return the angle alpha [rad] between the line of centres, disc to ball, and the axis of symmetry."""
+    return math.asin(1.0 / (1.0 + radius_ratio))
+
+
+def symmetric(mass_ratio: float, radius_ratio: float, restitution: float) -> tuple[float, float]:
+    """Return the velocity of the disc along the axis and the speed of either ball, over the disc's speed before.
+
+    Both contacts do the same by symmetry, so that one impulse P each gives all:
+    P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha.
+    """
+    c = math.cos(half_angle(radius_ratio))
+    ball = (1.0 + restitution) * c / (1.0 + 2.0 * c * c / mass_ratio)
+    return 1.0 - 2.0 * c * ball / mass_ratio, ball
+
+
+def one_after_the_other(
+    mass_ratio: float, radius_ratio: float, restitution: float, direction: Floats, first: int
+) -> Floats:
+    """Return the velocities of disc, left and right ball, shape [3, 2], after collisions in pairs at fixed places.
+
+    Parameters
+    ----------
+    mass_ratio, radius_ratio, restitution : float
+        Disc over ball, disc over ball, and e.
+    direction : array
+        Velocity of the disc before, shape [2]; y is the axis of symmetry.
+    first : int
+        Which ball is hit first: 0 the left one, 1 the right one.
+    """
+    alpha = half_angle(radius_ratio)
+    normals = np.array([[-math.sin(alpha), math.cos(alpha)], [math.sin(alpha), math.cos(alpha)]])
+    u = np.zeros((3, 2))
+    u[0] = direction
+    ball = first
+    for _ in range(_COLLISIONS):
+        rates = np.array([normals[i] @ (u[1 + i] - u[0]) for i in range(2)])
+        if rates[ball] >= 0.0:
+            ball = 1 - ball
+            if rates[ball] >= 0.0:
+                break
+        impulse = -(1.0 + restitution) * rates[ball] / (1.0 + 1.0 / mass_ratio)
+        u[1 + ball] += impulse * normals[ball]
+        u[0] -= impulse / mass_ratio * normals[ball]
+        ball = 1 - ball
+    return u

@@ -1,0 +1,163 @@
+"""A disc strikes two balls that touch: the smallest multiple impact in a plane."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import Ball
+from laws import EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from scenarios.disc_ball.closed_forms import half_angle
+
+Floats = NDArray[np.float64]
+
+_SAMPLES = 400
+
+
+@final
+@dataclass(frozen=True)
+class DiscBall(Scenario):
+    """Bernoulli's problem: a frictionless disc flies into two equal balls at rest that touch each other, no gravity.
+
+    All centres stay in the plane of x and y; y is the axis of symmetry, and the disc comes from below.  With
+    ``offset`` 0 it reaches both balls at once, whatever its direction.  Bodies that do not turn make no
+    difference between a disc and a ball, so that spheres stand for both.
+
+    References
+    ----------
+    C. Liu, Z. Zhao, B. Brogliato, "Frictionless multiple impacts in multibody systems. I. Theoretical
+    framework", Proc. R. Soc. A 464 (2008) 3193-3211, for the impact law.
+    """
+
+    title: ClassVar[str] = "Disc into two balls"
+
+    mass_ratio: float = parameter(1.0, doc="mass of the disc over that of a ball", above=0.0, usual=(1e-3, 1e3))
+    radius_ratio: float = parameter(1.0, doc="radius of the disc over that of a ball", above=0.0, usual=(1e-2, 1e2))
+    stiffness_ratio: float = parameter(
+        1.0, doc="stiffness at the right ball over that at the left one", above=0.0, usual=(1e-6, 1e6)
+    )
+    restitution: float = parameter(1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
+    incidence: float = parameter(
+        0.0, doc="angle of the disc's velocity from the axis, positive to the right", unit="rad", usual=(-1.0, 1.0)
+    )
+    offset: float = parameter(
+        0.0, doc="distance of the disc's path from the one that reaches both balls at once, to the right", unit="m"
+    )
+    radius: float = parameter(0.01, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0))
+    density: float = parameter(7800.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
+    speed: float = parameter(1.0, doc="speed of the disc", unit="m/s", above=0.0, usual=(1e-3, 1e2))
+    distance: float = parameter(0.01, doc="way to the strike", unit="m", above=0.0, usual=(1e-6, 10.0))
+    t_end: float = parameter(0.03, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
+
+    def _check(self) -> None:
+        # beyond this angle the disc leaves one of the balls when it touches both
+        largest = math.pi / 2.0 - self.half_angle
+        if abs(self.incidence) >= largest:
+            raise InvalidInput(
+                "DiscBall.incidence",
+                f"must be below {largest:.4g} rad in size, or the disc passes one ball",
+                self.incidence,
+                "Take a smaller angle [rad].",
+            )
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A four-hundredth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    @property
+    def half_angle(self) -> float:
+        """Angle alpha between the lines of centres and the axis when the disc touches both [rad]."""
+        return half_angle(self.radius_ratio)
+
+    @property
+    def radii(self) -> tuple[float, float, float]:
+        """Radii of disc, left and right ball [m]."""
+        return self.radius_ratio * self.radius, self.radius, self.radius
+
+    @property
+    def direction(self) -> Floats:
+        """Unit vector of the disc's velocity before, shape [2]."""
+        return np.array([math.sin(self.incidence), math.cos(self.incidence)])
+
+    def build(self) -> System:
+        """Return disc, balls and contacts at their start."""
+        disc = Ball(self.radii[0], self.density * self.mass_ratio / self.radius_ratio**3)
+        left, right = Ball(self.radius, self.density), Ball(self.radius, self.density)
+        system = System([disc, left, right], gravity=0.0)
+        for one, two, stiffness in ((disc, left, 1.0), (disc, right, self.stiffness_ratio), (left, right, 1.0)):
+            impact = EnergeticImpact(self.restitution, stiffness, self.exponent)
+            system.contact(one, two, normal=Unilateral(), friction=Frictionless(), impact=impact)
+        for ball, x in ((left, -self.radius), (right, self.radius)):
+            system.place(ball, position=(x, 0.0, 0.0))
+        x, y = self.direction
+        between = (self.radii[0] + self.radius) * math.cos(self.half_angle)
+        place = (self.offset * y - self.distance * x, -between - self.offset * x - self.distance * y, 0.0)
+        system.place(disc, position=place, velocity=(self.speed * x, self.speed * y, 0.0))
+        return system
+
+    def positions(self, solution: Solution) -> Floats:
+        """Return the centres of disc, left and right ball [m], shape [n_samples, 3, 2]."""
+        return solution.q.reshape(len(solution.t), 3, 7)[:, :, :2]
+
+    def velocities(self, solution: Solution) -> Floats:
+        """Return their velocities at the end over the speed of the disc, shape [3, 2]."""
+        relative: Floats = solution.u_end.reshape(3, 6)[:, :2] / self.speed
+        return relative
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return x and y of disc, left and right ball [m] over the samples."""
+        places = self.positions(solution)
+        return {
+            f"{letter}_{name}": places[:, i, j]
+            for i, name in enumerate(("disc", "left", "right"))
+            for j, letter in enumerate("xy")
+        }
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u}: centres [m] and velocities [m/s] of disc, left and right ball at the end, x before y."""
+        return {
+            "q": solution.q_end.reshape(3, 7)[:, :2].ravel().tolist(),
+            "u": solution.u_end.reshape(3, 6)[:, :2].ravel().tolist(),
+        }
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the velocities (x, y) over the speed of the disc, the share of energy kept, the number of impacts."""
+        relative = self.velocities(solution)
+        account = solution.energy
+        return {
+            "disc": relative[0].tolist(),
+            "left": relative[1].tolist(),
+            "right": relative[2].tolist(),
+            "energy_kept": account.kinetic_end / account.kinetic_start,
+            "impacts": solution.counters.impacts,
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the bodies before and after, with their velocities."""
+        from scenarios.disc_ball.figures import strike
+
+        return {"strike": strike(self, solution)}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the strike, and its outcome over the ratio of stiffnesses and over the offset."""
+        from scenarios.disc_ball.figures import gallery
+
+        return gallery(cls, progress)

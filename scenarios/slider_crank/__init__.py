@@ -1,0 +1,1 @@
+"""A slider-crank mechanism whose slider has clearance in its guide."""

@@ -1,0 +1,149 @@
+"""A slider-crank mechanism with clearance: the slider rattles in its guide."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import Coordinate, GeneralisedBody, Plate, Point, Rest, TurningFrame
+from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
+from nonsmooth.engine.modes import IMPACT
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress, simulate
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from scenarios.slider_crank import mechanism
+
+Floats = NDArray[np.float64]
+
+_GRAVITY = 9.81
+_SAMPLES = 4000
+_LAWS = {"newton": NewtonImpact, "energetic": EnergeticImpact}
+
+
+@final
+@dataclass(frozen=True)
+class SliderCrank(Scenario):
+    """Crank, rod and a slider whose four corners may touch a guide that is wider by twice the clearance.
+
+    The crank turns freely.  Stretched out at the start, the slider is level and in the middle of its guide, so that it
+    first hits with two corners at once.
+
+    References
+    ----------
+    P. Flores, R. Leine, C. Glocker, "Modeling and analysis of planar rigid multibody systems with translational
+    clearance joints based on the non-smooth dynamics approach", Multibody System Dynamics 23 (2010) 165-190.
+    """
+
+    title: ClassVar[str] = "Slider-crank mechanism with clearance"
+
+    crank_length: float = parameter(0.153, doc="length l_1 of the crank", unit="m", above=0.0, usual=(1e-3, 10.0))
+    rod_length: float = parameter(0.306, doc="length l_2 of the rod", unit="m", above=0.0, usual=(1e-3, 10.0))
+    slider_length: float = parameter(0.1, doc="length 2 a of the slider", unit="m", above=0.0, usual=(1e-3, 10.0))
+    slider_height: float = parameter(0.05, doc="height 2 b of the slider", unit="m", above=0.0, usual=(1e-3, 10.0))
+    clearance: float = parameter(1e-3, doc="clearance c on either side", unit="m", above=0.0, usual=(1e-6, 0.1))
+    crank_mass: float = parameter(0.038, doc="mass of the crank", unit="kg", above=0.0)
+    rod_mass: float = parameter(0.038, doc="mass of the rod", unit="kg", above=0.0)
+    slider_mass: float = parameter(0.076, doc="mass of the slider", unit="kg", above=0.0)
+    crank_inertia: float = parameter(7.4e-5, doc="central moment of inertia of the crank", unit="kg m^2", above=0.0)
+    rod_inertia: float = parameter(5.9e-4, doc="central moment of inertia of the rod", unit="kg m^2", above=0.0)
+    slider_inertia: float = parameter(2.7e-6, doc="central moment of inertia of the slider", unit="kg m^2", above=0.0)
+    crank_rate: float = parameter(150.0, doc="angular velocity of the crank at the start", unit="rad/s")
+    rod_rate: float = parameter(-75.0, doc="angular velocity of the rod at the start", unit="rad/s")
+    restitution: float = parameter(0.4, doc="restitution of the corners", minimum=0.0, maximum=1.0)
+    friction: float = parameter(0.01, doc="friction coefficient mu", minimum=0.0, usual=(0.001, 2.0))
+    law: str = parameter("newton", doc="impact law", unit="", choices=("newton", "energetic"))
+    t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A four-thousandth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    def build(self) -> System:
+        """Return mechanism and guide at their start."""
+        x, z = 0.5 * self.slider_length, 0.5 * self.slider_height
+        corners = tuple(Point(i * x, 0.0, j * z) for j in (-1.0, 1.0) for i in (-1.0, 1.0))
+        body = GeneralisedBody(
+            coordinates=(
+                Coordinate("theta_1", 0.0, self.crank_rate, scale=0.1, rate_scale=10.0),
+                Coordinate("theta_2", 0.0, self.rod_rate, scale=0.1, rate_scale=10.0),
+                Coordinate("theta_3", 0.0, 0.0, scale=0.1, rate_scale=10.0),
+            ),
+            mass=mechanism.mass,
+            force=mechanism.force,
+            potential=mechanism.potential,
+            moving_frames=(TurningFrame(mechanism.slider, mechanism.slider_jacobian, mechanism.slider_bias, corners),),
+            constants=self.numbers(),
+        )
+        half = z + self.clearance
+        floor = Plate(Rest(position=(0.0, 0.0, -half)))
+        ceiling = Plate(Rest(position=(0.0, 0.0, half), orientation=(0.0, 1.0, 0.0, 0.0)))
+        system = System([body, floor, ceiling], gravity=_GRAVITY)
+        law = _LAWS[self.law]
+        for side in (floor, ceiling):
+            system.contact(
+                body,
+                side,
+                normal=Unilateral(),
+                friction=Coulomb(self.friction),
+                impact=law(self.restitution),
+            )
+        return system
+
+    def height(self, solution: Solution) -> Floats:
+        """Return how far the slider's centre is above the middle of its guide [m], shape [n_samples]."""
+        return np.asarray(self.crank_length * np.sin(solution.q[:, 0]) + self.rod_length * np.sin(solution.q[:, 1]))
+
+    def first_impact(self, solution: Solution) -> float:
+        """Return the time of the first impact [s]; nan without one."""
+        times = solution.events.time[solution.events.cause == IMPACT]
+        return float(times[0]) if len(times) > 0 else math.nan
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the three angles [rad] and the slider's height [m] over the samples."""
+        angles = {f"theta_{i + 1}": solution.q[:, i] for i in range(3)}
+        return {**angles, "height": self.height(solution)}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u}: angles [rad] and rates [rad/s] at the end."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the time of the first impact, the number of impacts, turns of the crank and its rate at the end."""
+        return {
+            "first_impact": self.first_impact(solution),
+            "impacts": solution.counters.impacts,
+            "turns": float(solution.q_end[0]) / (2.0 * math.pi),
+            "crank_rate": float(solution.u_end[0]),
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the slider's height in its guide."""
+        from scenarios.slider_crank.figures import heights
+
+        return {"height": heights({self.law: (self, solution)}, "The slider in its guide")}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the slider's height with either impact law."""
+        from scenarios.slider_crank.figures import heights
+
+        runs = {}
+        for law in _LAWS:
+            scenario = cls(law=law)
+            run = simulate(
+                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
+            )
+            runs[law] = scenario, run
+        return {"heights": heights(runs, "The slider crosses its clearance, rattles at the guide, and lets go again")}

@@ -1,0 +1,1 @@
+"""A rod that slides on a rough plane: Painleve's paradox."""

@@ -1,0 +1,48 @@
+"""The rod's contact in closed form: reduced coefficient, critical friction, and what its free motion wants."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+
+@final
+@dataclass(frozen=True)
+class Rod:
+    """A uniform thin rod with the middle as mass centre, whose lower end touches the ground ahead of it.
+
+    While that end slides forwards, its gap accelerates as g'' = A lambda_N + b.  No force exists where A < 0 and b < 0.
+
+    Attributes
+    ----------
+    mass, half_length, end_radius : float
+        [kg], [m], [m].
+    """
+
+    mass: float
+    half_length: float
+    end_radius: float
+
+    @property
+    def inertia(self) -> float:
+        """About the middle, across the rod [kg m^2]."""
+        return self.mass * self.half_length**2 / 3.0
+
+    def arm(self, tilt: float) -> tuple[float, float]:
+        """Return how far the contact point is ahead of the middle, and below it [m]."""
+        return self.half_length * math.cos(tilt), self.half_length * math.sin(tilt) + self.end_radius
+
+    def reduced_coefficient(self, tilt: float, friction: float) -> float:
+        """Return A of g'' = A lambda_N + b in forward slip [1/kg]."""
+        ahead, below = self.arm(tilt)
+        return 1.0 / self.mass + ahead * (ahead - friction * below) / self.inertia
+
+    def free_acceleration(self, tilt: float, rate: float, gravity: float) -> float:
+        """Return b of g'' = A lambda_N + b [m/s^2]; the end lifts off where it is positive."""
+        return self.half_length * math.sin(tilt) * rate**2 - gravity
+
+    def critical_friction(self, tilt: float) -> float:
+        """Return the friction coefficient at which A vanishes."""
+        ahead, below = self.arm(tilt)
+        return (self.inertia / self.mass + ahead * ahead) / (ahead * below)

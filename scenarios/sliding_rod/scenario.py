@@ -1,0 +1,143 @@
+"""A slender rod that slides with one end on a rough plane, into or out of Painleve's paradox."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import Plate, Rest, RigidBody, Sphere
+from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.engine.modes import JAM, LIFT_OFF, PAINLEVE
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from scenarios.sliding_rod.paradox import Rod
+
+Floats = NDArray[np.float64]
+
+GRAVITY = 9.81
+_SAMPLES = 2000
+
+
+@final
+@dataclass(frozen=True)
+class SlidingRod(Scenario):
+    """A uniform rod in the plane of x and z, its lower end ahead: it slides towards +x at ``speed``.
+
+    The ends are spheres of a radius far below the length; in the limit of sharp ends the paradox begins at the
+    friction coefficient 4/3, at tan(angle) = 2.  The rod is thin: m (2 s)^2 / 12 about its middle.
+
+    References
+    ----------
+    F. Génot, B. Brogliato, "New results on Painlevé paradoxes", Eur. J. Mech. A/Solids 18 (1999) 653-677.
+    """
+
+    title: ClassVar[str] = "Painleve's sliding rod"
+
+    friction: float = parameter(1.4, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 10.0))
+    tilt: float = parameter(math.atan(2.0), doc="angle phi of the rod from the ground at the start", unit="rad")
+    speed: float = parameter(1.0, doc="slip speed of the lower end at the start", unit="m/s", usual=(-10.0, 10.0))
+    rate: float = parameter(0.0, doc="rate of phi at the start, positive when it gets steeper", unit="rad/s")
+    half_length: float = parameter(0.1, doc="half of the length, s", unit="m", above=0.0, usual=(1e-3, 10.0))
+    end_radius: float = parameter(1e-5, doc="radius of the ends", unit="m", above=0.0, usual=(1e-7, 1e-2))
+    mass: float = parameter(0.1, doc="mass", unit="kg", above=0.0, usual=(1e-4, 1e3))
+    restitution: float = parameter(0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    t_end: float = parameter(0.2, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
+
+    def _check(self) -> None:
+        if not 0.0 < self.tilt < math.pi / 2.0:
+            raise InvalidInput(
+                "SlidingRod.tilt", "must be between 0 and pi/2", self.tilt, "Give the angle from the ground in [rad]."
+            )
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A two-thousandth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    @property
+    def rod(self) -> Rod:
+        """The rod's formulas."""
+        return Rod(self.mass, self.half_length, self.end_radius)
+
+    def build(self) -> System:
+        """Return plane and rod at their start."""
+        s, r = self.half_length, self.end_radius
+        across = self.rod.inertia
+        body = RigidBody(self.mass, (0.5 * self.mass * r * r, across, across), (Sphere(r, x=s), Sphere(r, x=-s)))
+        plane = Plate(Rest())
+        system = System([plane, body], gravity=GRAVITY)
+        system.contact(
+            body, plane, normal=Unilateral(), friction=Coulomb(self.friction), impact=EnergeticImpact(self.restitution)
+        )
+        ahead, height = self.rod.arm(self.tilt)
+        system.place(
+            body,
+            position=(0.0, 0.0, height),
+            orientation=(math.cos(self.tilt / 2.0), 0.0, math.sin(self.tilt / 2.0), 0.0),
+            velocity=(self.speed + self.rate * height, 0.0, self.rate * ahead),
+            angular_velocity=(0.0, self.rate, 0.0),
+        )
+        return system
+
+    def tilts(self, q: Floats) -> Floats:
+        """Return phi [rad] of states of the run, shape [n, n_q] -> [n]."""
+        angle: Floats = 2.0 * np.arctan2(q[:, 5], q[:, 3])
+        return angle
+
+    def slips(self, q: Floats, u: Floats) -> Floats:
+        """Return the slip velocity of the lower end [m/s] of states of the run, shape [n]."""
+        velocity: Floats = u[:, 0] - u[:, 4] * (self.half_length * np.sin(self.tilts(q)) + self.end_radius)
+        return velocity
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return x, z [m] of the middle, phi [rad], its rate [rad/s] and the slip [m/s] over the samples."""
+        q, u = solution.q, solution.u
+        return {"x": q[:, 0], "z": q[:, 2], "phi": self.tilts(q), "phi_rate": u[:, 4], "slip": self.slips(q, u)}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u} at the end: x, z [m], phi [rad] and their rates."""
+        q, u = solution.q_end, solution.u_end
+        phi = float(self.tilts(q[None])[0])
+        return {"q": [float(q[0]), float(q[2]), phi], "u": [float(u[0]), float(u[2]), float(u[4])]}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the critical friction at the start, and when [s] what happened first (None if it did not)."""
+        events = solution.events
+
+        def first(cause: int) -> float | None:
+            found = events.time[events.cause == cause]
+            return float(found[0]) if len(found) > 0 else None
+
+        return {
+            "critical_friction": self.rod.critical_friction(self.tilt),
+            "impact_without_collision": first(PAINLEVE),
+            "jam": first(JAM),
+            "lift_off": first(LIFT_OFF),
+            "events": events.causes(),
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return angle, slip and height of the lower end over time."""
+        from scenarios.sliding_rod.figures import history
+
+        return {"history": history(self, solution)}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return where the paradox begins, and three runs: lift-off, jamming, impact without collision."""
+        from scenarios.sliding_rod.figures import gallery
+
+        return gallery(cls, progress)

@@ -1,0 +1,1 @@
+"""A top that turns over."""

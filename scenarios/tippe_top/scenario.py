@@ -1,0 +1,208 @@
+"""The tippe top: a spinning body of two spheres that turns over by itself, for friction only."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import Plate, Rest, RigidBody, Sphere
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import FrictionLaw, Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from scenarios.tippe_top.friction import SpinningCoulomb
+
+Floats = NDArray[np.float64]
+
+GRAVITY = 9.81
+_SAMPLES = 4000
+
+
+@final
+@dataclass(frozen=True)
+class TippeTop(Scenario):
+    """A body of revolution on a plane: body (large sphere) below, stem (small sphere) above, mass centre lowest.
+
+    The friction is Coulomb's at a point.  The source adds the friction of a small contact disc against drilling,
+    which this model does not have.
+
+    References
+    ----------
+    R. I. Leine, Ch. Glocker, "A set-valued force law for spatial Coulomb-Contensou friction", Eur. J. Mech. A/Solids
+    22 (2003) 193-216.
+    """
+
+    title: ClassVar[str] = "Tippe top"
+
+    mass: float = parameter(6e-3, doc="mass", unit="kg", above=0.0, usual=(1e-4, 10.0))
+    across: float = parameter(8e-7, doc="moment of inertia I_1 across the axis", unit="kg m^2", above=0.0)
+    along: float = parameter(7e-7, doc="moment of inertia I_3 about the axis", unit="kg m^2", above=0.0)
+    body_offset: float = parameter(3e-3, doc="centre of the large sphere over the mass centre, a_1", unit="m")
+    stem_offset: float = parameter(16e-3, doc="centre of the small sphere over the mass centre, a_2", unit="m")
+    body_radius: float = parameter(15e-3, doc="radius of the large sphere, r_1", unit="m", above=0.0)
+    stem_radius: float = parameter(5e-3, doc="radius of the small sphere, r_2", unit="m", above=0.0)
+    friction: float = parameter(0.3, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0))
+    contact_radius: float = parameter(
+        0.5e-3, doc="radius R of the contact disc, 0 for a point", unit="m", minimum=0.0, usual=(1e-6, 1e-2)
+    )
+    restitution: float = parameter(0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    tilt: float = parameter(0.1, doc="angle of the axis from the vertical at the start", unit="rad")
+    spin: float = parameter(180.0, doc="spin about the axis at the start", unit="rad/s", usual=(1.0, 1e3))
+    t_end: float = parameter(8.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))
+
+    def _check(self) -> None:
+        body = self.body_radius - self.body_offset * math.cos(self.tilt)
+        stem = self.stem_radius - self.stem_offset * math.cos(self.tilt)
+        if stem > body:
+            raise InvalidInput(
+                "TippeTop.tilt",
+                "must let the top start on its large sphere",
+                self.tilt,
+                f"The small sphere would reach {stem - body:.3g} m deeper: take a smaller angle [rad].",
+            )
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A four-thousandth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    def friction_law(self) -> FrictionLaw:
+        """Return friction at a point, or of a contact disc that spins as the top does at the start."""
+        if self.friction == 0.0:
+            return Frictionless()
+        if self.contact_radius == 0.0 or self.spin == 0.0:
+            return Coulomb(self.friction)
+        return SpinningCoulomb(self.friction, 8.0 / (3.0 * math.pi) * self.contact_radius * abs(self.spin))
+
+    def build(self) -> System:
+        """Return plane and top at their start."""
+        spheres = Sphere(self.body_radius, z=self.body_offset), Sphere(self.stem_radius, z=self.stem_offset)
+        top = RigidBody(self.mass, (self.across, self.across, self.along), spheres)
+        plane = Plate(Rest())
+        friction = self.friction_law()
+        system = System([plane, top], gravity=GRAVITY)
+        system.contact(top, plane, normal=Unilateral(), friction=friction, impact=EnergeticImpact(self.restitution))
+        system.place(
+            top,
+            position=(0.0, 0.0, self.body_radius - self.body_offset * math.cos(self.tilt)),
+            orientation=(math.cos(self.tilt / 2.0), math.sin(self.tilt / 2.0), 0.0, 0.0),
+            angular_velocity=(0.0, 0.0, self.spin),
+        )
+        return system
+
+    def axes(self, q: Floats) -> Floats:
+        """Return the top's axis, from body to stem, in states of the run, shape [n, 7] -> [n, 3]."""
+        a, b, c, d = q[:, 3:].T
+        axis: Floats = np.column_stack([2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a - b * b - c * c + d * d])
+        axis /= np.sum(q[:, 3:] ** 2, axis=1)[:, None]
+        return axis
+
+    def tilts(self, q: Floats) -> Floats:
+        """Return the angle of the axis from the vertical [rad], shape [n]."""
+        axis = self.axes(q)
+        tilt: Floats = np.arctan2(np.hypot(axis[:, 0], axis[:, 1]), axis[:, 2])
+        return tilt
+
+    def momentum(self, q: Floats, u: Floats) -> Floats:
+        """Return the angular momentum about the mass centre, in world axes [kg m^2/s], shape [n, 3]."""
+        along = u[:, 5:6] * self.axes(q)
+        momentum: Floats = self.across * (self._turning(q, u) - along) + self.along * along
+        return momentum
+
+    def jellett(self, q: Floats, u: Floats) -> Floats:
+        """Return Jellett's quantity L . (r_1 e_z - a_1 axis) [kg m^3/s], shape [n].
+
+        The vector goes from the contact point of the large sphere to the mass centre, so that no force in that point
+        has a moment along it; the quantity stays as long as the large sphere alone touches the plane.
+        """
+        lever = np.array([0.0, 0.0, self.body_radius]) - self.body_offset * self.axes(q)
+        integral: Floats = np.sum(self.momentum(q, u) * lever, axis=1)
+        return integral
+
+    def slips(self, q: Floats, u: Floats) -> Floats:
+        """Return the slip speeds of large and small sphere at their lowest points [m/s], shape [n, 2]."""
+        turning, axis = self._turning(q, u), self.axes(q)
+        found = []
+        for offset, radius in ((self.body_offset, self.body_radius), (self.stem_offset, self.stem_radius)):
+            lowest = offset * axis - np.array([0.0, 0.0, radius])
+            velocity = u[:, :3] + np.cross(turning, lowest)
+            found.append(np.hypot(velocity[:, 0], velocity[:, 1]))
+        return np.column_stack(found)
+
+    def gaps(self, q: Floats) -> Floats:
+        """Return the gaps of large and small sphere [m], shape [n, 2]."""
+        height = self.axes(q)[:, 2]
+        body = q[:, 2] + self.body_offset * height - self.body_radius
+        stem = q[:, 2] + self.stem_offset * height - self.stem_radius
+        return np.column_stack([body, stem])
+
+    def _turning(self, q: Floats, u: Floats) -> Floats:
+        """Return the angular velocity in world axes [rad/s], shape [n, 3]."""
+        a, vector, own = q[:, 3:4], q[:, 4:7], u[:, 3:]
+        scale = np.sum(q[:, 3:] ** 2, axis=1)[:, None]
+        turned: Floats = own + 2.0 * np.cross(vector, np.cross(vector, own) + a * own) / scale
+        return turned
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return x, y, z [m], tilt [rad], spins about vertical and axis [rad/s], slips [m/s] over the samples."""
+        q, u = solution.q, solution.u
+        slips = self.slips(q, u)
+        return {
+            **{name: q[:, i] for i, name in enumerate("xyz")},
+            "tilt": self.tilts(q),
+            "spin_vertical": self._turning(q, u)[:, 2],
+            "spin_axis": u[:, 5],
+            "slip_body": slips[:, 0],
+            "slip_stem": slips[:, 1],
+        }
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u} at the end: position and quaternion, velocity and angular velocity in body axes."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return whether and when [s] it stood on its stem, tilt [rad] and spins [rad/s] at the end, energy lost [J].
+
+        ``stem_down`` is the first time at which the stem touches, ``body_up`` the last at which the large sphere does;
+        ``inverted`` says that the axis points down within 0.1 rad at the end.
+        """
+        events = solution.events
+        touching = events.after & 1
+        q, u = solution.q_end[None], solution.u_end[None]
+        stem = events.time[touching[:, 1] == 1]
+        leaves = np.flatnonzero((touching[:-1, 0] == 1) & (touching[1:, 0] == 0)) + 1
+        tilt = float(self.tilts(q)[0])
+        return {
+            "inverted": bool(tilt > math.pi - 0.1),
+            "stem_down": float(stem[0]) if len(stem) > 0 else None,
+            "body_up": float(events.time[leaves[-1]]) if len(leaves) > 0 and touching[-1, 0] == 0 else None,
+            "tilt": tilt,
+            "spin_vertical": float(self._turning(q, u)[0, 2]),
+            "spin_axis": float(u[0, 5]),
+            "energy_lost": solution.energy.loss,
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return tilt, spins, slip and energies over time."""
+        from scenarios.tippe_top.figures import history
+
+        return {"history": history(self, solution)}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the history of the source's top, and the inversion for other friction and spin."""
+        from scenarios.tippe_top.figures import gallery
+
+        return gallery(cls, progress)

@@ -1,0 +1,60 @@
+"""Where friction alone decides the sign of the normal acceleration: the arm in contact, sliding."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenarios.two_link_arm.arm import mass, tip_jacobian
+
+
+def second_angle(theta_1: float, height_ratio: float) -> float:
+    """Return theta_2 > 0 [rad] of the arm with its tip on the belt, cos theta_1 + cos theta_2 = H / l."""
+    return math.acos(height_ratio - math.cos(theta_1))
+
+
+def mobility(theta_1: float, height_ratio: float, link_mass: float, link_length: float) -> NDArray[np.float64]:
+    """Return the Delassus matrix of the tip on the belt [1/kg], rows normal and tangent, shape [2, 2]."""
+    q = np.array([theta_1, second_angle(theta_1, height_ratio)])
+    matrix, jacobian = np.zeros(4), np.zeros(6)
+    mass(q, matrix, link_mass, link_length)
+    tip_jacobian(q, jacobian, link_length)
+    rows = jacobian.reshape(3, 2)[[2, 0]]
+    return np.asarray(rows @ np.linalg.solve(matrix.reshape(2, 2), rows.T))
+
+
+def reduced_coefficient(
+    theta_1: float, friction: float, height_ratio: float, link_mass: float, link_length: float
+) -> float:
+    """Return A = G_nn - mu G_nt [1/kg]: the tip's acceleration from the belt per normal force while it slides along x.
+
+    Where it is negative, a normal force pulls the tip into the belt: no force fulfils the laws of contact.
+    """
+    g = mobility(theta_1, height_ratio, link_mass, link_length)
+    return float(g[0, 0] - friction * g[0, 1])
+
+
+def critical_friction(theta_1: float, height_ratio: float, link_mass: float, link_length: float) -> float:
+    """Return the least friction coefficient at which A vanishes; infinite where none does."""
+    g = mobility(theta_1, height_ratio, link_mass, link_length)
+    return float(g[0, 0] / g[0, 1]) if g[0, 1] > 0.0 else math.inf
+
+
+def least_critical_friction(height_ratio: float, link_mass: float, link_length: float) -> tuple[float, float]:
+    """Return the least critical friction over all postures on the belt, and its theta_1 [rad]."""
+    from scipy.optimize import minimize_scalar
+
+    low, high = math.acos(min(1.0, height_ratio)), math.acos(max(-1.0, height_ratio - 1.0))
+    grid = np.linspace(low, high, 202)[1:-1]
+    values = [critical_friction(x, height_ratio, link_mass, link_length) for x in grid]
+    best = int(np.argmin(values))
+    found = minimize_scalar(
+        critical_friction,
+        bounds=(float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])),
+        args=(height_ratio, link_mass, link_length),
+        method="bounded",
+        options={"xatol": 1e-10},
+    )
+    return float(found.fun), float(found.x)

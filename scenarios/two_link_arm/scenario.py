@@ -1,0 +1,167 @@
+"""A two-link arm whose tip slides on a moving belt, and bounces off it though nothing pushes it away."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Plane, Point, PointFrame
+from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.engine.modes import IMPACT, PAINLEVE
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress, simulate
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from scenarios.two_link_arm import arm, painleve
+
+Floats = NDArray[np.float64]
+
+_SAMPLES = 4000
+_GRAVITY = 9.8
+
+
+@final
+@dataclass(frozen=True)
+class TwoLinkArm(Scenario):
+    """Two equal uniform links hang from a pivot over a belt that runs towards -x; the tip starts on it, at rest.
+
+    Above the critical friction no contact force exists while the tip slides: an impact without collision stops the
+    slip.  The source gives springs and dampers; that they act at the elbow, and the speed of the belt, are our choice.
+
+    References
+    ----------
+    C. Liu, Z. Zhao, B. Chen, "The bouncing motion appearing in a robotic system with unilateral constraint",
+    Nonlinear Dynamics 49 (2007) 217-232.
+    """
+
+    title: ClassVar[str] = "Two-link arm on a moving belt"
+
+    link_mass: float = parameter(1.0, doc="mass of a link", unit="kg", above=0.0, usual=(1e-3, 1e3))
+    link_length: float = parameter(1.0, doc="length of a link", unit="m", above=0.0, usual=(1e-3, 1e2))
+    height: float = parameter(5.0 / 3.0, doc="height of the pivot over the belt", unit="m", above=0.0)
+    angle: float = parameter(0.7, doc="angle of the first link from the vertical at the start", unit="rad")
+    friction: float = parameter(0.5, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 2.0))
+    static_friction: float = parameter(0.8, doc="static friction coefficient mu_s", minimum=0.0, usual=(0.01, 2.0))
+    restitution: float = parameter(
+        0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, assumed=True
+    )
+    belt_speed: float = parameter(1.0, doc="speed of the belt towards -x", unit="m/s", usual=(1e-3, 1e2), assumed=True)
+    spring: float = parameter(
+        100.0, doc="torsional spring at the elbow, slack at the start", unit="N m/rad", minimum=0.0, usual=(1e-3, 1e6)
+    )
+    damping: float = parameter(
+        0.1, doc="torsional damper at the elbow", unit="N m s/rad", minimum=0.0, usual=(1e-6, 1e4)
+    )
+    t_end: float = parameter(1.5, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
+
+    def _check(self) -> None:
+        cosine = self.height / self.link_length - np.cos(self.angle)
+        if not -1.0 < cosine < 1.0:
+            raise InvalidInput(
+                "TwoLinkArm.angle",
+                f"must let the tip reach the belt {self.height:g} m below the pivot",
+                self.angle,
+                f"The second link would need the cosine {cosine:.6g}.",
+            )
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A four-thousandth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    @property
+    def second_angle(self) -> float:
+        """Angle of the second link at the start [rad]."""
+        return painleve.second_angle(self.angle, self.height / self.link_length)
+
+    @property
+    def reduced_coefficient(self) -> float:
+        """A = G_nn - mu G_nt at the start [1/kg]; negative in the paradox."""
+        ratio = self.height / self.link_length
+        return painleve.reduced_coefficient(self.angle, self.friction, ratio, self.link_mass, self.link_length)
+
+    def build(self) -> System:
+        """Return arm and belt at their start."""
+        first, second = self.angle, self.second_angle
+        body = GeneralisedBody(
+            coordinates=(Coordinate("theta_1", first), Coordinate("theta_2", second)),
+            mass=arm.mass,
+            force=arm.force,
+            potential=arm.potential,
+            power=arm.power,
+            moving_frames=(PointFrame(arm.tip, arm.tip_jacobian, arm.tip_bias, (Point(),)),),
+            constants={
+                "link_mass": self.link_mass,
+                "link_length": self.link_length,
+                "height": self.height,
+                "spring": self.spring,
+                "damping": self.damping,
+                "elbow_angle": second - first,
+            },
+        )
+        belt = DrivenBody(ConstantVelocity(velocity=(-self.belt_speed, 0.0, 0.0)), (Plane(),))
+        system = System([body, belt], gravity=_GRAVITY)
+        friction = Coulomb(self.friction, self.static_friction)
+        system.contact(body, belt, normal=Unilateral(), friction=friction, impact=EnergeticImpact(self.restitution))
+        return system
+
+    def gap(self, solution: Solution) -> Floats:
+        """Return the height of the tip over the belt [m], shape [n_samples]."""
+        cosines = np.cos(solution.q[:, 0]) + np.cos(solution.q[:, 1])
+        return np.asarray(self.height - self.link_length * cosines)
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return both angles [rad] and the gap [m] over the samples."""
+        return {"theta_1": solution.q[:, 0], "theta_2": solution.q[:, 1], "gap": self.gap(solution)}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u}: the angles [rad] and their rates [rad/s] at the end."""
+        return {"q": solution.q_end[:2].tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the reduced coefficient at the start, what happened how often, and how far the tip came off."""
+        return {
+            "reduced_coefficient": self.reduced_coefficient,
+            "impacts_without_collision": solution.events.count(PAINLEVE),
+            "impacts": solution.events.count(IMPACT),
+            "largest_gap": float(np.max(self.gap(solution))),
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the gap over time."""
+        from scenarios.two_link_arm.figures import gaps
+
+        runs = {f"damper {self.damping:g} N m s/rad": [(self, solution)]}
+        return {
+            "gap": gaps(
+                runs, f"Height of the tip over the belt, e = {self.restitution:g} (x: impact without collision)"
+            )
+        }
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the critical friction over the postures, and the gap for the springs and dampers of the source."""
+        from scenarios.two_link_arm.figures import critical_friction, gaps
+
+        runs: dict[str, list[tuple[TwoLinkArm, Solution]]] = {}
+        for damping, spring in itertools.product((0.1, 2.0), (100.0, 150.0)):
+            scenario = cls(spring=spring, damping=damping)
+            run = simulate(
+                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
+            )
+            runs.setdefault(f"damper {damping:g} N m s/rad", []).append((scenario, run))
+        title = (
+            f"An impact without collision (x) throws the tip off the belt; it bounces, with e = {cls().restitution:g}"
+        )
+        return {"critical_friction": critical_friction(cls()), "bouncing": gaps(runs, title)}

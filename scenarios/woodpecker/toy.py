@@ -1,0 +1,118 @@
+"""Equations of the woodpecker toy, for small angles: sleeve M and bird S, joined by a torsional spring.
+
+Coordinates are the height y of the sleeve and the angles phi_M, phi_S of sleeve and bird.  The model knows gaps and
+slips along the pole but no outlines: here the beak's gap lies along x, those of the sleeve's edges along y, and each
+point stays at the distance ``ASIDE`` from the face of the pole that is not its own.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.types import Floats
+
+ASIDE = 1.0
+"""Distance from the face that a point does not touch [m]."""
+
+
+def mass(
+    q: Floats,
+    out: Floats,
+    sleeve_mass: float,
+    bird_mass: float,
+    sleeve_inertia: float,
+    bird_inertia: float,
+    sleeve_arm: float,
+    bird_arm: float,
+) -> None:
+    """Write M."""
+    out[0] = bird_mass + sleeve_mass
+    out[1] = out[3] = bird_mass * sleeve_arm
+    out[2] = out[6] = bird_mass * bird_arm
+    out[4] = sleeve_inertia + bird_mass * sleeve_arm**2
+    out[5] = out[7] = bird_mass * sleeve_arm * bird_arm
+    out[8] = bird_inertia + bird_mass * bird_arm**2
+
+
+def force(
+    t: float,
+    q: Floats,
+    u: Floats,
+    out: Floats,
+    sleeve_mass: float,
+    bird_mass: float,
+    sleeve_arm: float,
+    bird_arm: float,
+    spring: float,
+    gravity_z: float,
+) -> None:
+    """Write h: weight and spring."""
+    moment = spring * (q[1] - q[2])
+    out[0] = (bird_mass + sleeve_mass) * gravity_z
+    out[1] = bird_mass * sleeve_arm * gravity_z - moment
+    out[2] = bird_mass * bird_arm * gravity_z + moment
+
+
+def potential(
+    q: Floats,
+    sleeve_mass: float,
+    bird_mass: float,
+    sleeve_arm: float,
+    bird_arm: float,
+    spring: float,
+    gravity_z: float,
+) -> float:
+    """Return the energy of weight and spring [J]."""
+    raised = (bird_mass + sleeve_mass) * q[0] + bird_mass * (sleeve_arm * q[1] + bird_arm * q[2])
+    return 0.5 * spring * (q[1] - q[2]) ** 2 - gravity_z * raised
+
+
+def beak(
+    q: Floats,
+    out: Floats,
+    sleeve_arm: float,
+    bird_arm: float,
+    beak_arm: float,
+    beak_height: float,
+    pole_radius: float,
+) -> None:
+    """Write the gap of the beak, its distance from the other face, and its place along the pole [m]."""
+    out[0] = sleeve_arm + bird_arm - beak_arm - pole_radius - beak_height * q[2]
+    out[1] = ASIDE
+    out[2] = q[0] + sleeve_arm * q[1] + (bird_arm - beak_arm) * q[2]
+
+
+def beak_jacobian(
+    q: Floats, out: Floats, sleeve_arm: float, bird_arm: float, beak_arm: float, beak_height: float
+) -> None:
+    """Write the Jacobian of the beak."""
+    out[2] = -beak_height
+    out[6], out[7], out[8] = 1.0, sleeve_arm, bird_arm - beak_arm
+
+
+def lower_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float, sleeve_height: float) -> None:
+    """Write the same of the sleeve's edges that touch when it tilts to negative angles."""
+    out[0] = ASIDE
+    out[1] = sleeve_radius - pole_radius + sleeve_height * q[1]
+    out[2] = q[0] + sleeve_radius * q[1]
+
+
+def lower_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_height: float) -> None:
+    """Write the Jacobian of these edges."""
+    out[4] = sleeve_height
+    out[6], out[7] = 1.0, sleeve_radius
+
+
+def upper_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float, sleeve_height: float) -> None:
+    """Write the same of the edges that touch when the sleeve tilts to positive angles."""
+    out[0] = ASIDE
+    out[1] = sleeve_radius - pole_radius - sleeve_height * q[1]
+    out[2] = q[0] + sleeve_radius * q[1]
+
+
+def upper_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_height: float) -> None:
+    """Write the Jacobian of these edges."""
+    out[4] = -sleeve_height
+    out[6], out[7] = 1.0, sleeve_radius
+
+
+def no_bias(q: Floats, u: Floats, out: Floats) -> None:
+    """Write nothing: all points are linear in q."""
