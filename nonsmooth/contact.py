@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.contact_result import MODES, ContactResult, Floats
+from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw

@@ -55,9 +55,7 @@ def _lay_system(S: Scalars, w: Floats, k: Integers, n: int, size: int) -> float:
         a1, a2 = _acceleration(S, w, 3 * a + 1), _acceleration(S, w, 3 * a + 2)
         w[S.x + i] = -(a1 * d2 - a2 * d1)
         for j in range(size):
-            w[S.matrix + i * size + j] = d2 * _effect(S, w, k, 3 * a + 1, j, n) - d1 * _effect(
-                S, w, k, 3 * a + 2, j, n
-            )
+            w[S.matrix + i * size + j] = d2 * _effect(S, w, k, 3 * a + 1, j, n) - d1 * _effect(S, w, k, 3 * a + 2, j, n)
         # a turn counts by the force that it moves
         force = w[S.mu + a] * w[S.f + 3 * a]
         if abs(force) > 0.0:

@@ -135,7 +135,10 @@ def _rubs(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         pull = w[S.mu + a] * w[S.f + 3 * a]
         for i in range(2):
-            if k[S.mode_tried + a] == SLIDE and not abs(w[S.f + 3 * a + 1 + i] + pull * w[S.d + 2 * a + i]) <= S.small_force:
+            if (
+                k[S.mode_tried + a] == SLIDE
+                and not abs(w[S.f + 3 * a + 1 + i] + pull * w[S.d + 2 * a + i]) <= S.small_force
+            ):
                 return 0
     return 1
 

@@ -177,7 +177,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
     """Group the contacts at rest in the normal direction and guess their modes: the past ones, and the event's."""
     for c in range(S.n_contacts):
         k[S.member + c] = 0
-        k[S.mode_found + c] = OPEN
+        k[S.mode_agreed + c] = OPEN
         if k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
             k[S.member + c] = 1
             # a slip about to start from rest is found anew, not remembered
@@ -189,7 +189,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
                 mode = OPEN
             if c == contact and cause == STICK_TO_SLIP:
                 mode = SLIDE
-            k[S.mode_found + c] = mode
+            k[S.mode_agreed + c] = mode
     group_members(S, w, k)
 
 
@@ -200,16 +200,16 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         for a in range(S.n_active):
-            k[S.mode_tried + a] = k[S.mode_found + k[S.active + a]]
+            k[S.mode_tried + a] = k[S.mode_agreed + k[S.active + a]]
         set_up(S, w, k)
         if solve_contact(S, w, k) == 0:
             return 0
         accelerate(S, w, k)
         for a in range(S.n_active):
             c = k[S.active + a]
-            k[S.mode_found + c] = k[S.mode_tried + a]
+            k[S.mode_agreed + c] = k[S.mode_tried + a]
             for i in range(2):
-                w[S.direction_found + 2 * c + i] = w[S.d + 2 * a + i]
+                w[S.direction_agreed + 2 * c + i] = w[S.d + 2 * a + i]
     return 1
 
 
@@ -315,10 +315,10 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
 def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
     """Take over the modes and slip directions that the contact problem found."""
     for c in range(S.n_contacts):
-        k[S.mode + c] = k[S.mode_found + c]
+        k[S.mode + c] = k[S.mode_agreed + c]
         if k[S.mode + c] == SLIDE:
             for i in range(2):
-                w[S.direction + 2 * c + i] = w[S.direction_found + 2 * c + i]
+                w[S.direction + 2 * c + i] = w[S.direction_agreed + 2 * c + i]
 
 
 @kernel("void(S, F, I, i8, i8)")

@@ -286,7 +286,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "event_impulse": _per(3, "n_slots"),
     "force": _per(3, "n_slots"),
     "static_margin": _per(1, "n_slots"),
-    "direction_found": _per(2, "n_slots"),
+    "direction_agreed": _per(2, "n_slots"),
     # linear algebra
     "right": _per(3, "n_slots"),
     "x": _per(3, "n_slots"),
@@ -440,7 +440,7 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
     "group_of": _per(1, "n_slots"),
     "group_next": _per(1, "n_slots"),
     "group_start": lambda n: n["n_slots"] + 1,
-    "mode_found": _per(1, "n_slots"),
+    "mode_agreed": _per(1, "n_slots"),
     "listed": _per(1, "n_slots"),
     # what the contacts of a system are, whether in a slot or not, and which of them may come near each other
     "catalogue": _per(len(CATALOGUE), "n_declared"),
