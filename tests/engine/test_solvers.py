@@ -260,7 +260,7 @@ def test_two_motions_are_told() -> None:
     assert problem.solve().motion_is_unique is False
 
 
-@pytest.mark.parametrize("solver", ("auto", "lemke", "gauss_seidel", "newton"))
+@pytest.mark.parametrize("solver", ["auto", "lemke", "gauss_seidel", "newton"])
 def test_many_contacts(solver: str) -> None:
     """Forty contacts of a body with enough freedoms, one by one on the cone."""
     random = np.random.default_rng(5)
