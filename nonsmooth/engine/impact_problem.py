@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.impact_clock import change_clock
 from nonsmooth.engine.impact_friction import break_away, choose_friction
 from nonsmooth.engine.impact_guards import (
     TOGETHER,
@@ -180,65 +181,6 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
 @kernel("f8(S, F, i8)")
 def _impulse_scale(S: Scalars, w: Floats, a: int) -> float:
     return float(S.speed_scale) / w[S.delassus + 3 * a * 3 * S.n_active + 3 * a]
-
-
-@kernel("i8(S, F, I)")
-def _change_clock(S: Scalars, w: Floats, k: Integers) -> int:
-    """Give the last contact in action its own clock; go back to where it got it if it does not stay alone.
-
-    Returns 1 if the clock has changed.
-    """
-    acting = 0
-    last = -1
-    for a in range(S.n_active):
-        if k[S.phase + a] != IDLE:
-            acting += 1
-            last = a
-    n = STRIDE * S.n_active
-    if S.lone < 0:
-        if acting != 1 or k[S.phase + last] == HELD or S.may_be_lone == 0:
-            return 0
-        for i in range(n):
-            w[S.impact_kept + i] = w[S.impact_y + i]
-        _keep_phases(S, w, k)
-        S.lone = last
-        prepare_guards(S, w, k)
-        return 1
-    if acting == 0 or (acting == 1 and last == S.lone):
-        return 0
-    for i in range(n):
-        w[S.impact_y + i] = w[S.impact_kept + i]
-    S.lone = -1
-    S.may_be_lone = 0
-    _restore_phases(S, w, k)
-    return 1
-
-
-@kernel("void(S, F, I)")
-def _keep_phases(S: Scalars, w: Floats, k: Integers) -> None:
-    S.phases_kept = S.phases
-    for a in range(S.n_active):
-        c = k[S.active + a]
-        k[S.kept + 2 * a], k[S.kept + 2 * a + 1] = k[S.phase + a], k[S.tangent_held + a]
-        w[S.books_kept + 5 * a] = w[S.stored + a]
-        w[S.books_kept + 5 * a + 1] = w[S.returned + a]
-        w[S.books_kept + 5 * a + 2] = w[S.impact_mark + a]
-        w[S.books_kept + 5 * a + 3] = w[S.direction + 2 * c]
-        w[S.books_kept + 5 * a + 4] = w[S.direction + 2 * c + 1]
-
-
-@kernel("void(S, F, I)")
-def _restore_phases(S: Scalars, w: Floats, k: Integers) -> None:
-    S.phases = S.phases_kept
-    for a in range(S.n_active):
-        c = k[S.active + a]
-        k[S.phase + a], k[S.tangent_held + a] = k[S.kept + 2 * a], k[S.kept + 2 * a + 1]
-        w[S.stored + a] = w[S.books_kept + 5 * a]
-        w[S.returned + a] = w[S.books_kept + 5 * a + 1]
-        w[S.impact_mark + a] = w[S.books_kept + 5 * a + 2]
-        w[S.direction + 2 * c] = w[S.books_kept + 5 * a + 3]
-        w[S.direction + 2 * c + 1] = w[S.books_kept + 5 * a + 4]
-    prepare_guards(S, w, k)
 
 
 @kernel("i8(S, F, I)")
@@ -451,7 +393,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
             S.phases += 1
         elif fired == 1:
             _switch(S, w, k, 1e-2 * shortest)
-            if m > 1 and _change_clock(S, w, k) == 1:
+            if m > 1 and change_clock(S, w, k) == 1:
                 grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)
             if S.phases > _LONG * m and _faded(S, w, k) == 1:
                 _cut_short(S, w, k)

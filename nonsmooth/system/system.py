@@ -62,6 +62,7 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = float(gravity)
         self._contacts: list[Contact] = []
+        self._paired: set[frozenset[int]] = set()
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
         self._guards: list[Guard] = []
@@ -191,7 +192,8 @@ class System:
         ------
         InvalidInput
             If a body is not of this system, a law is missing or of the wrong kind, no kinematics is known
-            for a pair of shapes, or the impact law is of another kind than that of the other contacts.
+            for a pair of shapes, a body carries none, the two have their contacts already, or the impact law is of
+            another kind than that of the other contacts.
         """
         self._require(first, "System.contact")
         self._require(second, "System.contact")
@@ -213,12 +215,26 @@ class System:
             raise InvalidInput(
                 "System.contact", "needs two different bodies", type(first).__name__, "Name the other body."
             )
+        for body in (first, second):
+            if not any(body.frames):
+                raise InvalidInput(
+                    "System.contact", "needs bodies that carry shapes", body, "Without a shape nothing can touch it."
+                )
+        pair = frozenset((id(first), id(second)))
+        if pair in self._paired:
+            raise InvalidInput(
+                "System.contact",
+                "needs two bodies that have no contact with each other yet",
+                (type(first).__name__, type(second).__name__),
+                "One call adds the contacts of all their shapes.",
+            )
         added: list[Contact] = []
         for i, carried in enumerate(first.frames):
             for j, others in enumerate(second.frames):
                 for a, b in itertools.product(carried, others):
                     added += self._pair((first, i, a), (second, j, b), len(added), normal, friction, impact)
         self._contacts += added
+        self._paired.add(pair)
         return tuple(added)
 
     def _pair(

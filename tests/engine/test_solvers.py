@@ -252,12 +252,13 @@ def test_painleve_has_no_solution(solver: str, side: float) -> None:
     assert result.normal_force[0] == pytest.approx(1.0 / -side, rel=1e-8)
 
 
-def test_two_motions_are_told() -> None:
-    """The same contact pulled apart: both contact and flight fulfil the laws."""
-    delassus = np.array([[1.0, -2.0, 0.0], [-2.0, 5.0, 0.0], [0.0, 0.0, 1.0]])
-    root = np.linalg.cholesky(delassus)
-    problem = Problem(np.eye(3), root[None], np.linalg.solve(root, [1.0, 0.0, 0.0]), [Coulomb(0.8)], [[-1.0, 0.0]])
-    assert problem.solve().motion_is_unique is False
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_two_motions_are_told(solver: str) -> None:
+    """Between the angles of mu and mu_s a block at rest may stick and may slide: it sticks, and not uniquely."""
+    result = _block(FEET, 0.5 * (math.atan(0.3) + math.atan(0.5)), 0.3, 0.5).solve(solver)
+    assert result.modes == ("stick",) * 4
+    assert result.motion_is_unique is False
+    assert not result.proved_unique
 
 
 @pytest.mark.parametrize("solver", ["auto", "lemke", "gauss_seidel", "newton"])
