@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.kernel import call_room, room_addresses
-from nonsmooth.model.layout import COUNTS, Memory, allocate
+from nonsmooth.model.layout import COUNTS
+from nonsmooth.model.memory import Memory, allocate
 from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
 
 Floats = NDArray[np.float64]
