@@ -201,12 +201,15 @@ def test_painleve_without_solution(side: float) -> None:
         assert forces[0, 0] == pytest.approx(1.0 / (1.0 - 2.0 * mu), rel=1e-8)
 
 
-@pytest.mark.parametrize(("past", "expected"), [(SLIDE, SLIDE), (OPEN, OPEN)])
-def test_painleve_with_two_solutions_keeps_the_past(past: int, expected: int) -> None:
-    """Pulled apart with a negative coefficient both contact and flight are solutions: the past mode goes on."""
+@pytest.mark.parametrize("past", [SLIDE, OPEN])
+def test_painleve_with_two_solutions_takes_the_stable_one(past: int) -> None:
+    """Pulled apart with a negative coefficient both contact and flight are solutions, but sliding is unstable.
+
+    On a spring, however stiff, a little more force would give more approach and still more force.
+    """
     memory = _memory(PAINLEVE, [[1.0, 0.0, 0.0]], [0.8], [0.8], SLIDING)
     memory.array("mode_tried", 1)[0] = past
     found, forces, modes = _solve(memory, 1)
     assert found
-    assert modes[0] == expected
-    assert forces[0, 0] == pytest.approx(1.0 / 0.6 if past == SLIDE else 0.0, abs=1e-12)
+    assert modes[0] == OPEN
+    assert forces[0, 0] == pytest.approx(0.0, abs=1e-12)
