@@ -15,6 +15,8 @@ from scipy.optimize import brentq
 
 import nonsmooth as ns
 from bodies import ConstantVelocity, Plate, Rest, RigidBody, Sphere
+from laws import Coulomb
+from nonsmooth import ContactResult
 from nonsmooth.engine.modes import IMPACT, STICK_TO_SLIP
 from tests.physics.moved_systems import quaternion
 
@@ -55,6 +57,44 @@ def _run(
 
 def _end(solution: ns.Solution) -> NDArray[np.float64]:
     return np.concatenate([solution.q_end, solution.u_end])
+
+
+def _instant(feet: Sequence[tuple[float, float]], angle: float, slip: tuple[float, float], mu: float) -> ContactResult:
+    """Solve for the forces on a block of 1 kg on a slope, in its axes: down the slope, across, off the plate."""
+    n = len(feet)
+    normal, tangential = np.zeros((6, n)), np.zeros((6, n, 2))
+    for i, (x, y) in enumerate(feet):
+        arm = np.array([HALF_X * x, HALF_Y * y, -HEIGHT])
+        for column, direction in ((normal[:, i], 2), (tangential[:, i, 0], 0), (tangential[:, i, 1], 1)):
+            column[direction], column[3:] = 1.0, np.cross(arm, np.eye(3)[direction])
+    weight = G * np.array([math.sin(angle), 0.0, -math.cos(angle), 0.0, 0.0, 0.0])
+    mass = np.diag([1.0, 1.0, 1.0, 2e-3, 3e-3, 4e-3])
+    return ns.solve_contact(mass, normal, tangential, weight, [Coulomb(mu)] * n, slip=np.tile(slip, (n, 1)))
+
+
+@pytest.mark.parametrize("count", FEET)
+@pytest.mark.parametrize("slip", [(0.0, 0.0), (0.3, 0.4)])
+@pytest.mark.parametrize("angle", [0.2, 0.5])
+def test_the_motion_is_unique_and_the_forces_are_not(count: int, slip: tuple[float, float], angle: float) -> None:
+    """One acceleration and one sum of forces for every number of feet; what the forces may change is counted."""
+    mu = 0.3
+    result = _instant(FEET[count], angle, slip, mu)
+    pull, push = G * math.sin(angle), G * math.cos(angle)
+    along = np.array([pull, 0.0, 0.0])
+    if slip == (0.0, 0.0):
+        along[0] = max(0.0, pull - mu * push)
+    else:
+        along[:2] -= mu * push * np.array(slip) / math.hypot(*slip)
+    np.testing.assert_allclose(result.acceleration, [*along, 0.0, 0.0, 0.0], rtol=0, atol=1e-11)
+    assert result.normal_force.sum() == pytest.approx(push, rel=1e-12)
+    np.testing.assert_allclose(result.tangential_force.sum(axis=0), along[:2] - [pull, 0.0], rtol=0, atol=1e-11)
+    sticks = slip == (0.0, 0.0) and along[0] == 0.0
+    # three feet that slide share their load in one way; that stick, their friction in many
+    assert result.forces_are_unique == (count == 3 and not sticks)
+    assert len(result.null_space) == (3 * count - 6 if sticks else count - 3)
+    order = np.random.default_rng(count).permutation(count)
+    other = _instant([FEET[count][i] for i in order], angle, slip, mu)
+    np.testing.assert_allclose(other.acceleration, result.acceleration, rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("count", FEET)
