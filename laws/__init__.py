@@ -2,6 +2,7 @@
 
 from laws.friction.coulomb import Coulomb
 from laws.friction.frictionless import Frictionless
+from laws.friction.stribeck import Stribeck
 from laws.impact.energetic import EnergeticImpact
 from laws.impact.hertz import closing_time, contact_time, plane_strain_modulus
 from laws.impact.newton import NewtonImpact
@@ -12,6 +13,7 @@ __all__ = [
     "EnergeticImpact",
     "Frictionless",
     "NewtonImpact",
+    "Stribeck",
     "Unilateral",
     "closing_time",
     "contact_time",

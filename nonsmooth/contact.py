@@ -11,7 +11,8 @@ from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw
-from nonsmooth.model.layout import COUNTS, Heap, Memory, allocate
+from nonsmooth.model.layout import COUNTS
+from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
 from nonsmooth.plugins.compile import bind
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.linear import SINGULAR
 from nonsmooth.engine.modes import OPEN, SLIDE
-from nonsmooth.model.layout import Memory
+from nonsmooth.model.memory import Memory
 from nonsmooth.model.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
 
 Floats = NDArray[np.float64]
@@ -128,7 +128,8 @@ class ContactResult:
         True if :attr:`proved_unique`, or if, for at most six contacts, the search through every combination of modes
         and every solver meet this motion only.  The search is complete where the slips have given directions; the
         directions in which contacts at rest start to slide it looks for from several starts, which is no proof.
-        False if another motion was found.
+        False if another motion was found.  Sliding on which more normal force gives more approach counts as no
+        motion: it is balanced on an edge.
         """
         if self.proved_unique:
             return True

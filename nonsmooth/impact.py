@@ -12,7 +12,8 @@ from nonsmooth.engine.impact_problem import FINISHED
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
-from nonsmooth.model.layout import COUNTS, Heap, Memory, allocate
+from nonsmooth.model.layout import COUNTS
+from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.plugins.compile import bind
 
 Floats = NDArray[np.float64]

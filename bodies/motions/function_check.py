@@ -37,6 +37,8 @@ def check_linear(functions: Sequence[Function], duration: float, scale: float) -
     """
     labels = [_label(name, f) for name, f in zip(("position", "velocity", "acceleration"), functions, strict=True)]
     readers = [_reader(label, f, 3) for label, f in zip(labels, functions, strict=True)]
+    for read in readers:
+        read(0.0)
     _check_compiled(labels, functions)
     _check_chain(labels, readers, (_difference, _difference), duration, scale)
 
@@ -46,6 +48,8 @@ def check_turn(functions: Sequence[Any], duration: float, scale: float) -> None:
     names = ("orientation", "angular_velocity", "angular_acceleration")
     labels = [_label(name, f) for name, f in zip(names, functions, strict=True)]
     readers = [_reader(label, f, size) for label, f, size in zip(labels, functions, (4, 3, 3), strict=True)]
+    for read in readers:
+        read(0.0)
     _check_compiled(labels, functions)
     for t in _times(duration, scale):
         norm = float(np.linalg.norm(readers[0](float(t))))

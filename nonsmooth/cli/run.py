@@ -16,6 +16,7 @@ from nonsmooth.errors import PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.simulate import simulate
 from nonsmooth.solution import files
+from nonsmooth.solution.draw_graph import draw
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -113,5 +114,8 @@ def _save_solution(scenario: Scenario, solution: Solution, folder: Path, trouble
 
 def _save_figures(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
     results.without_display()
+    if len(solution.events) > 0:
+        with results.noting(troubles, "drawing the transitions"):
+            results.save_figures({"transitions": draw(solution.transition_graph())}, folder, troubles)
     with results.noting(troubles, f"{type(scenario).__name__}.figures"):
         results.save_figures(scenario.figures(solution), folder, troubles)

@@ -1,4 +1,4 @@
-"""``nonsmooth show``: the parameters of a scenario, law or body."""
+"""``nonsmooth show``: the parameters of a scenario, body, joint, load or law."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def add_to(commands: Any) -> None:
     command = commands.add_parser(
         "show", help="parameters with units, defaults, ranges, and what is assumed", allow_abbrev=False
     )
-    command.add_argument("name", metavar="NAME", help="a scenario, law or body of `nonsmooth list`")
+    command.add_argument("name", metavar="NAME", help="anything of `nonsmooth list`")
     command.set_defaults(execute=execute)
 
 
@@ -31,7 +31,7 @@ def execute(arguments: argparse.Namespace) -> bool:
     groups = [group for group in GROUPS if arguments.name in registry.names(group)]
     if not groups:
         known = {name for group in GROUPS for name in registry.names(group)}
-        raise UnknownName("scenario, law or body", arguments.name, known)
+        raise UnknownName("component", arguments.name, known)
     say("\n\n".join(_describe(group, arguments.name) for group in groups))
     return True
 

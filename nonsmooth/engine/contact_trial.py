@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_spread import spread
-from nonsmooth.engine.forces import friction_of_slip, resolve
+from nonsmooth.engine.forces import friction_of_slip, reduced_coefficient, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 
@@ -72,6 +72,9 @@ def _compare(S: Scalars, w: Floats, k: Integers) -> int:
                 return 0
             continue
         if not abs(normal) <= small:
+            return 0
+        # sliding on which more force gives more approach is balanced on an edge, and falls off either side
+        if mode == SLIDE and k[S.at_rest + a] == 0 and reduced_coefficient(S, w, a) <= 0.0:
             return 0
         if not w[S.f + 3 * a] >= -small_force:
             if S.lenient == 0 or S.deficient == 0:

@@ -21,6 +21,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
 
     The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.
     """
+    S.singular = -1
     evaluate_free_bodies(S, w, k, t, y)
     free_acceleration(S, w, k)
     if S.n_grouped == 0:

@@ -81,6 +81,13 @@ def friction_of_slip(S: Scalars, w: Floats, a: int) -> None:
     w[S.f + 3 * a + 2] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + 1]
 
 
+@kernel("f8(S, F, i8)")
+def reduced_coefficient(S: Scalars, w: Floats, a: int) -> float:
+    """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
+    g = S.delassus + 3 * a * 3 * S.n_active + 3 * a
+    return float(w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2]))
+
+
 @kernel("f8(S, F, I, i8, i8)")
 def _entry(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
     """Return the effect on row ``line`` of a unit unknown, friction of a sliding contact included."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 from nonsmooth.engine.forces import friction_of_slip, solve_unknowns
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.kinematics import evaluate_row, evaluate_row_response, row
+from nonsmooth.engine.modes import SLIDE
 
 
 @kernel("void(S, F, I, i8)")
@@ -76,6 +77,9 @@ def _reduce(S: Scalars, w: Floats, k: Integers, n: int) -> None:
         w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
         for j in range(n):
             w[S.reduced + i * n + j] = _coupling(S, w, k, c, r, k[S.row_contact + j], k[S.row_index + j])
+        # a sliding contact on which more force gives more approach
+        if r == 0 and k[S.mode + c] == SLIDE and w[S.reduced + i * n + i] <= 0.0:
+            S.singular = c
 
 
 @kernel("void(S, F, I)")

@@ -75,6 +75,12 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
     for _attempt in range(200):
         error = try_step(S, w, k, h)
+        if error <= 1.0 and S.singular >= 0:
+            # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
+            h *= 0.5
+            if h < S.time_tolerance:
+                return STEP_TOO_SMALL
+            continue
         if error <= 1.0 and S.n_units > 0:
             evaluate_driven_bodies(S, w, k, S.t + h, S.y_new)
             if overran_list(S, w, k, h) == 1:

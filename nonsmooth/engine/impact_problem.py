@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.impact_clock import change_clock
 from nonsmooth.engine.impact_friction import break_away, choose_friction
 from nonsmooth.engine.impact_guards import (
     TOGETHER,
@@ -61,7 +62,7 @@ _AT_EVENT = 4.0 * NOISE
 """A guard this near zero at the end of a step that was aimed at it has fired."""
 _FAR = 4.0
 """A lone contact's first step, in units of the impulse that stops it: beyond all of its events."""
-_CROWDED = 12
+_CROWDED = 20
 """A window with this many times more contacts than act is drawn anew."""
 _NO_RETURN = 2e-16
 """Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
@@ -183,65 +184,6 @@ def _impulse_scale(S: Scalars, w: Floats, a: int) -> float:
 
 
 @kernel("i8(S, F, I)")
-def _change_clock(S: Scalars, w: Floats, k: Integers) -> int:
-    """Give the last contact in action its own clock; go back to where it got it if it does not stay alone.
-
-    Returns 1 if the clock has changed.
-    """
-    acting = 0
-    last = -1
-    for a in range(S.n_active):
-        if k[S.phase + a] != IDLE:
-            acting += 1
-            last = a
-    n = STRIDE * S.n_active
-    if S.lone < 0:
-        if acting != 1 or k[S.phase + last] == HELD or S.may_be_lone == 0:
-            return 0
-        for i in range(n):
-            w[S.impact_kept + i] = w[S.impact_y + i]
-        _keep_phases(S, w, k)
-        S.lone = last
-        prepare_guards(S, w, k)
-        return 1
-    if acting == 0 or (acting == 1 and last == S.lone):
-        return 0
-    for i in range(n):
-        w[S.impact_y + i] = w[S.impact_kept + i]
-    S.lone = -1
-    S.may_be_lone = 0
-    _restore_phases(S, w, k)
-    return 1
-
-
-@kernel("void(S, F, I)")
-def _keep_phases(S: Scalars, w: Floats, k: Integers) -> None:
-    S.phases_kept = S.phases
-    for a in range(S.n_active):
-        c = k[S.active + a]
-        k[S.kept + 2 * a], k[S.kept + 2 * a + 1] = k[S.phase + a], k[S.tangent_held + a]
-        w[S.books_kept + 5 * a] = w[S.stored + a]
-        w[S.books_kept + 5 * a + 1] = w[S.returned + a]
-        w[S.books_kept + 5 * a + 2] = w[S.impact_mark + a]
-        w[S.books_kept + 5 * a + 3] = w[S.direction + 2 * c]
-        w[S.books_kept + 5 * a + 4] = w[S.direction + 2 * c + 1]
-
-
-@kernel("void(S, F, I)")
-def _restore_phases(S: Scalars, w: Floats, k: Integers) -> None:
-    S.phases = S.phases_kept
-    for a in range(S.n_active):
-        c = k[S.active + a]
-        k[S.phase + a], k[S.tangent_held + a] = k[S.kept + 2 * a], k[S.kept + 2 * a + 1]
-        w[S.stored + a] = w[S.books_kept + 5 * a]
-        w[S.returned + a] = w[S.books_kept + 5 * a + 1]
-        w[S.impact_mark + a] = w[S.books_kept + 5 * a + 2]
-        w[S.direction + 2 * c] = w[S.books_kept + 5 * a + 3]
-        w[S.direction + 2 * c + 1] = w[S.books_kept + 5 * a + 4]
-    prepare_guards(S, w, k)
-
-
-@kernel("i8(S, F, I)")
 def _finished(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
@@ -339,13 +281,16 @@ def _cut_short(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel()
 def _fade(S: Scalars, w: Floats, k: Integers) -> None:
-    """End what is left, below the tolerance, at contacts that the wave has passed."""
+    """End what is left, below the tolerance, at contacts that the wave has passed.
+
+    They start again at twice the rate, so that the two do not chase each other.
+    """
     for a in range(S.n_active):
         x, energy = S.impact_y + STRIDE * a + 3, S.impact_y + STRIDE * a + 6
         passed = k[S.phase + a] == EXPANSION or (k[S.phase + a] == COMPRESSION and k[S.waves + k[S.active + a]] > 0)
         # the energy is known to the tolerance only, the deformation better
         weak = w[S.f + 3 * a] * w[x] <= S.faint * S.faint * w[S.impact_energy_scale + a]
-        if passed and weak and abs(w[S.impact_z + 3 * a]) <= S.faint * S.speed_scale:
+        if passed and weak and abs(w[S.impact_z + 3 * a]) <= 0.5 * S.faint * S.speed_scale:
             account(S, w, k, a)
             k[S.waves + k[S.active + a]] += 1
             k[S.phase + a] = IDLE
@@ -364,7 +309,7 @@ def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
             acting += 1
             if k[S.rim + k[S.active + a]] == 1:
                 return 1
-    return 1 if 0 < _CROWDED * (acting + 1) < S.n_active else 0
+    return 1 if acting > 0 and _CROWDED * acting < S.n_active else 0
 
 
 @room("i8(S, F, I)")
@@ -451,9 +396,9 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
             S.phases += 1
         elif fired == 1:
             _switch(S, w, k, 1e-2 * shortest)
-            if m > 1 and _change_clock(S, w, k) == 1:
+            if m > 1 and change_clock(S, w, k) == 1:
                 grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)
-            if S.phases > _LONG * m and _faded(S, w, k) == 1:
+            if S.phases > _LONG * (S.n_colliding if S.windowed == 1 else m) and _faded(S, w, k) == 1:
                 _cut_short(S, w, k)
             if S.windowed == 1:
                 _fade(S, w, k)

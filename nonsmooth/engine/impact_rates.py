@@ -14,6 +14,7 @@ import math
 from nonsmooth.engine.contact_problem import friction_coefficient
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
+from nonsmooth.engine.modes import COMPLIANT
 from nonsmooth.engine.runge_kutta import stage_state, step_errors
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
@@ -46,6 +47,8 @@ def normal_force(S: Scalars, w: Floats, k: Integers, a: int, x: float) -> float:
 @kernel("f8(S, F, I, i8, f8)")
 def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float:
     """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
+    if S.painleve == 1 and S.policy == COMPLIANT:
+        return 1.0
     c = k[S.active + a]
     return call_scalar(k[S.efficiency_function + c], rate, at(w, k[S.efficiency_parameters + c]))
 

@@ -5,19 +5,12 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_problem import friction_coefficient
-from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.forces import reduced_coefficient, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel
 from nonsmooth.engine.modes import SLIDE, STICK
 
 _NEXT_TO_ZERO = 1e-3
 """A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
-
-
-@kernel("f8(S, F, i8)")
-def reduced_coefficient(S: Scalars, w: Floats, a: int) -> float:
-    """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
-    g = S.delassus + 3 * a * 3 * S.n_active + 3 * a
-    return float(w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2]))
 
 
 @kernel("i8(S, F, I, i8)")

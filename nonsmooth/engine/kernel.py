@@ -15,7 +15,7 @@ import os
 from collections.abc import Callable
 from typing import Any, Protocol, TypeAlias, TypeVar
 
-from nonsmooth.model.layout import Memory
+from nonsmooth.model.memory import Memory
 from nonsmooth.types import Floats, Integers
 
 PLAIN = os.environ.get("NONSMOOTH_PLAIN", "0") not in ("", "0")

@@ -21,9 +21,14 @@ CAUSES = (
     "guard of the scenario",
 )
 
+BY_LAW, COMPLIANT, REFUSE = range(3)
+"""What to do where sliding has no contact force."""
+POLICIES = ("impact", "compliant", "refuse")
+"""Their names."""
+
 RUNNING, DONE, PAUSED = 0, 1, 2
 STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
-SINGULAR_SLIDING, STOPPED, NO_SLOT = 9, 10, 11
+SINGULAR_SLIDING, STOPPED, NO_SLOT, PARADOX_REFUSED = range(9, 13)
 """Status of the engine."""
 
 REASONS = {
@@ -35,6 +40,7 @@ REASONS = {
     IMPACT_ENDLESS: "an impact did not end within its steps",
     NO_CONTACT_SOLUTION: "the contact forces have no solution and the impact without collision did not help",
     SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
+    PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",
     NO_SLOT: "more contacts came near each other than a system of this size has room for",
     SINGULAR_SLIDING: "sliding ran into the Painleve singularity, and no pushing impulse stops it there",
     EVENTS_ENDLESS: "events repeat without end within the time tolerance",

@@ -26,7 +26,8 @@ from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
 from numba.extending import intrinsic, typeof_impl
 
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
-from nonsmooth.model.layout import ROOMS, Memory
+from nonsmooth.model.layout import ROOMS
+from nonsmooth.model.memory import Memory
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _OPTIONS: dict[str, Any] = {

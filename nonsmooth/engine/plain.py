@@ -7,7 +7,8 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from nonsmooth.model.layout import ROOMS, SCALARS, Memory
+from nonsmooth.model.layout import ROOMS, SCALARS
+from nonsmooth.model.memory import Memory
 
 _functions: list[Callable[..., Any]] = []
 _rooms: dict[str, Callable[..., Any]] = {}

@@ -7,9 +7,10 @@ import math
 from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.contact_problem import accelerate, free_acceleration, set_up, solve_contact
 from nonsmooth.engine.delassus import add_response, assemble_delassus
+from nonsmooth.engine.forces import reduced_coefficient
 from nonsmooth.engine.impact_problem import ENDLESS, FINISHED, energetic_impact
 from nonsmooth.engine.impact_window import LARGE, windowed_impact
-from nonsmooth.engine.instant_impulses import jam_slips, map_impact, reduced_coefficient
+from nonsmooth.engine.instant_impulses import jam_slips, map_impact
 from nonsmooth.engine.islands import activate_group, group_members, group_touching
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates, row
@@ -23,6 +24,8 @@ from nonsmooth.engine.modes import (
     NOT_FINITE,
     OPEN,
     PAINLEVE,
+    PARADOX_REFUSED,
+    REFUSE,
     RUNNING,
     SETTLE_ENDLESS,
     SINGULAR_SLIDING,
@@ -226,6 +229,8 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
             S.impact_seed = max(S.impact_seed, _speed(S, w, k, contact))
     if contact < 0:
         return NO_CONTACT_SOLUTION
+    if S.policy == REFUSE:
+        return PARADOX_REFUSED
     S.painleve = 1
     status = collide(S, w, k, PAINLEVE, contact)
     S.painleve = 0
@@ -277,6 +282,8 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     resting = 0
     approaching = touch(S, w, k)
     if cause == JAM:
+        if S.policy == REFUSE:
+            return PARADOX_REFUSED
         status = collide(S, w, k, JAM, contact)
         if status != RUNNING:
             return status

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.engine.modes import POLICIES
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.laying import lay_bodies, lay_contact, lay_guards, lay_joints, lay_loads, lay_slots
-from nonsmooth.model.layout import COUNTS, Heap, allocate
+from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.linkages import linkages
+from nonsmooth.model.memory import Heap, allocate
 from nonsmooth.model.model import N_ACCOUNTS, Model, map_width
 from nonsmooth.model.options import Options
 from nonsmooth.model.solvers import pivoted_contacts, solver_number
@@ -58,7 +60,7 @@ def lay_out(system: System, options: Options) -> Model:
         "n_q": n_q,
         "n_u": n_u,
         "n_y": n_q + n_u + N_ACCOUNTS,
-        "n_pivoted": pivoted_contacts(solver_number(options.solver), len(contacts)),
+        "n_pivoted": pivoted_contacts(solver_number(options.solver), units.n_slots),
         "map_width": map_width(contacts),
         "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + 64 * row,
         "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL)) + 64 * 2 * (row + CODE_HEAD),
@@ -87,6 +89,7 @@ def _set_scalars(model: Model, options: Options) -> None:
     step = min(options.largest_step, model.system.time_scale / options.steps_per_period)
     values = {
         "solver": solver_number(options.solver),
+        "policy": POLICIES.index(options.painleve),
         "rtol": options.tolerance,
         "impact_rtol": options.impact_tolerance,
         "time_tolerance": options.time_tolerance,

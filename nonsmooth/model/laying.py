@@ -10,8 +10,9 @@ from nonsmooth.engine.modes import OPEN
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ImpactMap, ImpactProcess, Joint, Load
 from nonsmooth.interfaces.guard import guard_value
-from nonsmooth.model.layout import CATALOGUE, FRAME, JOINT_ROW, LOAD, Heap, Memory
+from nonsmooth.model.layout import CATALOGUE, FRAME, JOINT_ROW, LOAD
 from nonsmooth.model.linkages import Linkage
+from nonsmooth.model.memory import Heap, Memory
 from nonsmooth.parameters import Value
 from nonsmooth.plugins.compile import bind, parameter_names
 from nonsmooth.system.contact import Contact, Tie

@@ -44,8 +44,7 @@ Bodies tied by joints form a linkage, every other body is a linkage of its own; 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -166,6 +165,8 @@ INTEGER_SCALARS = (
     "culprit",
     "impact_map",
     "painleve",
+    "singular",
+    "policy",
     "trigger",
     "aimed",
     "lone",
@@ -221,10 +222,10 @@ FLOAT_SCALARS = (
     "small_force",
 )
 
-_Size = Callable[[Mapping[str, int]], int]
+Size = Callable[[Mapping[str, int]], int]
 
 
-def _per(stride: int, count: str) -> _Size:
+def _per(stride: int, count: str) -> Size:
     return lambda n: stride * n[count]
 
 
@@ -232,7 +233,7 @@ def _guards(n: Mapping[str, int]) -> int:
     return 2 * n["n_slots"] + n["n_own_guards"]
 
 
-_FLOAT_ARRAYS: dict[str, _Size] = {
+FLOAT_ARRAYS: dict[str, Size] = {
     "stages": lambda n: 6 * N_STAGES,
     "error_weights": lambda n: N_STAGES,
     "dense": lambda n: 4 * N_STAGES,
@@ -325,7 +326,7 @@ _FLOAT_ARRAYS: dict[str, _Size] = {
     "null": lambda n: (3 * n["n_slots"]) ** 2,
     "tableau": lambda n: 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2),
 }
-_INTEGER_ARRAYS: dict[str, _Size] = {
+INTEGER_ARRAYS: dict[str, Size] = {
     "rooms": lambda n: len(ROOMS),
     "body_q": _per(1, "n_bodies"),
     "body_u": _per(1, "n_bodies"),
@@ -455,7 +456,7 @@ _INTEGER_ARRAYS: dict[str, _Size] = {
 SCALARS = np.dtype(
     [(name, "i8") for name in INTEGER_SCALARS]
     + [(name, "f8") for name in FLOAT_SCALARS]
-    + [(name, "i8") for name in (*_FLOAT_ARRAYS, *_INTEGER_ARRAYS)],
+    + [(name, "i8") for name in (*FLOAT_ARRAYS, *INTEGER_ARRAYS)],
     align=True,
 )
 """The record ``S``."""
@@ -480,81 +481,5 @@ COUNTS = (
     "sample_capacity",
 )
 """The run-time sizes that :func:`allocate` takes."""
-CONSTANT_SCALARS = frozenset((*COUNTS, *_FLOAT_ARRAYS, *_INTEGER_ARRAYS))
+CONSTANT_SCALARS = frozenset((*COUNTS, *FLOAT_ARRAYS, *INTEGER_ARRAYS))
 """What never changes once the memory is laid out."""
-
-
-class Heap:
-    """The blocks that come behind the fixed arrays: output blocks, Jacobians, parameters."""
-
-    def __init__(self, memory: Memory) -> None:
-        self._memory = memory
-        self._blocks: list[np.ndarray] = []
-        self._next = len(memory.floats)
-
-    def block(self, size: int) -> int:
-        """Reserve floats; return their offset."""
-        return self.store(np.zeros(size))
-
-    def store(self, values: Sequence[float] | np.ndarray) -> int:
-        """Append values; return their offset."""
-        start = self._next
-        self._blocks.append(np.asarray(values, dtype=float))
-        self._next += len(values)
-        return start
-
-    def close(self) -> Memory:
-        """Return the memory with all blocks in it."""
-        old = self._memory
-        floats = np.zeros(self._next + 1)
-        written = int(old.scalars[0]["delassus"])
-        floats[:written] = old.floats[:written]
-        start = len(old.floats)
-        for block in self._blocks:
-            floats[start : start + len(block)] = block
-            start += len(block)
-        return Memory(old.scalars, floats, old.integers)
-
-
-@dataclass(frozen=True)
-class Memory:
-    """Scalars and heaps of one trajectory.
-
-    Attributes
-    ----------
-    scalars : numpy.ndarray
-        The record ``S``, shape [1].
-    floats : numpy.ndarray
-        The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
-    integers : numpy.ndarray
-        The heap ``k``.
-    """
-
-    scalars: np.ndarray
-    floats: np.ndarray
-    integers: np.ndarray
-
-    def array(self, name: str, size: int) -> np.ndarray:
-        """Return a view of ``size`` entries of the named array."""
-        heap = self.floats if name in _FLOAT_ARRAYS else self.integers
-        start = int(self.scalars[0][name])
-        return heap[start : start + size]
-
-
-def allocate(counts: Mapping[str, int]) -> Memory:
-    """Lay out the arrays for the given counts, all of ``COUNTS``; blocks are appended by :class:`Heap`."""
-    scalars = np.zeros(1, SCALARS)
-    totals: list[int] = []
-    for table in (_FLOAT_ARRAYS, _INTEGER_ARRAYS):
-        total = 0
-        for name, size in table.items():
-            scalars[name] = total
-            total += size(counts)
-        totals.append(total)
-    for name, value in counts.items():
-        scalars[name] = value
-    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
-    memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
-    memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
-    memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
-    return memory

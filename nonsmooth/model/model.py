@@ -8,7 +8,8 @@ import numpy as np
 
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.interfaces import ImpactMap
-from nonsmooth.model.layout import GEOMETRY, Memory
+from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.memory import Memory
 from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System

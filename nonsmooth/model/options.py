@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
+from nonsmooth.engine.modes import POLICIES
 from nonsmooth.model.solvers import SOLVERS
 from nonsmooth.parameters import Component, parameter
 
@@ -23,4 +24,11 @@ class Options(Component):
     )
     largest_step: float = parameter(0.1, doc="largest step of the flow", unit="s", above=0.0, maximum=1e9)
     steps_per_period: float = parameter(4.0, doc="least steps per time scale of a prescribed motion", minimum=1.0)
+    painleve: str = parameter(
+        "impact",
+        doc="what happens where sliding has no contact force: an impact without collision by the contact's law, "
+        "the same without loss as a stiff spring does it, or the end of the run",
+        unit="",
+        choices=POLICIES,
+    )
     solver: str = parameter("auto", doc="solver of the contact problem", unit="", choices=SOLVERS)

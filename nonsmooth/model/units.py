@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from nonsmooth.model.layout import Memory
+from nonsmooth.model.memory import Memory
 from nonsmooth.system.contact import Contact
 
 SMALL = 64

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 import functools
 import inspect
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from nonsmooth.engine.kernel import COMPILATION_ERRORS, address_of, at, jit
+import numpy as np
+
+from nonsmooth.engine.kernel import COMPILATION_ERRORS, PLAIN, address_of, at, call_scalar, jit
 from nonsmooth.errors import PluginError, UnknownName
 from nonsmooth.parameters import Value
 
@@ -21,14 +25,18 @@ ROLES = {
 }
 """What the engine passes to a function of each form, before the function's own parameters."""
 
+_FAILS = " except Exception: "
 _SHIMS = {
-    "scalar": "def shim(x, p): return law(x{unpacked})",
-    "guard": "def shim(t, q, u, p): return law(t, q, u{unpacked})",
-    "body": "def shim(t, q, u, p, out): law(t, q, u, out{unpacked})",
-    "load": "def shim(t, a, b, p, out): law(t, a, b, out{unpacked})",
-    "pair": "def shim(a, b, p, out): law(a, b, out{unpacked})",
-    "map": "def shim(n, delassus, rates, p, out): law(n, delassus, rates, out{unpacked})",
+    "scalar": "def shim(x, p):\n try: return law(x{unpacked})\n" + _FAILS + "return nan",
+    "guard": "def shim(t, q, u, p):\n try: return law(t, q, u{unpacked})\n" + _FAILS + "return nan",
+    "body": "def shim(t, q, u, p, out):\n try: law(t, q, u, out{unpacked})\n" + _FAILS + "out[0] = nan",
+    "load": "def shim(t, a, b, p, out):\n try: law(t, a, b, out{unpacked})\n" + _FAILS + "out[0] = nan",
+    "pair": "def shim(a, b, p, out):\n try: law(a, b, out{unpacked})\n" + _FAILS + "out[0] = nan",
+    "map": "def shim(n, delassus, rates, p, out):\n try: law(n, delassus, rates, out{unpacked})\n"
+    + _FAILS
+    + "out[0] = nan",
 }
+"""What the engine calls; a compiled function cannot raise into it, so that an exception becomes a number not finite."""
 
 
 def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
@@ -92,6 +100,26 @@ def _address(function: Callable[..., Any], form: str, vectors: tuple[bool, ...])
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
     unpacked = "".join(", " + text.format(i) for i, text in enumerate(items))
-    scope: dict[str, Any] = {"law": jit(function), "at": at}
+    scope: dict[str, Any] = {"law": jit(function), "at": at, "nan": math.nan}
     exec(_SHIMS[form].format(unpacked=unpacked), scope)  # the shim's text is ours, never the user's
     return address_of(scope["shim"], form)
+
+
+def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:
+    """Return what the function of the form "scalar" at an address, as :func:`bind` gives both, makes of ``x``."""
+    heap = np.array(parameters, dtype=float)
+    if PLAIN:
+        return float(call_scalar(address, x, memoryview(heap.data)))
+    function = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.c_void_p)(address)
+    return float(function(x, heap.ctypes.data))
+
+
+def uncompiled(function: Callable[..., Any]) -> bool:
+    """Return whether Python may call a function: not where it calls helpers that are compiled without a way back."""
+    helper = type(jit(_nothing))
+    inside = inspect.getclosurevars(function)
+    return PLAIN or not any(type(v) is helper for v in (*inside.globals.values(), *inside.nonlocals.values()))
+
+
+def _nothing() -> None:
+    """Do nothing."""

@@ -1,29 +1,35 @@
-"""After a failure: which law or body gave a number that is not finite."""
+"""After a failure: which law, load or body gave a number that is not finite, or raised."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
-from nonsmooth.engine.modes import NOT_FINITE
+from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.modes import NOT_FINITE, STEP_TOO_SMALL
 from nonsmooth.interfaces import ImpactProcess
 from nonsmooth.interfaces.guard import guard_value
+from nonsmooth.model.layout import FRAME, GEOMETRY, LOAD
 from nonsmooth.model.model import Model
-from nonsmooth.plugins.compile import parameter_names
+from nonsmooth.plugins.compile import bind, evaluate, parameter_names, uncompiled
 
-_PROBES = (0.0, 1e-12, 1e-6, 1e-3, 1e-1, 1.0)
+_PROBES = (0.0, *np.geomspace(1e-12, 1.0, 25).tolist())
+_REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can step through it."
 
 
 def culprit(model: Model, status: int) -> str:
     """Return a sentence that names the first function found to raise or to return a non-finite number."""
-    if status != NOT_FINITE:
-        return ""
+    found = _in_the_blocks(model)
+    if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
+        return found
+    slips = model.memory.array("rate", 3 * int(model.memory.scalars["n_contacts"][0])).reshape(-1, 3)[:, 1:]
+    speeds = (*_PROBES, *np.linalg.norm(slips, axis=1).tolist())
     for contact in model.system.contacts:
         laws: list[tuple[Any, Callable[..., float], tuple[float, ...]]] = [
-            (contact.friction, contact.friction.coefficient, _PROBES)
+            (contact.friction, contact.friction.coefficient, speeds)
         ]
         if isinstance(contact.impact, ImpactProcess):
             laws.append((contact.impact, contact.impact.force, _PROBES))
@@ -41,6 +47,42 @@ def culprit(model: Model, status: int) -> str:
     return ""
 
 
+def _in_the_blocks(model: Model) -> str:
+    """Evaluate bodies, loads and contacts at the last state, at its time, at the end of the step and shortly after."""
+    scalars = model.memory.scalars
+    t = float(scalars["t"][0])
+    for time in (t, t + float(scalars["h"][0]), t + 10.0 * float(scalars["time_tolerance"][0])):
+        scalars["t"] = time
+        call_room("evaluate_at", model.memory)
+        scalars["t"] = t
+        for name, block in _blocks(model):
+            if not np.all(np.isfinite(block)):
+                return f"{name} raises or gives a number that is not finite at t = {time:.9g} s. {_REMEDY}"
+    return ""
+
+
+def _blocks(model: Model) -> Iterator[tuple[str, np.ndarray]]:
+    """Yield what every body, load and listed contact wrote, with a name for it; loads first, as bodies feel them."""
+    memory, system = model.memory, model.system
+    for i, tie in enumerate(system.loads):
+        start = int(memory.array("load_out", i + 1)[i])
+        yield f"{tie.name}: {_source(tie.component.evaluator)}", memory.floats[start : start + LOAD]
+    for i, body in enumerate(system.bodies):
+        start = int(memory.array("body_out", i + 1)[i])
+        size = FRAME if body.n_u == 0 else int(memory.array("body_tail", i + 1)[i]) - start + body.n_q + body.n_u
+        yield f"{body!r}", memory.floats[start : start + size]
+    n = int(memory.scalars["n_contacts"][0])
+    geometry = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
+    for number, block in zip(memory.array("identity", n), geometry, strict=True):
+        contact = system.contacts[int(number)]
+        yield f"{contact.name}: {_source(contact.kinematics.evaluator)}", block
+
+
+def _source(function: Callable[..., Any]) -> str:
+    code = function.__code__
+    return f"{function.__qualname__} in {code.co_filename}, line {code.co_firstlineno},"
+
+
 def _guard_without_value(model: Model) -> str:
     """Look at the guards at the end of the step that failed."""
     scalars, state = model.memory.scalars[0], model.memory.array("y_new", model.n_y)
@@ -55,15 +97,19 @@ def _guard_without_value(model: Model) -> str:
 
 
 def _probe(law: Any, function: Callable[..., float], probes: tuple[float, ...]) -> str:
-    names = parameter_names(function, "scalar")
-    values = {name: law.parameters()[name] for name in names}
-    where = f"{type(law).__name__}: {function.__qualname__} in {function.__code__.co_filename}"
-    where += f", line {function.__code__.co_firstlineno}"
+    values = {name: law.parameters()[name] for name in parameter_names(function, "scalar")}
+    address, parameters = bind(function, "scalar", values, type(law).__name__)
     for x in probes:
-        try:
-            result = function(x, **values)
-        except Exception as error:
-            return f"{where}, raises {error!r} at {x:g} with {values}."
-        if not math.isfinite(result):
-            return f"{where}, returns {result!r} at {x:g} with {values}."
+        if not math.isfinite(evaluate(address, parameters, x)):
+            what = _outcome(function, x, values)
+            return f"{type(law).__name__}: {_source(function)} {what} at {x:g} with {values}. {_REMEDY}"
     return ""
+
+
+def _outcome(function: Callable[..., float], x: float, values: dict[str, Any]) -> str:
+    if not uncompiled(function):
+        return "raises or returns a number that is not finite"
+    try:
+        return f"returns {function(x, **values)!r}"
+    except Exception as error:
+        return f"raises {error!r}"

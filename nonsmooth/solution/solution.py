@@ -12,6 +12,7 @@ from nonsmooth.engine.modes import IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
+from nonsmooth.solution.graph import TransitionGraph, transition_graph
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
@@ -99,6 +100,10 @@ class Solution:
         """Return (time [s], cause, mode before, mode during, mode after) of every event."""
         columns = (self.events.words(which) for which in ("before", "during", "after"))
         return list(zip(self.events.time.tolist(), self.events.causes(), *columns, strict=True))
+
+    def transition_graph(self) -> TransitionGraph:
+        """Return the modes visited, their shares of the time, and how often which cause led from one to another."""
+        return transition_graph(self.events, self.t_end)
 
     def of(self, body: Body) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the samples of q and u of one body, shapes [n, body.n_q] and [n, body.n_u]."""

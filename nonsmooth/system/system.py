@@ -63,7 +63,7 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = float(gravity)
         self._contacts: list[Contact] = []
-        self._pairs: set[_Pair] = set()
+        self._paired: set[_Pair] = set()
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
         self._guards: list[Guard] = []
@@ -192,8 +192,9 @@ class System:
         Raises
         ------
         InvalidInput
-            If a body is not of this system, the two have contacts already, a law is missing or of the wrong kind, no
-            kinematics is known for a pair of shapes, or the impact law is of another kind than that of the other contacts.
+            If a body is not of this system, a law is missing or of the wrong kind, no kinematics is known
+            for a pair of shapes, a body carries none, the two have their contacts already, or the impact law is of
+            another kind than that of the other contacts.
         """
         self._require(first, "System.contact")
         self._require(second, "System.contact")
@@ -209,12 +210,18 @@ class System:
             raise InvalidInput(
                 "System.contact", "needs two different bodies", type(first).__name__, "Name the other body."
             )
-        if _pair(first, second) in self._pairs:
+        for body in (first, second):
+            if not any(body.frames):
+                raise InvalidInput(
+                    "System.contact", "needs bodies that carry shapes", body, "Without a shape nothing can touch it."
+                )
+        pair = _key(first, second)
+        if pair in self._paired:
             raise InvalidInput(
                 "System.contact",
-                "needs two bodies without contacts so far",
-                f"{type(first).__name__} and {type(second).__name__}",
-                "Declare a pair once: all pairs of the shapes of two bodies get their contacts together.",
+                "needs two bodies that have no contact with each other yet",
+                (type(first).__name__, type(second).__name__),
+                "One call adds the contacts of all their shapes.",
             )
         added: list[Contact] = []
         for i, carried in enumerate(first.frames):
@@ -222,7 +229,7 @@ class System:
                 for a, b in itertools.product(carried, others):
                     added += self._pair((first, i, a), (second, j, b), len(added), normal, friction, impact)
         self._contacts += added
-        self._pairs.add(_pair(first, second))
+        self._paired.add(pair)
         return tuple(added)
 
     def contact_all(
@@ -246,7 +253,7 @@ class System:
         of : mapping, optional
             Material -> bodies made of it.  Bodies are told apart as objects, however equal they are.
         bodies : sequence of Body, optional
-            Which bodies touch each other; all of the system by default.
+            Which bodies touch each other; by default all of the system that carry shapes.
         exclude : iterable of pairs of Body
             Pairs that do not touch.
 
@@ -262,23 +269,23 @@ class System:
         UnknownName
             If a material is not in the table.
         """
-        chosen = tuple(self._bodies if bodies is None else bodies)
+        chosen = [body for body in self._bodies if any(body.frames)] if bodies is None else list(bodies)
         names = self._material_names(materials, of or {})
-        out = {_pair(tie.first, tie.second) for tie in self._joints} | self._pairs
+        out = {_key(tie.first, tie.second) for tie in self._joints} | self._paired
         for one, other in exclude:
             self._require(one, "System.contact_all: exclude")
             self._require(other, "System.contact_all: exclude")
-            out.add(_pair(one, other))
+            out.add(_key(one, other))
         for body in chosen:
             self._require(body, "System.contact_all: bodies")
-        kept, added = (list(self._contacts), set(self._pairs)), len(self._contacts)
+        kept, added = (list(self._contacts), set(self._paired)), len(self._contacts)
         try:
             for one, other in itertools.combinations(chosen, 2):
-                if _pair(one, other) not in out and one.n_u + other.n_u > 0:
+                if _key(one, other) not in out and one.n_u + other.n_u > 0:
                     laws = materials.laws(names.get(id(one)), names.get(id(other)))
                     self.contact(one, other, normal=laws.normal, friction=laws.friction, impact=laws.impact)
         except InvalidInput:
-            self._contacts, self._pairs = kept
+            self._contacts, self._paired = kept
             raise
         return tuple(self._contacts[added:])
 
@@ -348,7 +355,7 @@ class System:
         return int(np.sum([body.n_u for body in self._bodies]))
 
 
-def _pair(one: Body, other: Body) -> _Pair:
+def _key(one: Body, other: Body) -> _Pair:
     return frozenset((id(one), id(other)))
 
 

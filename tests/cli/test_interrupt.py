@@ -32,7 +32,13 @@ def test_a_process_that_is_interrupted_saves_its_results(
     assert 0.0 < report["t_end"] < 1e5
     assert "Traceback" not in errors
     saved = tmp_path / "results"
-    assert sorted(p.name for p in saved.iterdir()) == ["events.csv", "height.png", "solution.nc", "summary.json"]
+    assert sorted(p.name for p in saved.iterdir()) == [
+        "events.csv",
+        "height.png",
+        "solution.nc",
+        "summary.json",
+        "transitions.png",
+    ]
     assert len((saved / "events.csv").read_text().splitlines()) == 1 + report["n_events"]
 
 

@@ -6,22 +6,29 @@ from collections.abc import Callable
 
 import pytest
 
+GROUPS = ("scenarios", "bodies", "joints", "loads", "laws")
 Call = Callable[..., tuple[int, str, str]]
 
 
 def test_all_groups_with_source_and_first_line(call: Call) -> None:
     status, output, _ = call("list")
     assert status == 0
-    assert [line for line in output.splitlines() if line.endswith(":")] == ["scenarios:", "bodies:", "laws:"]
+    assert [line for line in output.splitlines() if line.endswith(":")] == [f"{group}:" for group in GROUPS]
     for row in (
         ("tiny", "tiny 0.1", "A ball on a vibrating plate."),
         ("ball", "nonsmooth 0.1.0", "A free solid sphere."),
+        ("hinge", "nonsmooth 0.1.0", "Two points and two axes through them coincide."),
+        (
+            "spring",
+            "nonsmooth 0.1.0",
+            "F = -k (d - d0) - c d' along the line between two points at distance d, which must not vanish.",
+        ),
         ("coulomb", "nonsmooth 0.1.0", "Coulomb's law, Eq. (17)."),
     ):
         assert any(line.split() == " ".join(row).split() for line in output.splitlines())
 
 
-@pytest.mark.parametrize("group", ["scenarios", "bodies", "laws"])
+@pytest.mark.parametrize("group", GROUPS)
 def test_one_group(call: Call, group: str) -> None:
     status, output, _ = call("list", group)
     assert status == 0

@@ -81,7 +81,7 @@ def test_a_failed_run_reports_what_was_computed(
     assert "NotANumber" in report["message"]
     assert f"error: {report['message']}\n" in errors
     assert "Traceback" not in errors
-    kept = ["events.csv", "height.png", "solution.nc", "summary.json"] if extra else []
+    kept = ["events.csv", "height.png", "solution.nc", "summary.json", "transitions.png"] if extra else []
     assert sorted(path.name for path in tmp_path.glob("results/*")) == kept
 
 

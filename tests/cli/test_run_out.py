@@ -34,9 +34,16 @@ def test_results_events_summary_and_figures(call: Call, tmp_path: Path) -> None:
     status, output, errors = call("run", "tiny", "--json", "--out", str(folder))
     assert status == 0
     assert f"results are in {folder}\n" in errors
-    assert sorted(p.name for p in folder.iterdir()) == ["events.csv", "height.png", "solution.nc", "summary.json"]
+    assert sorted(p.name for p in folder.iterdir()) == [
+        "events.csv",
+        "height.png",
+        "solution.nc",
+        "summary.json",
+        "transitions.png",
+    ]
     assert json.loads((folder / "summary.json").read_text()) == json.loads(output)
-    assert (folder / "height.png").read_bytes().startswith(_PNG)
+    for name in ("height.png", "transitions.png"):
+        assert (folder / name).read_bytes().startswith(_PNG)
     with xarray.open_dataset(folder / "solution.nc", engine="h5netcdf") as saved:
         assert saved.sizes["event"] == json.loads(output)["n_events"]
         np.testing.assert_array_equal(saved["height"], saved["q"][:, 2])
@@ -71,7 +78,12 @@ def test_a_figure_that_fails_costs_nothing_else(call: Call, tmp_path: Path) -> N
     assert status == 1
     assert json.loads(output)["status"] == "done"
     assert "error: Tiny.figures failed: ZeroDivisionError: a figure that fails\n" in errors
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["events.csv", "solution.nc", "summary.json"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == [
+        "events.csv",
+        "solution.nc",
+        "summary.json",
+        "transitions.png",
+    ]
 
 
 @pytest.mark.parametrize("command", ["run", "figures"])

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from laws import Coulomb, Unilateral
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
-from nonsmooth.model.layout import COUNTS, Memory, allocate
+from nonsmooth.model.layout import COUNTS
+from nonsmooth.model.memory import Memory, allocate
 
 
 def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:
@@ -46,9 +47,7 @@ def _delassus(seed: int, n: int, freedoms: int) -> tuple[Any, Any]:
     return jacobian @ jacobian.T, random.normal(size=(n, 3)) * [3.0, 1.0, 1.0]
 
 
-def _assert_lawful(
-    delassus: Any, bias: Any, forces: Any, modes: Any, mu: Any, static: Any, slip: Any, exact: bool
-) -> None:
+def _assert_lawful(delassus: Any, bias: Any, forces: Any, modes: Any, mu: Any, static: Any, slip: Any) -> None:
     acceleration = (delassus @ forces.ravel()).reshape(-1, 3) + bias
     size = max(1.0, float(np.max(np.abs(forces))), float(np.max(np.abs(delassus))) * float(np.max(np.abs(forces))))
     small = 1e-8 * size
@@ -61,8 +60,7 @@ def _assert_lawful(
             assert law.is_fulfilled(tuple(slip[i]), normal, tuple(pull), small)
         elif modes[i] == STICK:
             np.testing.assert_allclose(push, 0.0, rtol=0, atol=small)
-            # where forces are not unique the bound is that of the group, Eq. (38)
-            assert not exact or np.hypot(*pull) <= static[i] * normal + small
+            assert np.hypot(*pull) <= static[i] * normal + small
         elif modes[i] == SLIDE and np.hypot(*push) > 1e-6 * size:
             np.testing.assert_allclose(pull, -mu[i] * normal * push / np.hypot(*push), rtol=0, atol=1e-6 * size)
         elif modes[i] == OPEN:
@@ -83,7 +81,7 @@ def test_contacts_at_rest(seed: int, n: int, mu: Any, extra: float) -> None:
     # with mu_s > mu there may be none
     assert found or extra > 1.0
     if found:
-        _assert_lawful(delassus, bias, forces, modes, mu, static, slip, exact=True)
+        _assert_lawful(delassus, bias, forces, modes, mu, static, slip)
 
 
 @settings(max_examples=100)
@@ -102,7 +100,7 @@ def test_some_slide(seed: int, n: int, mu: Any, sliding: Any) -> None:
     mu = np.array(mu[:n]) * 0.3
     found, forces, modes = _solve(_memory(delassus, bias, mu, mu, slip), n)
     if found:
-        _assert_lawful(delassus, bias, forces, modes, mu, mu, slip, exact=True)
+        _assert_lawful(delassus, bias, forces, modes, mu, mu, slip)
     else:
         reduced = [delassus[3 * i, 3 * i] - mu[i] * slip[i] @ delassus[3 * i, 3 * i + 1 : 3 * i + 3] for i in range(n)]
         assert n > 1 or min(reduced) <= 0.0
@@ -120,7 +118,7 @@ def test_rank_deficient(seed: int, n: int, mu: Any) -> None:
     slip = np.zeros((n, 2))
     found, forces, modes = _solve(_memory(delassus, bias, mu, mu, slip), n)
     assume(found)
-    _assert_lawful(delassus, bias, forces, modes, mu, mu, slip, exact=False)
+    _assert_lawful(delassus, bias, forces, modes, mu, mu, slip)
 
 
 @settings(max_examples=40)
@@ -200,12 +198,15 @@ def test_painleve_without_solution(side: float) -> None:
         assert forces[0, 0] == pytest.approx(1.0 / (1.0 - 2.0 * mu), rel=1e-8)
 
 
-@pytest.mark.parametrize(("past", "expected"), [(SLIDE, SLIDE), (OPEN, OPEN)])
-def test_painleve_with_two_solutions_keeps_the_past(past: int, expected: int) -> None:
-    """Pulled apart with a negative coefficient both contact and flight are solutions: the past mode goes on."""
+@pytest.mark.parametrize("past", [SLIDE, OPEN])
+def test_painleve_with_two_solutions_takes_the_stable_one(past: int) -> None:
+    """Pulled apart with a negative coefficient both contact and flight are solutions, but sliding is unstable.
+
+    On a spring, however stiff, a little more force would give more approach and still more force.
+    """
     memory = _memory(PAINLEVE, [[1.0, 0.0, 0.0]], [0.8], [0.8], SLIDING)
     memory.array("mode_tried", 1)[0] = past
     found, forces, modes = _solve(memory, 1)
     assert found
-    assert modes[0] == expected
-    assert forces[0, 0] == pytest.approx(1.0 / 0.6 if past == SLIDE else 0.0, abs=1e-12)
+    assert modes[0] == OPEN
+    assert forces[0, 0] == pytest.approx(0.0, abs=1e-12)

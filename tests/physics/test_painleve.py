@@ -25,13 +25,21 @@ def _critical(tilt: float) -> float:
     return (across + x * x) / (x * z)
 
 
-def _run(build: Any, friction: float, slip: float, t_end: float = 5e-3, rate: float = 0.0) -> ns.Solution:
+def _run(
+    build: Any,
+    friction: float,
+    slip: float,
+    t_end: float = 5e-3,
+    rate: float = 0.0,
+    restitution: float = 0.3,
+    **options: Any,
+) -> ns.Solution:
     body = Dumbbell(rod_mass_fraction=0.9)
-    system = build.over(body, friction=friction, restitution=0.3)
+    system = build.over(body, friction=friction, restitution=restitution)
     # rod along y: (x1, y1, z1, theta, beta, gamma); ball 1 slides towards -y
     start = build.paper_start(body, (0, 0, body.radius, 0.0, TILT, 0.0), (0, slip, 0, 0, rate, 0))
     system.place(body, **start)
-    return ns.simulate(system, t_end, options=ns.Options(tolerance=1e-10))
+    return ns.simulate(system, t_end, options=ns.Options(**{"tolerance": 1e-10, **options}))
 
 
 @pytest.mark.parametrize("side", [-1e-3, 1e-3])
@@ -135,3 +143,31 @@ def test_dissipation_over_many_starts(build: Any) -> None:
             assert np.all(events.restitution_loss[hit] >= -1e-12)
             assert np.all(events.friction_loss[hit] >= -1e-12)
             assert solution.energy.residual <= 1e-8
+
+
+def test_policies(build: Any) -> None:
+    """Refused by name, where no force exists and where the slip jams; compliant: as the law does without loss."""
+    friction = _critical(TILT)
+    for factor, t in ((1.001, 0.0), (0.999, 7e-5)):
+        with pytest.raises(ns.RunFailed, match="sliding has no contact force") as caught:
+            _run(build, factor * friction, -1.0, painleve="refuse")
+        solution: Any = caught.value.solution
+        assert solution.t_end == pytest.approx(t, abs=1e-5)
+    compliant = _run(build, 1.5 * friction, -1.0, t_end=1e-6, painleve="compliant").events
+    lossless = _run(build, 1.5 * friction, -1.0, t_end=1e-6, restitution=1.0).events
+    lossy = _run(build, 1.5 * friction, -1.0, t_end=1e-6).events
+    np.testing.assert_allclose(compliant.u_after[0], lossless.u_after[0], rtol=1e-9, atol=1e-12)
+    assert compliant.u_after[0, 2] > lossy.u_after[0, 2]
+    assert compliant.causes()[0] == "impact without collision"
+    with pytest.raises(ns.UnknownName, match="painleve"):
+        ns.Options(painleve="spring")
+
+
+def test_the_jam_does_not_depend_on_the_tolerance(build: Any) -> None:
+    """Sliding into the singularity where force and coefficient vanish together must not pass through it."""
+    friction = _critical(TILT) * 0.98
+    times = []
+    for tolerance in (1e-8, 1e-9, 1e-11):
+        events = _run(build, friction, -30.0, tolerance=tolerance).events
+        times.append(float(events.time[events.cause == JAM][0]))
+    np.testing.assert_allclose(times, times[-1], rtol=0, atol=1e-10)

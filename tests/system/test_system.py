@@ -114,7 +114,7 @@ def test_end_time_must_be_positive(build: Any, t_end: float) -> None:
     ("option", "value"),
     [("tolerance", 0.0), ("tolerance", math.nan), ("impact_tolerance", 1.0), ("steps_per_period", 0.5)],
 )
-def test_options_are_checked(option: str, value: float) -> None:
+def test_options_are_checked(option: str, value: Any) -> None:
     """A tolerance that no step can meet is refused."""
     _raises((f"Options.{option}",), lambda: ns.Options(**{option: value}))
 

@@ -55,6 +55,49 @@ def test_against_springs_in_real_time(case: dict[str, float]) -> None:
     np.testing.assert_allclose(_velocities(scenario), _on_springs(scenario), rtol=0, atol=1e-8)
 
 
+def _with_losses(scenario: NewtonsCradle) -> Any:
+    """Return the velocities after the strike on springs that give back e^2 of their energy, in real time by scipy.
+
+    A deformation x falls by the gap rate, and by the rate over e^2 while the spring expands.
+    """
+    n, strikers = int(scenario.n_balls), int(scenario.n_strikers)
+    stiffness = scenario.stiffness_ratio ** np.arange(n - 1)
+    masses = np.where(np.arange(n) < strikers, scenario.mass_ratio, 1.0)
+
+    def slope(t: float, y: Any) -> Any:
+        x, rate = y[: n - 1], np.diff(y[n - 1 :])
+        force = stiffness * np.maximum(x, 0.0) ** scenario.exponent
+        push = np.concatenate([[0.0], force]) - np.concatenate([force, [0.0]])
+        deformation = np.where(rate < 0.0, -rate, -rate / scenario.restitution**2)
+        return np.concatenate([np.where((x > 0.0) | (rate < 0.0), deformation, 0.0), push / masses])
+
+    y = np.concatenate([np.zeros(n - 1), np.where(np.arange(n) < strikers, scenario.speed, 0.0)])
+    t = 0.0
+    while np.any(y[: n - 1] > 1e-12) or np.any(np.diff(y[n - 1 :]) < -1e-12):
+        done = solve_ivp(slope, (t, t + 20.0), y, method="DOP853", rtol=1e-12, atol=1e-14, max_step=0.01)
+        t, y = t + 20.0, done.y[:, -1]
+        assert t < 1e4
+    return y[n - 1 :]
+
+
+@pytest.mark.parametrize("restitution", [0.5, 0.9])
+@pytest.mark.parametrize("exponent", [1.0, 1.5])
+@pytest.mark.parametrize(
+    "case",
+    [
+        {"n_balls": 3.0},
+        {"n_balls": 5.0},
+        {"n_balls": 10.0},
+        {"n_balls": 4.0, "stiffness_ratio": 2.0, "mass_ratio": 0.5},
+    ],
+    ids=str,
+)
+def test_against_springs_with_losses(case: dict[str, float], exponent: float, restitution: float) -> None:
+    """Several coefficients of restitution, against an integration of the compliant model in real time: 1e-8."""
+    scenario = NewtonsCradle(**case, exponent=exponent, restitution=restitution)
+    np.testing.assert_allclose(_velocities(scenario), _with_losses(scenario), rtol=0, atol=1e-8)
+
+
 @pytest.mark.parametrize(("ratio", "expected"), [(1e-6, (0.0, 0.0, 1.0)), (1e6, (-1 / 3, 2 / 3, 2 / 3))])
 @pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
 def test_limits_of_the_stiffness_ratio(ratio: float, expected: Any) -> None:

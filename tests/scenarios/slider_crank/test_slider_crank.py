@@ -17,7 +17,7 @@ from scenarios.slider_crank.scenario import SliderCrank
 GRAVITY = 9.81
 
 
-def _run(scenario: SliderCrank, t_end: float | None = None, **options: float) -> ns.Solution:
+def _run(scenario: SliderCrank, t_end: float | None = None, **options: Any) -> ns.Solution:
     return ns.simulate(
         scenario.build(),
         t_end or scenario.t_end,

@@ -1,0 +1,87 @@
+"""The heaps of one trajectory: views by name, blocks appended behind the fixed arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nonsmooth.model import tableau
+from nonsmooth.model.layout import FLOAT_ARRAYS, INTEGER_ARRAYS, N_STAGES, SCALARS
+
+
+class Heap:
+    """The blocks that come behind the fixed arrays: output blocks, Jacobians, parameters."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+        self._blocks: list[np.ndarray] = []
+        self._next = len(memory.floats)
+
+    def block(self, size: int) -> int:
+        """Reserve floats; return their offset."""
+        return self.store(np.zeros(size))
+
+    def store(self, values: Sequence[float] | np.ndarray) -> int:
+        """Append values; return their offset."""
+        start = self._next
+        self._blocks.append(np.asarray(values, dtype=float))
+        self._next += len(values)
+        return start
+
+    def close(self) -> Memory:
+        """Return the memory with all blocks in it."""
+        old = self._memory
+        floats = np.zeros(self._next + 1)
+        written = int(old.scalars[0]["delassus"])
+        floats[:written] = old.floats[:written]
+        start = len(old.floats)
+        for block in self._blocks:
+            floats[start : start + len(block)] = block
+            start += len(block)
+        return Memory(old.scalars, floats, old.integers)
+
+
+@dataclass(frozen=True)
+class Memory:
+    """Scalars and heaps of one trajectory.
+
+    Attributes
+    ----------
+    scalars : numpy.ndarray
+        The record ``S``, shape [1].
+    floats : numpy.ndarray
+        The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
+    integers : numpy.ndarray
+        The heap ``k``.
+    """
+
+    scalars: np.ndarray
+    floats: np.ndarray
+    integers: np.ndarray
+
+    def array(self, name: str, size: int) -> np.ndarray:
+        """Return a view of ``size`` entries of the named array."""
+        heap = self.floats if name in FLOAT_ARRAYS else self.integers
+        start = int(self.scalars[0][name])
+        return heap[start : start + size]
+
+
+def allocate(counts: Mapping[str, int]) -> Memory:
+    """Lay out the arrays for the given counts, all of ``COUNTS``; blocks are appended by :class:`Heap`."""
+    scalars = np.zeros(1, SCALARS)
+    totals: list[int] = []
+    for table in (FLOAT_ARRAYS, INTEGER_ARRAYS):
+        total = 0
+        for name, size in table.items():
+            scalars[name] = total
+            total += size(counts)
+        totals.append(total)
+    for name, value in counts.items():
+        scalars[name] = value
+    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
+    memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
+    memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
+    memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
+    return memory

@@ -1,0 +1,188 @@
+"""A drawing of the graph of modes; matplotlib comes with ``nonsmooth[full]``."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from nonsmooth.engine.modes import CAUSES
+from nonsmooth.solution.graph import Mode, TransitionGraph
+from nonsmooth.solution.graph_layout import Point, places_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MOST_MODES = 14
+_LONGEST_WORD, _FEW = 16, 8
+"""Characters of a word that fits into its node, and how many modes may show it; else they are numbered and listed."""
+_LONGEST_ROW = 46
+_COLOURS = (
+    "#000000",
+    "#d55e00",
+    "#0072b2",
+    "#009e73",
+    "#e69f00",
+    "#aa3377",
+    "#56b4e9",
+    "#999999",
+    "#6b4c1e",
+    "#f0e442",
+)
+"""One for each cause, told apart by the colour-blind as well."""
+_BEND = 0.16
+
+
+def draw(graph: TransitionGraph, most: int = _MOST_MODES) -> Figure:
+    """Return a figure of the modes visited most and the transitions between them.
+
+    Modes that last stand inside, impacts around them; the wider an arrow, the more often its transition.
+
+    Parameters
+    ----------
+    graph : TransitionGraph
+        The graph.
+    most : int
+        How many modes to show; the title tells how many are left out.
+    """
+    from matplotlib.figure import Figure
+
+    shown = graph.most_visited(most)
+    numbered = 3 * shown.n_contacts + 4 > _LONGEST_WORD or len(shown.shares) > _FEW
+    places = places_of(shown)
+    margin = 0.3
+    left, right = min(x for x, _ in places.values()) - 2.0 * margin, max(x for x, _ in places.values()) + 2.0 * margin
+    low, high = min(y for _, y in places.values()) - margin, max(y for _, y in places.values()) + margin
+    width = 7.2 if numbered else 8.0
+    height = min(
+        max(width * (high - low) / (right - left), 0.3 * len(places) if numbered else 0.0),
+        (0.8 if numbered else 0.62) * width,
+    )
+    inch = max((right - left) / width, (high - low) / height)
+    figure = Figure(figsize=(width + 4.6 * numbered, height + 1.4), layout="constrained")
+    panels = figure.subplots(1, 2, width_ratios=(7.2, 4.6)) if numbered else [figure.subplots()]
+    axis = panels[0]
+    axis.set_aspect("equal")
+    nodes = _draw_nodes(axis, shown, places, numbered, inch)
+    _draw_edges(axis, shown, places, nodes)
+    if numbered:
+        _list_words(panels[1], shown, places)
+    for panel in panels:
+        panel.set_axis_off()
+    axis.set_xlim(left, right)
+    axis.set_ylim(low, high)
+    figure.suptitle(_title(graph, shown), fontsize=11)
+    figure.supxlabel(
+        "Mode word {closed, approaching, slipping}, contact 1 rightmost; share of the time. Dashed: impacts,\n"
+        "which take no time. Bold: the start. Numbers at the arrows: how often.",
+        fontsize=7.5,
+        color="0.3",
+    )
+    return figure
+
+
+def _title(graph: TransitionGraph, shown: TransitionGraph) -> str:
+    modes, changes = (
+        len(graph.shares),
+        sum(graph.counts.values()) - sum(n for (one, _, _), n in graph.counts.items() if one in graph.passing),
+    )
+    title = f"Modes of the run: {modes} visited, {changes} transition{'s' * (changes != 1)}"
+    left_out = modes - len(shown.shares)
+    return title + (f"; the {left_out} modes visited least are left out" if left_out else "")
+
+
+def _draw_nodes(
+    axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], numbered: bool, inch: float
+) -> dict[Mode, Any]:
+    """Draw the nodes; an inch is so many units of the places."""
+    from matplotlib.patches import Ellipse
+
+    nodes = {}
+    for number, (mode, (x, y)) in enumerate(places.items(), 1):
+        share, passes = graph.shares[mode], mode in graph.passing
+        label = str(number) if numbered else graph.word(mode)
+        width = 0.36 if numbered else 0.42 + 0.074 * len(label)
+        node = Ellipse(
+            (x, y),
+            width * inch,
+            (0.3 if numbered else 0.46) * inch,
+            facecolor="white" if passes else str(0.97 - 0.22 * share),
+            edgecolor="black",
+            linewidth=2.2 if mode == graph.start else 1.0,
+            linestyle="--" if passes else "-",
+            zorder=3,
+        )
+        nodes[mode] = axis.add_patch(node)
+        text = label if passes or numbered else f"{label}\n{_percent(share)}"
+        axis.text(x, y, text, ha="center", va="center", fontsize=8.5, zorder=4, linespacing=1.2)
+    return nodes
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.1f} %" if share >= 5e-4 or share == 0.0 else "< 0.1 %"
+
+
+def _draw_edges(axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], nodes: dict[Mode, Any]) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import FancyArrowPatch
+
+    most = max(graph.counts.values(), default=1)
+    parallel: dict[tuple[Mode, Mode], int] = {}
+    for (one, other, cause), n in sorted(graph.counts.items(), key=lambda item: -item[1]):
+        bend = _BEND * (1 + parallel.get((one, other), 0))
+        parallel[one, other] = parallel.get((one, other), 0) + 1
+        colour, width = _COLOURS[CAUSES.index(cause)], 0.8 + 4.2 * math.sqrt(n / most)
+        start, end = places[one], places[other]
+        style = f"arc3,rad={bend}"
+        if one == other:
+            x, y = start
+            start, end, style = (x - 0.07, y + 0.06), (x + 0.07, y + 0.06), f"arc3,rad={-1.6 - 6.0 * (bend - _BEND)}"
+        arrow = FancyArrowPatch(
+            start,
+            end,
+            connectionstyle=style,
+            arrowstyle="-|>,head_length=0.5,head_width=0.28",
+            mutation_scale=9.0 + 1.6 * width,
+            patchA=None if one == other else nodes[one],
+            patchB=None if one == other else nodes[other],
+            shrinkA=1.0,
+            shrinkB=2.0,
+            color=colour,
+            linewidth=width,
+            zorder=2,
+        )
+        axis.add_patch(arrow)
+        # the vertex of the arc: half the bend beside the middle of the chord
+        x, y = 0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])
+        x, y = x + 0.5 * bend * (end[1] - start[1]), y - 0.5 * bend * (end[0] - start[0])
+        if one == other:
+            x, y = places[one][0], places[one][1] + 0.06 + 0.07 * (1.6 + 6.0 * (bend - _BEND))
+        box = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
+        axis.text(x, y, str(n), fontsize=7.5, color=colour, ha="center", va="center", zorder=5, bbox=box)
+    seen = [cause for cause in CAUSES if any(edge[2] == cause for edge in graph.counts)]
+    lines = [Line2D([], [], color=_COLOURS[CAUSES.index(cause)], linewidth=2.5, label=cause) for cause in seen]
+    if lines:
+        axis.legend(handles=lines, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=4, fontsize=8, frameon=False)
+
+
+def _list_words(panel: Axes, graph: TransitionGraph, places: dict[Mode, Point]) -> None:
+    """Write out what the numbers in the nodes stand for."""
+    rows = []
+    for number, mode in enumerate(places, 1):
+        share = "impact" if mode in graph.passing else _percent(graph.shares[mode])
+        rows.append(f"{number:>2}  {share:>7}  {_described(graph, mode)}")
+    panel.text(0.0, 0.5, "\n".join(rows), fontsize=7.5, family="monospace", va="center", linespacing=1.7)
+
+
+def _described(graph: TransitionGraph, mode: Mode) -> str:
+    """Return the mode word, or, where it is too long, which contacts are not open."""
+    if 3 * graph.n_contacts + 4 <= _LONGEST_ROW:
+        return graph.word(mode)
+    names = ("closed", "approaching", "slipping")
+    parts = []
+    for i, name in enumerate(names):
+        numbers = [str(contact + 1) for contact, bits in mode if bits >> i & 1]
+        if numbers:
+            parts.append(f"{name} {' '.join(numbers)}")
+    text = "; ".join(parts) or "all open"
+    return text if len(text) <= _LONGEST_ROW else text[: _LONGEST_ROW - 1] + "…"

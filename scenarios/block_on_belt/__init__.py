@@ -1,0 +1,1 @@
+"""A block on a moving belt, held by a spring: stick-slip."""

@@ -1,0 +1,1 @@
+"""A block that rocks on its corners: planar and spatial."""

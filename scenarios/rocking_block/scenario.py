@@ -1,0 +1,132 @@
+"""A planar block, released at rest with one corner on the ground: its first impact is a double one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import PlanarBody, Plate, Point, Rest
+from nonsmooth.engine.modes import IMPACT
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress, simulate
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from scenarios.rocking_block.contact_laws import laws_of
+
+Floats = NDArray[np.float64]
+
+_SAMPLES = 1000
+_GRAVITY = 9.81
+
+
+@final
+@dataclass(frozen=True)
+class RockingBlock(Scenario):
+    """A uniform block of ``base`` and ``height`` over flat ground, tilted about its left lower corner, at rest.
+
+    References
+    ----------
+    G. W. Housner, "The behavior of inverted pendulum structures during earthquakes", Bull. Seismol. Soc. Am. 53
+    (1963) 403-417.
+    """
+
+    title: ClassVar[str] = "Rocking block"
+
+    base: float = parameter(1.0, doc="length L of the side that it stands on", unit="m", above=0.0, usual=(1e-3, 1e2))
+    height: float = parameter(0.5, doc="height H", unit="m", above=0.0, usual=(1e-3, 1e2))
+    mass: float = parameter(1.0, doc="mass", unit="kg", above=0.0, usual=(1e-6, 1e6))
+    tilt: float = parameter(
+        math.pi / 3, doc="angle between base and ground at the start", unit="rad", above=0.0, maximum=math.pi / 2
+    )
+    restitution: float = parameter(0.8, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    exponent: float = parameter(1.0, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
+    friction: float = parameter(0.0, doc="friction coefficient mu", minimum=0.0, usual=(0.0, 2.0))
+    t_end: float = parameter(2.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A thousandth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    @property
+    def corners(self) -> Floats:
+        """The corners in the body frame [m], left and right lower, left and right upper, shape [4, 2]."""
+        x, z = 0.5 * self.base, 0.5 * self.height
+        return np.array([(-x, -z), (x, -z), (-x, z), (x, z)])
+
+    def build(self) -> System:
+        """Return ground, block and the contacts of its four corners."""
+        moment = self.mass * (self.base**2 + self.height**2) / 12.0
+        ground = Plate(Rest())
+        block = PlanarBody(self.mass, moment, tuple(Point(x, 0.0, z) for x, z in self.corners.tolist()))
+        system = System([ground, block], gravity=_GRAVITY)
+        system.contact(ground, block, **laws_of(self.restitution, self.exponent, self.friction))
+        # the angle of a planar body is positive where its first axis points down
+        lift = 0.5 * (self.base * math.sin(self.tilt) + self.height * math.cos(self.tilt))
+        system.place(block, position=(0.0, lift), angle=-self.tilt)
+        return system
+
+    def corner_heights(self, solution: Solution) -> Floats:
+        """Return the heights of the corners over the samples [m], shape [n_samples, 4]."""
+        z, angle = solution.q[:, 1, None], solution.q[:, 2, None]
+        heights: Floats = z - np.sin(angle) * self.corners[:, 0] + np.cos(angle) * self.corners[:, 1]
+        return heights
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the mass centre x, z [m] and the tilt [rad] over the samples."""
+        return {"x": solution.q[:, 0], "z": solution.q[:, 1], "tilt": -solution.q[:, 2]}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u}: x, z [m], tilt [rad] and their rates at the end."""
+        signs = np.array([1.0, 1.0, -1.0])
+        return {"q": (signs * solution.q_end).tolist(), "u": (signs * solution.u_end).tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return time, contacts and velocities of the first impact, and what is lost in all."""
+        events = solution.events
+        first = np.flatnonzero(events.cause == IMPACT)[:1]
+        return {
+            "first_impact": {
+                "time": events.time[first].tolist(),
+                "mode": [events.words("during")[i] for i in first],
+                "velocity_before": events.u_before[first, 1].tolist(),
+                "velocity_after": events.u_after[first, 1].tolist(),
+                "tilt_rate_before": (-events.u_before[first, 2]).tolist(),
+                "tilt_rate_after": (-events.u_after[first, 2]).tolist(),
+            },
+            "impacts": solution.counters.impacts,
+            "restitution_loss": solution.energy.restitution_loss,
+            "friction_loss": solution.energy.friction_loss,
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the heights of the lower corners over time."""
+        from scenarios.rocking_block.figures import corners
+
+        words = f"e = {self.restitution:g}, η = {self.exponent:g}, μ = {self.friction:g}"
+        return {"corners": corners(self, solution, f"Rocking block: its lower corners ({words})")}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the double impact, the velocity ratio over the slenderness, and the decay of a rocking motion."""
+        from scenarios.rocking_block.figures import corners, rocking, velocity_ratios
+
+        double = cls(t_end=1.4)
+        run = simulate(double.build(), double.t_end, sample_interval=double.sample_interval, progress=progress)
+        slender = cls(base=0.25, height=1.0, tilt=0.15, restitution=0.0, friction=0.5, t_end=4.0)
+        decay = simulate(slender.build(), slender.t_end, sample_interval=slender.sample_interval, progress=progress)
+        return {
+            "corners": corners(double, run, "The first impact of a frictionless block lifts both corners at once"),
+            "velocity_ratio": velocity_ratios(cls, progress),
+            "rocking": rocking(slender, decay),
+        }

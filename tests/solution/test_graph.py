@@ -1,0 +1,166 @@
+"""The graph of modes: it counts every event of the run, and its drawing shows what it says it shows."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any, final
+
+import pytest
+
+import nonsmooth as ns
+from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
+from nonsmooth.engine.modes import CAUSES
+from nonsmooth.interfaces import Guard
+from nonsmooth.solution.draw_graph import draw
+from nonsmooth.solution.graph import TransitionGraph
+from nonsmooth.solution.graph_layout import places_of
+
+
+@pytest.fixture(scope="module")
+def sliding(build: Any) -> ns.Solution:
+    """Return a dumbbell thrown on a slope: it bounces, slides, sticks."""
+    body = Dumbbell()
+    system = build.over(body, Rest(slope=0.1), restitution=0.3, friction=0.25, static=0.3)
+    system.place(body, position=(0, 0, 0.03), velocity=(0.3, 0.2, 0.0), angular_velocity=(3.0, 2.0, 1.0))
+    return ns.simulate(system, 1.0)
+
+
+@pytest.fixture(scope="module")
+def driven(build: Any) -> ns.Solution:
+    """Return balls that dance on a vibrating plate: many modes."""
+    plate, balls = Plate(Harmonic(4e-4, 25.0)), [Ball(0.005) for _ in range(6)]
+    system = ns.System([plate, *balls])
+    for i, ball in enumerate(balls):
+        system.contact(plate, ball, **build.laws(restitution=0.5 + 0.05 * i))
+        system.place(ball, position=(0.02 * i, 0.0, 0.006 + 1e-3 * i))
+    return ns.simulate(system, 1.0)
+
+
+def _check(solution: ns.Solution) -> TransitionGraph:
+    graph = solution.transition_graph()
+    assert graph.nodes == pytest.approx(solution.modes)
+    assert sum(graph.shares.values()) == pytest.approx(1.0)
+    passed = {graph.word(mode) for mode in graph.passing}
+    assert passed == set(solution.events.words("during")) - set(solution.events.words("after"))
+    expected: Counter[tuple[str, str, str]] = Counter()
+    for _, cause, before, during, after in solution.transitions()[1:]:
+        for step in [(before, after)] if during in (before, after) else [(before, during), (during, after)]:
+            expected[(*step, cause)] += 1
+    assert graph.edges == expected
+    # what comes to a mode leaves it, but for the start and the end of the run
+    ends = Counter([graph.word(graph.start)])
+    ends.subtract(solution.events.words("after")[-1:])
+    for node in graph.nodes:
+        into = sum(n for (_, other, _), n in graph.edges.items() if other == node)
+        out = sum(n for (one, _, _), n in graph.edges.items() if one == node)
+        assert out - into == ends[node]
+    return graph
+
+
+def test_every_event_is_counted(sliding: ns.Solution, driven: ns.Solution) -> None:
+    """Words, shares, causes and numbers are those of the list of events; nothing is lost on the way."""
+    graph = _check(sliding)
+    assert graph.word(graph.start) == "{00,00,00}"
+    assert {cause for _, _, cause in graph.edges} >= {"impact", "closing of an accumulation", "slip to stick"}
+    assert len(_check(driven).nodes) > 14
+
+
+def test_a_ball_that_bounces(build: Any) -> None:
+    """Three impacts are three ways there and three back."""
+    ball = Ball(0.01)
+    system = build.over(ball, restitution=1.0, friction=0.0)
+    system.place(ball, position=(0.0, 0.0, 0.11))
+    graph = ns.simulate(system, 6.5 * (0.2 / 9.81) ** 0.5).transition_graph()
+    assert graph.nodes == {"{0,0,0}": 1.0, "{1,1,0}": 0.0}
+    assert graph.edges == {("{0,0,0}", "{1,1,0}", "impact"): 3, ("{1,1,0}", "{0,0,0}", "impact"): 3}
+    assert list(graph.visits.values()) == [3, 4]
+
+
+def _height(t: float, q: Any, u: Any) -> float:
+    return float(q[2] - 0.5)
+
+
+@final
+@dataclass(frozen=True)
+class Height(Guard):
+    """Half a metre."""
+
+    @property
+    def value(self) -> Any:
+        """The height above it."""
+        return _height
+
+    @property
+    def ends_run(self) -> bool:
+        """Go on."""
+        return False
+
+
+def test_a_guard_leads_to_the_same_mode() -> None:
+    """A loop; a run without contacts has one mode, an empty word."""
+    ball = Ball(0.01)
+    system = ns.System([ball])
+    system.guard(Height())
+    system.place(ball, position=(0.0, 0.0, 1.0))
+    graph = ns.simulate(system, 0.5).transition_graph()
+    assert graph.nodes == {"{,,}": 1.0}
+    assert graph.edges == {("{,,}", "{,,}", "guard of the scenario"): 1}
+    assert len(_labels(graph)) == 3  # the node, the number at the loop, the axis label of the figure
+
+
+def test_the_most_visited_part(driven: ns.Solution) -> None:
+    """The start stays, the rest by visits; transitions to what is left out go."""
+    whole = driven.transition_graph()
+    part = whole.most_visited(5)
+    assert len(part.shares) == 5
+    assert part.start in part.shares
+    kept = [whole.visits[mode] for mode in part.shares if mode != part.start]
+    assert min(kept) >= max(n for mode, n in whole.visits.items() if mode not in part.shares)
+    assert set(part.counts) == {edge for edge in whole.counts if {edge[0], edge[1]} <= set(part.shares)}
+    assert whole.most_visited(1000) == whole
+
+
+def _labels(graph: TransitionGraph, most: int = 14) -> list[str]:
+    figure = draw(graph, most)
+    found = [text.get_text() for axis in figure.axes for text in axis.texts]
+    return [*found, figure._supxlabel.get_text()]  # type: ignore[attr-defined]
+
+
+def test_the_drawing_names_modes_and_numbers(sliding: ns.Solution, driven: ns.Solution) -> None:
+    """Each mode is written where it stands, or in the list beside; the title says how many are missing."""
+    graph = sliding.transition_graph()
+    labels = "\n".join(_labels(graph))
+    for node in graph.nodes:
+        assert node in labels
+    for number in graph.counts.values():
+        assert f"\n{number}\n" in labels
+    legend = draw(graph).axes[0].get_legend()
+    assert legend is not None
+    assert {text.get_text() for text in legend.get_texts()} == {cause for _, _, cause in graph.edges}
+    many = driven.transition_graph()
+    listed = "\n".join(_labels(many, 6))
+    assert sum(node in listed for node in many.nodes) == 6
+    title = draw(many, 6).get_suptitle()
+    assert f"{len(many.nodes)} visited" in title
+    assert f"the {len(many.nodes) - 6} modes visited least are left out" in title
+    assert "left out" not in draw(graph).get_suptitle()
+
+
+def test_modes_stand_apart(sliding: ns.Solution, driven: ns.Solution) -> None:
+    """No two on one place, whatever the graph."""
+    for graph in (sliding.transition_graph(), driven.transition_graph().most_visited(14)):
+        places = list(places_of(graph).values())
+        for i, (x, y) in enumerate(places):
+            assert all((x - u) ** 2 + (y - v) ** 2 > 0.2**2 for u, v in places[:i])
+
+
+def test_every_cause_has_a_colour() -> None:
+    """And nobody who does not draw needs matplotlib."""
+    from nonsmooth.solution import draw_graph
+
+    assert len(set(draw_graph._COLOURS)) == len(CAUSES)
+    code = "import sys, nonsmooth.solution.draw_graph, nonsmooth.cli.main; assert 'matplotlib' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
