@@ -243,8 +243,8 @@ class System:
         """Let all bodies touch each other, with the laws that belong to the materials of every two.
 
         Left out are pairs of driven bodies, pairs tied by a joint so far (a joint usually makes its bodies overlap)
-        and the pairs of ``exclude``.  Pairs that have contacts already keep them: declare a pair with laws of its own, or
-        one tied by a joint, by :meth:`contact` first.
+        and the pairs of ``exclude``.  Pairs that have contacts already keep them: declare a pair with laws of its own,
+        or one tied by a joint, by :meth:`contact` first.
 
         Parameters
         ----------

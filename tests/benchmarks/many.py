@@ -32,7 +32,8 @@ def chains() -> None:
     before: tuple[int, float] | None = None
     for n in CHAINS:
         scenario = NewtonsCradle(n_balls=float(n), t_end=0.0101)
-        runs = [simulate(scenario.build(), scenario.t_end, sample_interval=1.0) for _ in range(max(1, min(REPETITIONS, 300 // n)))]
+        repetitions = max(1, min(REPETITIONS, 300 // n))
+        runs = [simulate(scenario.build(), scenario.t_end, sample_interval=1.0) for _ in range(repetitions)]
         seconds = min(run.counters.wall_seconds for run in runs)
         slope = math.log(seconds / before[1]) / math.log(n / before[0]) if before is not None else math.nan
         before = n, seconds
@@ -56,7 +57,7 @@ def boxes() -> None:
         scenario = BallBox(n_balls=float(n), box_width=width, t_end=t_end)
         system = scenario.build()
         solution = _watched(scenario)
-        others = {
+        others: dict[str, MuJoCoBox | PyBulletBox] = {
             "MuJoCo 1e-4 s": MuJoCoBox(scenario, MUJOCO_STEP),
             "PyBullet 1e-3 s": PyBulletBox(scenario, PYBULLET_STEP),
         }
