@@ -17,11 +17,11 @@ _COLOURS = ("black", "tab:red", "tab:blue")
 
 
 def pile(scenario: BallBox, solution: Solution) -> Figure:
-    """Draw the balls at the start and at the end, from the side and from above."""
+    """Draw the balls at the start and at the end, from the side and from above, the nearer ones lighter."""
     from matplotlib.figure import Figure
     from matplotlib.patches import Circle
 
-    figure = Figure(figsize=(7.2, 6.4), layout="constrained")
+    figure = Figure(figsize=(7.2, 5.6), layout="constrained")
     places = scenario.positions(solution)
     half, top = 500.0 * scenario.box_width, 1e3 * (np.max(places[0, :, 2]) + 1.5 * scenario.radius)
     axes = figure.subplots(2, 2, sharex=True, height_ratios=[top, 2.0 * half])
@@ -30,12 +30,12 @@ def pile(scenario: BallBox, solution: Solution) -> Figure:
             # the nearest to the eye is drawn last
             depth = centres[:, 2] if towards == 2 else -centres[:, 1]
             for i in np.argsort(depth):
-                near = (depth[i] - np.min(depth)) / max(float(np.ptp(depth)), 1e-9)
+                near = (depth[i] - np.min(depth)) / max(float(np.ptp(depth)), scenario.radius)
                 axis.add_patch(
                     Circle(
                         (1e3 * centres[i, 0], 1e3 * centres[i, up]),
                         1e3 * scenario.radius,
-                        facecolor=str(0.55 + 0.35 * near),
+                        facecolor=str(0.6 + 0.35 * near),
                         edgecolor="black",
                         linewidth=0.8,
                     )
