@@ -46,9 +46,7 @@ class BlockOnBelt(Scenario):
     mass: float = parameter(1.0, doc="mass m", unit="kg", above=0.0, usual=(1e-6, 1e6))
     stiffness: float = parameter(1.0, doc="stiffness k of the spring", unit="N/m", above=0.0, usual=(1e-6, 1e9))
     damping: float = parameter(0.0, doc="damping of the spring", unit="N s/m", minimum=0.0)
-    static_force: float = parameter(
-        1.0, doc="largest friction force F_s at rest", unit="N", above=0.0, usual=(1e-6, 1e6)
-    )
+    static_force: float = parameter(1.0, doc="largest friction force F_s at rest", unit="N", above=0.0, usual=(1e-6, 1e6))
     decay: float = parameter(3.0, doc="fall of the friction per slip speed delta", unit="s/m", minimum=0.0)
     belt_speed: float = parameter(0.2, doc="speed of the belt", unit="m/s", above=0.0, usual=(1e-6, 1e2))
     elongation: float = parameter(0.0, doc="elongation q of the spring at the start", unit="m")

@@ -66,11 +66,11 @@ def velocity_ratios(kind: type[RockingBlock], progress: Progress | None) -> Figu
         ratios = []
         for alpha in places:
             friction = share * housner.least_friction(alpha)
-            block = kind(
-                base=np.tan(alpha), height=1.0, tilt=0.1 * alpha, restitution=0.0, friction=friction, t_end=0.5
-            )
+            block = kind(base=np.tan(alpha), height=1.0, tilt=0.1 * alpha, restitution=0.0, friction=friction, t_end=0.5)
             ratios.append(measured_ratio(block, progress))
-        axis.plot(np.degrees(places), ratios, color=colour, marker=mark, fillstyle="none", linestyle="none", label=word)
+        axis.plot(
+            np.degrees(places), ratios, color=colour, marker=mark, fillstyle="none", linestyle="none", label=word
+        )
     axis.set_title("Housner's ratio holds at every slenderness, if there is friction enough (e = 0)", fontsize=11)
     axis.set_xlabel("α = arctan(base / height) [°]")
     axis.set_ylabel("angular velocity after / before the impact")

@@ -38,12 +38,7 @@ def test_velocity_ratio_on_an_edge() -> None:
     """Two corners at a time strike and stick: Housner's ratio again."""
     alpha = 0.3
     block = RockingBlock3D(
-        base=math.tan(alpha),
-        depth=0.5,
-        direction=0.0,
-        tilt=0.05,
-        friction=1.1 * housner.least_friction(alpha),
-        t_end=0.5,
+        base=math.tan(alpha), depth=0.5, direction=0.0, tilt=0.05, friction=1.1 * housner.least_friction(alpha), t_end=0.5
     )
     solution = ns.simulate(block.build(), block.t_end, options=FINE)
     first = np.flatnonzero(solution.events.cause == IMPACT)[0]
