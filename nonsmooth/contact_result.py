@@ -128,7 +128,8 @@ class ContactResult:
         True if :attr:`proved_unique`, or if, for at most six contacts, the search through every combination of modes
         and every solver meet this motion only.  The search is complete where the slips have given directions; the
         directions in which contacts at rest start to slide it looks for from several starts, which is no proof.
-        False if another motion was found.
+        False if another motion was found.  Sliding on which more normal force gives more approach counts as no
+        motion: it is balanced on an edge.
         """
         if self.proved_unique:
             return True

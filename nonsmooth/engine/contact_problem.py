@@ -1,7 +1,7 @@
 """Sustained contact at an instant: modes and forces that fulfil Eqs. (14)-(18), every answer verified.
 
-The modes are tried in this order: the past ones (so that, of several solutions, the one continuous
-with the past is kept), those found by Gauss-Seidel on the cone, and, for few contacts, all of them.
+The past modes are tried first, so that, of several solutions, the one continuous with the past is kept; then the
+solvers of :mod:`nonsmooth.model.solvers`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,15 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, 
 from nonsmooth.engine.kinematics import row
 from nonsmooth.engine.linkages import constrain
 from nonsmooth.engine.modes import SLIDE, STICK
-from nonsmooth.model.solvers import AUTO, ENUMERATION, GAUSS_SEIDEL, LEMKE, NEWTON
+from nonsmooth.model.solvers import (
+    AUTO,
+    ENUMERATED_AT_LAST,
+    ENUMERATION,
+    GAUSS_SEIDEL,
+    LEMKE,
+    MOST_PIVOTED,
+    NEWTON,
+)
 
 _INCIPIENT = 1e-300
 
@@ -97,11 +105,13 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
         return 1
     if S.solver != AUTO:
         return find_modes(S, w, k, S.solver)
-    if find_modes(S, w, k, GAUSS_SEIDEL) == 1 or find_modes(S, w, k, NEWTON) == 1:
+    if find_modes(S, w, k, NEWTON) == 1 or find_modes(S, w, k, GAUSS_SEIDEL) == 1:
         return 1
-    if find_modes(S, w, k, LEMKE) == 1:
+    if S.n_active <= MOST_PIVOTED and find_modes(S, w, k, LEMKE) == 1:
         return 1
-    return find_modes(S, w, k, ENUMERATION)
+    if S.n_active <= ENUMERATED_AT_LAST:
+        return find_modes(S, w, k, ENUMERATION)
+    return 0
 
 
 @room("i8(S, F, I)")

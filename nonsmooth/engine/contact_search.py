@@ -143,6 +143,52 @@ def _rubs(S: Scalars, w: Floats, k: Integers) -> int:
     return 1
 
 
+@kernel("i8(S, F, I)")
+def _hasty(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a contact seems to slide that, once the forces have settled, its static bound may still hold."""
+    for a in range(S.n_active):
+        held = k[S.at_rest + a] == 1 and k[S.freed + a] == 0 and w[S.mu_static + a] != w[S.mu + a]
+        if held and k[S.mode_tried + a] == SLIDE:
+            return 1
+    return 0
+
+
+@kernel("void(S, F, I)")
+def _take_raw(S: Scalars, w: Floats, k: Integers) -> None:
+    """Go back to the forces of the solver, its modes and directions."""
+    _take_found(S, w, k)
+    for i in range(3 * S.n_active):
+        w[S.f + i] = w[S.f_raw + i]
+
+
+@kernel("i8(S, F, I)")
+def _try_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
+    """Let stick who seems to slide without acceleration, its friction being on the bound by chance; return 1 if right.
+
+    Where forces are not unique a solver may well put the friction of some on the bound and let others do with less.
+    """
+    set_scales(S, w, k)
+    if _lay_by_motion(S, w, k) == 1:
+        polish(S, w, k)
+        if _accept(S, w, k) == 1:
+            return 1
+        _take_raw(S, w, k)
+    return 0
+
+
+@kernel("i8(S, F, I)")
+def _accept_raw(S: Scalars, w: Floats, k: Integers) -> int:
+    """Take the forces of the solver as they are; return 1 if they are lawful.
+
+    Where sliding contacts share their load at will, the motion hangs on the share, and least norm need not be lawful.
+    """
+    _take_raw(S, w, k)
+    for a in range(S.n_active):
+        k[S.redundant + a] = 0
+    S.deficient = 0
+    return 1 if judge(S, w, k) == 1 and _rubs(S, w, k) == 1 else 0
+
+
 @kernel("i8(S, F, I, i8)")
 def _search_round(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     """Search with the freed contacts kept from sticking; return 1 if the answer is verified."""
@@ -162,28 +208,16 @@ def _search_round(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
             w[S.f_raw + i] = w[S.f + i]
         identify(S, w, k)
         _restore_cones(S, w, k)
+        if settled == 0 and stage < stages - 1 and _hasty(S, w, k) == 1:
+            continue
         _keep_found(S, w, k)
+        if _try_by_motion(S, w, k) == 1:
+            return 1
         polish(S, w, k)
         if _accept(S, w, k) == 1:
             return 1
-        if S.deficient == 1:
-            # who slides with no acceleration sticks, only that these forces have its friction on the bound
-            _take_found(S, w, k)
-            for i in range(3 * S.n_active):
-                w[S.f + i] = w[S.f_raw + i]
-            set_scales(S, w, k)
-            if _lay_by_motion(S, w, k) == 1:
-                polish(S, w, k)
-                if _accept(S, w, k) == 1:
-                    return 1
-            # where sliding contacts share their load at will, the motion hangs on the share: that of the solver
-            _take_found(S, w, k)
-            for i in range(3 * S.n_active):
-                w[S.f + i] = w[S.f_raw + i]
-                k[S.redundant + i // 3] = 0
-            S.deficient = 0
-            if judge(S, w, k) == 1 and _rubs(S, w, k) == 1:
-                return 1
+        if S.deficient == 1 and _accept_raw(S, w, k) == 1:
+            return 1
         _take_found(S, w, k)
         if settled == 1:
             return 0
@@ -214,16 +248,45 @@ def _search_from(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
 
 
 @kernel("void(S, F, I)")
+def _keep_answer(S: Scalars, w: Floats, k: Integers) -> None:
+    _keep_found(S, w, k)
+    for i in range(3 * S.n_active):
+        w[S.f_raw + i] = w[S.f + i]
+
+
+@kernel("void(S, F, I)")
+def _take_answer(S: Scalars, w: Floats, k: Integers) -> None:
+    _take_raw(S, w, k)
+    set_scales(S, w, k)
+
+
+@kernel("void(S, F, I)")
 def _close_idle(S: Scalars, w: Floats, k: Integers) -> None:
     """Of several sets of forces for the motion found take that of all contacts that it leaves closed."""
-    _keep_found(S, w, k)
+    _keep_answer(S, w, k)
     if _lay_by_motion(S, w, k) == 0:
         return
     polish(S, w, k)
     if _accept(S, w, k) == 1:
         return
-    _take_found(S, w, k)
-    verify(S, w, k)
+    _take_answer(S, w, k)
+
+
+@kernel("void(S, F, I)")
+def _prefer_stick(S: Scalars, w: Floats, k: Integers) -> None:
+    """Between the two bounds a contact at rest may stick and may slide: what is at rest stays so if all can."""
+    _keep_answer(S, w, k)
+    changed = 0
+    for a in range(S.n_active):
+        undecided = k[S.at_rest + a] == 1 and k[S.mode_past + a] != SLIDE and w[S.mu_static + a] != w[S.mu + a]
+        if undecided and k[S.mode_tried + a] == SLIDE:
+            k[S.mode_tried + a] = STICK
+            changed = 1
+    if changed == 0:
+        return
+    polish(S, w, k)
+    if _accept(S, w, k) == 0:
+        _take_answer(S, w, k)
 
 
 @room("i8(S, F, I, i8)")
@@ -248,5 +311,6 @@ def find_modes(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
         if found == 0:
             found = _search_from(S, w, k, solver)
     if found == 1:
+        _prefer_stick(S, w, k)
         _close_idle(S, w, k)
     return found

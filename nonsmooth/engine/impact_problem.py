@@ -62,7 +62,7 @@ _AT_EVENT = 4.0 * NOISE
 """A guard this near zero at the end of a step that was aimed at it has fired."""
 _FAR = 4.0
 """A lone contact's first step, in units of the impulse that stops it: beyond all of its events."""
-_CROWDED = 12
+_CROWDED = 20
 """A window with this many times more contacts than act is drawn anew."""
 _NO_RETURN = 2e-16
 """Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
@@ -281,13 +281,16 @@ def _cut_short(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel()
 def _fade(S: Scalars, w: Floats, k: Integers) -> None:
-    """End what is left, below the tolerance, at contacts that the wave has passed."""
+    """End what is left, below the tolerance, at contacts that the wave has passed.
+
+    They start again at twice the rate, so that the two do not chase each other.
+    """
     for a in range(S.n_active):
         x, energy = S.impact_y + STRIDE * a + 3, S.impact_y + STRIDE * a + 6
         passed = k[S.phase + a] == EXPANSION or (k[S.phase + a] == COMPRESSION and k[S.waves + k[S.active + a]] > 0)
         # the energy is known to the tolerance only, the deformation better
         weak = w[S.f + 3 * a] * w[x] <= S.faint * S.faint * w[S.impact_energy_scale + a]
-        if passed and weak and abs(w[S.impact_z + 3 * a]) <= S.faint * S.speed_scale:
+        if passed and weak and abs(w[S.impact_z + 3 * a]) <= 0.5 * S.faint * S.speed_scale:
             account(S, w, k, a)
             k[S.waves + k[S.active + a]] += 1
             k[S.phase + a] = IDLE
@@ -306,7 +309,7 @@ def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
             acting += 1
             if k[S.rim + k[S.active + a]] == 1:
                 return 1
-    return 1 if 0 < _CROWDED * (acting + 1) < S.n_active else 0
+    return 1 if acting > 0 and _CROWDED * acting < S.n_active else 0
 
 
 @room("i8(S, F, I)")
@@ -395,7 +398,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
             _switch(S, w, k, 1e-2 * shortest)
             if m > 1 and change_clock(S, w, k) == 1:
                 grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)
-            if S.phases > _LONG * m and _faded(S, w, k) == 1:
+            if S.phases > _LONG * (S.n_colliding if S.windowed == 1 else m) and _faded(S, w, k) == 1:
                 _cut_short(S, w, k)
             if S.windowed == 1:
                 _fade(S, w, k)

@@ -60,7 +60,7 @@ def lay_out(system: System, options: Options) -> Model:
         "n_q": n_q,
         "n_u": n_u,
         "n_y": n_q + n_u + N_ACCOUNTS,
-        "n_pivoted": pivoted_contacts(solver_number(options.solver), len(contacts)),
+        "n_pivoted": pivoted_contacts(solver_number(options.solver), units.n_slots),
         "map_width": map_width(contacts),
         "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + 64 * row,
         "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL)) + 64 * 2 * (row + CODE_HEAD),

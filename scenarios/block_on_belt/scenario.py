@@ -46,7 +46,7 @@ class BlockOnBelt(Scenario):
     mass: float = parameter(1.0, doc="mass m", unit="kg", above=0.0, usual=(1e-6, 1e6))
     stiffness: float = parameter(1.0, doc="stiffness k of the spring", unit="N/m", above=0.0, usual=(1e-6, 1e9))
     damping: float = parameter(0.0, doc="damping of the spring", unit="N s/m", minimum=0.0)
-    static_force: float = parameter(1.0, doc="largest friction force F_s at rest", unit="N", above=0.0, usual=(1e-6, 1e6))
+    static_force: float = parameter(1.0, doc="friction force F_s at breakaway", unit="N", above=0.0, usual=(1e-6, 1e6))
     decay: float = parameter(3.0, doc="fall of the friction per slip speed delta", unit="s/m", minimum=0.0)
     belt_speed: float = parameter(0.2, doc="speed of the belt", unit="m/s", above=0.0, usual=(1e-6, 1e2))
     elongation: float = parameter(0.0, doc="elongation q of the spring at the start", unit="m")
@@ -91,12 +91,14 @@ class BlockOnBelt(Scenario):
     def breakaways(self, solution: Solution) -> Floats:
         """Return the times at which slip starts [s]."""
         events = solution.events
-        return events.time[events.cause == STICK_TO_SLIP]
+        times: Floats = events.time[events.cause == STICK_TO_SLIP]
+        return times
 
     def catches(self, solution: Solution) -> Floats:
         """Return the times at which the belt catches the block [s]."""
         events = solution.events
-        return events.time[events.cause == SLIP_TO_STICK]
+        times: Floats = events.time[events.cause == SLIP_TO_STICK]
+        return times
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return elongation q [m] and velocity [m/s] over the samples."""
@@ -107,7 +109,7 @@ class BlockOnBelt(Scenario):
         return {"q": [float(solution.q_end[0])], "u": [float(solution.u_end[0])]}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return where slip starts, the last period and its share of stick (null before two cycles), and the extremes."""
+        """Return where slip starts, the last period and its share of stick (None before two cycles), the extremes."""
         events, starts = solution.events, self.breakaways(solution)
         caught = self.catches(solution)
         last = caught[caught < starts[-1]][-1:] if len(starts) >= 2 else caught[:0]

@@ -59,20 +59,21 @@ def velocity_ratios(kind: type[RockingBlock], progress: Progress | None) -> Figu
     axis = figure.subplots()
     alphas = np.linspace(0.0, np.radians(60.0), 200)
     curve = [housner.velocity_ratio(a) for a in alphas]
-    axis.plot(np.degrees(alphas), curve, color="black", linewidth=1.2, label="Housner, 1 − 1.5 sin² α, then 0")
+    axis.plot(
+        np.degrees(alphas), curve, color="black", linewidth=1.2, label=r"Housner, $1 - 1.5\,\sin^2\alpha$, then 0"
+    )
     places = np.radians(np.arange(4.0, 60.0, 5.0))
     styles = (("enough friction", 1.05, "o", "black"), ("half as much as that", 0.5, "^", "tab:red"))
     for word, share, mark, colour in styles:
         ratios = []
         for alpha in places:
             friction = share * housner.least_friction(alpha)
-            block = kind(base=np.tan(alpha), height=1.0, tilt=0.1 * alpha, restitution=0.0, friction=friction, t_end=0.5)
+            size = {"base": float(np.tan(alpha)), "height": 1.0, "tilt": 0.1 * float(alpha)}
+            block = kind(**size, restitution=0.0, friction=friction, t_end=0.5)
             ratios.append(measured_ratio(block, progress))
-        axis.plot(
-            np.degrees(places), ratios, color=colour, marker=mark, fillstyle="none", linestyle="none", label=word
-        )
+        axis.plot(np.degrees(places), ratios, color=colour, marker=mark, fillstyle="none", linestyle="none", label=word)
     axis.set_title("Housner's ratio holds at every slenderness, if there is friction enough (e = 0)", fontsize=11)
-    axis.set_xlabel("α = arctan(base / height) [°]")
+    axis.set_xlabel(r"$\alpha$ = arctan(base / height) [°]")
     axis.set_ylabel("angular velocity after / before the impact")
     axis.legend(fontsize=8, frameon=False)
     _clean(axis)
@@ -97,9 +98,9 @@ def rocking(scenario: RockingBlock, solution: Solution) -> Figure:
         level = peak if i % 2 == 0 else -peak
         axis.plot([start, end], [level, level], color="tab:red", linestyle="--", linewidth=1.0, label=label)
     words = f"base / height = {scenario.base / scenario.height:g}, e = 0, μ = {scenario.friction:g}"
-    axis.set_title(f"Every landing takes the same share of the energy ({words})", fontsize=11)
+    axis.set_title(f"Every landing takes the same share of the energy\n({words})", fontsize=11)
     axis.set_xlabel("time [s]")
-    axis.set_ylabel("tilt / α")
+    axis.set_ylabel(r"tilt / $\alpha$")
     axis.legend(fontsize=8, frameon=False)
     _clean(axis)
     return figure
@@ -120,7 +121,7 @@ def spatial(scenario: RockingBlock3D, solution: Solution) -> Figure:
     plan.set_xlabel("x component [1]")
     plan.set_ylabel("y component [1]")
     plan.legend(fontsize=8, frameon=False)
-    names = ("−x −y", "−x +y", "+x −y", "+x +y")
+    names = ("-x -y", "-x +y", "+x -y", "+x +y")
     for height, name, colour in zip(scenario.corner_heights(solution).T, names, _COLOURS, strict=True):
         time.plot(solution.t, 1e3 * height, color=colour, linewidth=1.0, label=f"corner {name}")
     time.set_title("lower corners", fontsize=10)

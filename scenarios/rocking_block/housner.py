@@ -45,9 +45,9 @@ def least_friction(alpha: float) -> float:
 
 
 def quarter_period(alpha: float, tilt: float, diagonal: float, gravity: float = 9.81) -> float:
-    """Return the time from rest at ``tilt`` to the first impact for a slender block, (1/p) arcosh(1 / (1 - tilt/alpha)).
+    """Return the time from rest at ``tilt`` to the first impact for a slender block.
 
-    ``diagonal`` is that of the block [m], p^2 = 3 g / (4 R) with R half of it.
+    It is (1/p) arcosh(1 / (1 - tilt / alpha)), p^2 = 3 g / (4 R), R half of the ``diagonal`` [m].
     """
     return math.acosh(1.0 / (1.0 - tilt / alpha)) / math.sqrt(1.5 * gravity / diagonal)
 

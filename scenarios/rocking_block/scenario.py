@@ -17,7 +17,7 @@ from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.rocking_block.laws import laws_of
+from scenarios.rocking_block.contact_laws import laws_of
 
 Floats = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from nonsmooth.placing import touching
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.rocking_block.laws import laws_of
+from scenarios.rocking_block.contact_laws import laws_of
 
 Floats = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ class RockingBlock3D(Scenario):
         0.1, doc="angle between base and ground at the start", unit="rad", above=0.0, maximum=math.pi / 2
     )
     direction: float = parameter(
-        0.7, doc="horizontal direction of the raised side, from x towards y", unit="rad", minimum=-math.pi, maximum=math.pi
+        0.7, doc="direction of the raised side, from x towards y", unit="rad", minimum=-math.pi, maximum=math.pi
     )
     restitution: float = parameter(0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
     exponent: float = parameter(1.0, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)

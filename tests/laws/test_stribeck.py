@@ -18,12 +18,12 @@ SPEEDS = st.floats(0.0, 1e3)
 @given(static=st.floats(0.0, 2.0), decay=st.floats(0.0, 1e3), share=st.floats(0.0, 1.0), one=SPEEDS, two=SPEEDS)
 def test_falls_from_static_to_fast(static: float, decay: float, share: float, one: float, two: float) -> None:
     """The coefficient is the static one at rest, never rises with the speed, and stays above that of fast slip."""
-    fast = share * static
-    values = [Stribeck(static, decay, fast).coefficient(speed, static, decay, fast) for speed in sorted((one, two))]
-    assert Stribeck(static, decay).coefficient(0.0, static, decay, fast) == pytest.approx(static, abs=1e-15)
+    fast, coefficient = share * static, Stribeck(0.3, 2.0).coefficient
+    values = [coefficient(speed, static, decay, fast) for speed in sorted((one, two))]
+    assert coefficient(0.0, static, decay, fast) == pytest.approx(static, abs=1e-15)
     assert static + 1e-15 >= values[0] >= values[1] - 1e-15
     assert values[1] >= fast - 1e-15
-    assert Stribeck(static, 0.0).coefficient(one, static, 0.0, 0.0) == static
+    assert coefficient(one, static, 0.0, 0.0) == static
 
 
 @given(angle=st.floats(-3.1, 3.1), share=st.floats(0.0, 0.999))

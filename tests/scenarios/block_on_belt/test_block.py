@@ -17,7 +17,7 @@ OTHER = {"mass": 2.0, "stiffness": 30.0, "static_force": 5.0, "decay": 1.2, "bel
 
 
 def _cycle(scenario: BlockOnBelt) -> tuple[float, float, float]:
-    """Return the period of the cycle, its share of stick, and where the belt catches the block, by scipy with events."""
+    """Return the period of the cycle, its share of stick, and where the belt catches the block, by scipy."""
     k, m, limit = scenario.stiffness, scenario.mass, scenario.static_force
 
     def slope(t: float, y: Any) -> list[float]:

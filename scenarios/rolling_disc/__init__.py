@@ -1,0 +1,1 @@
+"""Euler's disk: a disc that rolls on its rim."""

@@ -1,0 +1,46 @@
+"""What the air between a disc and the table takes away, as a moment against the turning."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+from nonsmooth.interfaces import Load
+from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
+
+
+def _evaluate(t: float, a: Floats, b: Floats, out: Floats, viscosity: float, radius: float) -> None:
+    x = a[8] * b[11] - a[11] * b[8]
+    y = a[11] * b[5] - a[5] * b[11]
+    z = a[5] * b[8] - a[8] * b[5]
+    sine = math.sqrt(x * x + y * y + z * z)
+    drag = 0.25 * math.pi * viscosity * (radius / sine) ** 3
+    for i in range(3):
+        out[i] = 0.0
+        out[3 + i] = b[i]
+        out[6 + i] = -drag * (b[15 + i] - a[15 + i])
+
+
+@final
+@dataclass(frozen=True)
+class AirFilm(Load):
+    """The moment -c omega with c = (pi / 4) viscosity (radius / sin alpha)^3, alpha between the disc and the table.
+
+    In steady rolling it takes the power that Moffatt found for the air layer, pi viscosity g a^2 / alpha^2 for small
+    alpha.  It is no theory of other motions, and singular for a disc that lies flat.
+
+    References
+    ----------
+    H. K. Moffatt, "Euler's disk and its finite-time singularity", Nature 404 (2000) 833-834.
+    """
+
+    viscosity: float = parameter(doc="viscosity of the air", unit="Pa s", minimum=0.0)
+    radius: float = parameter(doc="radius of the disc", unit="m", above=0.0)
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The moment, at the centre of the disc."""
+        return _evaluate
