@@ -41,6 +41,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
         for a in range(S.n_active):
             c = k[S.active + a]
             w[S.static_margin + c] = w[S.margin + a]
+            k[S.tied + c] = k[S.redundant + a] if k[S.mode + c] == STICK else 0
             for r in range(3):
                 w[S.force + 3 * c + r] = w[S.f + 3 * a + r]
 

@@ -190,7 +190,8 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
                 mode = OPEN
             if cause == LIFT_OFF and (c == contact or _force_gone(S, w, k, c) == 1):
                 mode = OPEN
-            if c == contact and cause == STICK_TO_SLIP:
+            # a group whose forces are not unique has one bound and breaks away together
+            if cause == STICK_TO_SLIP and (c == contact or k[S.tied + c] + k[S.tied + contact] == 2):
                 mode = SLIDE
             k[S.mode_agreed + c] = mode
     group_members(S, w, k)
