@@ -43,10 +43,8 @@ def test_energy_and_overlap(runs: dict[float, tuple[BallBox, ns.Solution]], fric
     assert end["closed_contacts"] == scenario.closed_contacts(solution)[-1] >= scenario.n_balls
 
 
-@pytest.mark.parametrize("friction", [0.3, 0.0])
-def test_the_floor_carries_the_weight(runs: dict[float, tuple[BallBox, ns.Solution]], friction: float) -> None:
-    """Once all balls lie on the floor, its forces are the weight of all of them, and each ball's its own."""
-    scenario, solution = runs[friction]
+def _forces(scenario: BallBox, solution: ns.Solution) -> tuple[np.ndarray, np.ndarray]:
+    """Return the normal forces [N] of the contacts with the floor and with the walls at the end."""
     again = scenario.build()
     for ball, other in zip(again.bodies[5:], solution.system.bodies[5:], strict=True):
         i_q, i_u = solution.offsets(other)
@@ -55,13 +53,38 @@ def test_the_floor_carries_the_weight(runs: dict[float, tuple[BallBox, ns.Soluti
     model.memory.scalars["t_end"] = model.memory.scalars["sample_interval"] = 1e-6
     call_room("advance", model.memory, 10)
     n = int(model.memory.scalars["n_contacts"][0])
-    declared = model.memory.array("identity", n)
+    first = [again.contacts[c].first for c in model.memory.array("identity", n)]
     force = model.memory.array("force", 3 * n).reshape(n, 3)[:, 0]
-    floor = np.array([again.contacts[c].first is again.bodies[0] for c in declared])
-    weight = scenario.mass * 9.81
-    assert np.count_nonzero(floor) == scenario.n_balls
-    np.testing.assert_allclose(force[floor], weight, rtol=1e-9)
-    assert np.sum(force[floor]) == pytest.approx(scenario.n_balls * weight, rel=1e-9)
+    on_floor = np.array([body is again.bodies[0] for body in first])
+    on_walls = np.array([any(body is wall for wall in again.bodies[1:5]) for body in first])
+    return force[on_floor], force[on_walls]
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.0])
+def test_the_floor_carries_the_weight(runs: dict[float, tuple[BallBox, ns.Solution]], friction: float) -> None:
+    """Once all balls lie on the floor, it bears the weight of each."""
+    scenario, solution = runs[friction]
+    floor, _ = _forces(scenario, solution)
+    assert len(floor) == scenario.n_balls
+    np.testing.assert_allclose(floor, scenario.mass * 9.81, rtol=1e-9)
+
+
+def test_a_pile_of_two_at_rest() -> None:
+    """Wedged between the walls without friction: the floor bears both, and each pair of walls bears as much.
+
+    The centres are one gap g = width - 2 r apart along either side, so that walls press with m g times g over the rise.
+    """
+    scenario = BallBox(n_balls=2.0, box_width=0.03, friction=0.0, wall_friction=0.0, t_end=1.0)
+    solution = ns.simulate(scenario.build(), scenario.t_end)
+    weight, gap, r = scenario.mass * 9.81, scenario.box_width - 2.0 * scenario.radius, scenario.radius
+    rise = math.sqrt(4.0 * r**2 - 2.0 * gap**2)
+    summary = scenario.summarise(solution)
+    assert summary["kinetic_share"] < 1e-12
+    assert summary["closed_contacts"] == 6
+    assert summary["height"] == pytest.approx(2.0 * r + rise, abs=1e-9)
+    floor, walls = _forces(scenario, solution)
+    assert np.sum(floor) == pytest.approx(2.0 * weight, rel=1e-9)
+    np.testing.assert_allclose(walls[walls > 0.0], [weight * gap / rise] * 4, rtol=1e-6)
 
 
 def test_near_pairs_give_what_all_pairs_give(monkeypatch: pytest.MonkeyPatch) -> None:
