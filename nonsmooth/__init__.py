@@ -8,12 +8,15 @@ from nonsmooth.model.options import Options
 from nonsmooth.placing import at_height, resting, touching
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
+from nonsmooth.system.materials import ContactLaws, Materials
 from nonsmooth.system.system import System
 
 __all__ = [
+    "ContactLaws",
     "ContactResult",
     "ImpactResult",
     "InvalidInput",
+    "Materials",
     "NonsmoothError",
     "Options",
     "PluginError",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -15,7 +15,6 @@ from nonsmooth.interfaces import (
     FrictionLaw,
     Guard,
     ImpactLaw,
-    ImpactMap,
     ImpactProcess,
     Joint,
     Load,
@@ -26,9 +25,11 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
 from nonsmooth.plugins import registry
 from nonsmooth.system.contact import Contact, Tie
+from nonsmooth.system.materials import Materials, check_laws
 
 _LARGEST_GRAVITY = 1e4
 _Side: TypeAlias = tuple[Body, int, Shape]
+_Pair: TypeAlias = frozenset[int]
 
 
 class System:
@@ -62,7 +63,7 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = float(gravity)
         self._contacts: list[Contact] = []
-        self._paired: set[frozenset[int]] = set()
+        self._paired: set[_Pair] = set()
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
         self._guards: list[Guard] = []
@@ -197,13 +198,7 @@ class System:
         """
         self._require(first, "System.contact")
         self._require(second, "System.contact")
-        for law, kind in ((normal, NormalLaw), (friction, FrictionLaw), (impact, ImpactLaw)):
-            if not isinstance(law, kind):
-                raise InvalidInput("System.contact", f"needs a {kind.__name__}", law, "See `nonsmooth list laws`.")
-        if not isinstance(impact, (ImpactProcess, ImpactMap)):
-            raise InvalidInput(
-                "System.contact", "needs an ImpactProcess or ImpactMap", impact, "Subclass one of the two."
-            )
+        check_laws("System.contact", normal, friction, impact)
         if self._contacts and not _same_kind(impact, self._contacts[0].impact):
             raise InvalidInput(
                 "System.contact",
@@ -220,7 +215,7 @@ class System:
                 raise InvalidInput(
                     "System.contact", "needs bodies that carry shapes", body, "Without a shape nothing can touch it."
                 )
-        pair = frozenset((id(first), id(second)))
+        pair = _key(first, second)
         if pair in self._paired:
             raise InvalidInput(
                 "System.contact",
@@ -236,6 +231,78 @@ class System:
         self._contacts += added
         self._paired.add(pair)
         return tuple(added)
+
+    def contact_all(
+        self,
+        materials: Materials,
+        of: Mapping[str, Sequence[Body]] | None = None,
+        *,
+        bodies: Sequence[Body] | None = None,
+        exclude: Iterable[tuple[Body, Body]] = (),
+    ) -> tuple[Contact, ...]:
+        """Let all bodies touch each other, with the laws that belong to the materials of every two.
+
+        Left out are pairs of driven bodies, pairs tied by a joint so far (a joint usually makes its bodies overlap)
+        and the pairs of ``exclude``.  Pairs that have contacts already keep them: declare a pair with laws of its own,
+        or one tied by a joint, by :meth:`contact` first.
+
+        Parameters
+        ----------
+        materials : Materials
+            Laws by pair of materials.
+        of : mapping, optional
+            Material -> bodies made of it.  Bodies are told apart as objects, however equal they are.
+        bodies : sequence of Body, optional
+            Which bodies touch each other; by default all of the system that carry shapes.
+        exclude : iterable of pairs of Body
+            Pairs that do not touch.
+
+        Returns
+        -------
+        tuple of Contact
+            The contacts added; none if anything is wrong.
+
+        Raises
+        ------
+        InvalidInput
+            If a body is not of this system or has two materials, a pair has no laws, or :meth:`contact` refuses one.
+        UnknownName
+            If a material is not in the table.
+        """
+        chosen = [body for body in self._bodies if any(body.frames)] if bodies is None else list(bodies)
+        names = self._material_names(materials, of or {})
+        out = {_key(tie.first, tie.second) for tie in self._joints} | self._paired
+        for one, other in exclude:
+            self._require(one, "System.contact_all: exclude")
+            self._require(other, "System.contact_all: exclude")
+            out.add(_key(one, other))
+        for body in chosen:
+            self._require(body, "System.contact_all: bodies")
+        kept, added = (list(self._contacts), set(self._paired)), len(self._contacts)
+        try:
+            for one, other in itertools.combinations(chosen, 2):
+                if _key(one, other) not in out and one.n_u + other.n_u > 0:
+                    laws = materials.laws(names.get(id(one)), names.get(id(other)))
+                    self.contact(one, other, normal=laws.normal, friction=laws.friction, impact=laws.impact)
+        except InvalidInput:
+            self._contacts, self._paired = kept
+            raise
+        return tuple(self._contacts[added:])
+
+    def _material_names(self, materials: Materials, of: Mapping[str, Sequence[Body]]) -> dict[int, str]:
+        names: dict[int, str] = {}
+        for name, made in of.items():
+            materials.require(name)
+            for body in made:
+                self._require(body, f"System.contact_all: of[{name!r}]")
+                if names.setdefault(id(body), name) != name:
+                    raise InvalidInput(
+                        "System.contact_all: of",
+                        "must name one material for a body",
+                        f"{type(body).__name__} of {names[id(body)]!r} and {name!r}",
+                        "Take it out of one of the two.",
+                    )
+        return names
 
     def _pair(
         self,
@@ -286,6 +353,10 @@ class System:
     def n_degrees(self) -> int:
         """Number of velocities of all bodies."""
         return int(np.sum([body.n_u for body in self._bodies]))
+
+
+def _key(one: Body, other: Body) -> _Pair:
+    return frozenset((id(one), id(other)))
 
 
 def _same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:

@@ -1,0 +1,120 @@
+"""Contact laws by the materials of two bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import final
+
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.interfaces import FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess, NormalLaw
+
+
+@final
+@dataclass(frozen=True)
+class ContactLaws:
+    """The three laws of a contact.
+
+    Attributes
+    ----------
+    normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw
+        The laws.
+
+    Raises
+    ------
+    InvalidInput
+        If a law is of the wrong kind.
+    """
+
+    normal: NormalLaw
+    friction: FrictionLaw
+    impact: ImpactLaw
+
+    def __post_init__(self) -> None:
+        check_laws("ContactLaws", self.normal, self.friction, self.impact)
+
+
+@final
+@dataclass(frozen=True)
+class Materials:
+    """A table of contact laws by pair of materials.
+
+    Attributes
+    ----------
+    pairs : mapping
+        (one material, the other) -> ContactLaws, in either order; a material with itself is a pair like any other.
+    default : ContactLaws, optional
+        For pairs that are not in the table, and for bodies without a material; without it these are errors.
+
+    Raises
+    ------
+    InvalidInput
+        If a pair is not two names, is given in both orders, or has something else than ContactLaws.
+    """
+
+    pairs: Mapping[tuple[str, str], ContactLaws] = field(default_factory=dict)
+    default: ContactLaws | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "pairs", dict(self.pairs))
+        for pair, laws in self.pairs.items():
+            if not (isinstance(pair, tuple) and len(pair) == 2 and all(isinstance(n, str) and n for n in pair)):
+                raise InvalidInput("Materials.pairs", "must be keyed by two names", pair, "Write ('steel', 'glass').")
+            if pair[0] != pair[1] and pair[::-1] in self.pairs:
+                raise InvalidInput("Materials.pairs", "must hold a pair once", pair, "Keep one of the two orders.")
+            _check_bundle(f"Materials.pairs[{pair[0]!r}, {pair[1]!r}]", laws)
+        if self.default is not None:
+            _check_bundle("Materials.default", self.default)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All materials of the table, sorted."""
+        return tuple(sorted({name for pair in self.pairs for name in pair}))
+
+    def require(self, name: str) -> None:
+        """Raise UnknownName unless the table has the material."""
+        if name not in self.names:
+            raise UnknownName("material", name, self.names)
+
+    def laws(self, one: str | None, other: str | None) -> ContactLaws:
+        """Return the laws of two materials; None stands for a body without one.
+
+        Raises
+        ------
+        UnknownName
+            If the table does not have a material.
+        InvalidInput
+            If neither the pair nor a default is given.
+        """
+        for name in (one, other):
+            if name is not None:
+                self.require(name)
+        if one is not None and other is not None:
+            found = self.pairs.get((one, other)) or self.pairs.get((other, one))
+            if found is not None:
+                return found
+        if self.default is None:
+            materials = " and ".join("no material" if name is None else repr(name) for name in (one, other))
+            raise InvalidInput(
+                f"Materials: the pair of {materials}",
+                "must have laws",
+                "neither in the table nor covered by a default",
+                f"Add pairs[{one!r}, {other!r}] or a default."
+                if one is not None and other is not None
+                else "Give every body a material, or the table a default.",
+            )
+        return self.default
+
+
+def check_laws(where: str, normal: NormalLaw, friction: FrictionLaw, impact: ImpactLaw) -> None:
+    """Raise InvalidInput, naming ``where``, unless the three laws are of their kinds."""
+    for law, kind in ((normal, NormalLaw), (friction, FrictionLaw), (impact, ImpactLaw)):
+        if not isinstance(law, kind):
+            raise InvalidInput(where, f"needs a {kind.__name__}", law, "See `nonsmooth list laws`.")
+    if not isinstance(impact, (ImpactProcess, ImpactMap)):
+        raise InvalidInput(where, "needs an ImpactProcess or ImpactMap", impact, "Subclass one of the two.")
+
+
+def _check_bundle(where: str, laws: ContactLaws) -> None:
+    if not isinstance(laws, ContactLaws):
+        raise InvalidInput(where, "must be ContactLaws", laws, "Write ContactLaws(normal, friction, impact).")

@@ -1,0 +1,1 @@
+"""Balls that fall into an open box and come to rest."""

@@ -1,0 +1,211 @@
+"""Equal balls fall into an open box, collide, and settle on its floor."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import Ball, Plate, Rest
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Body, Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress, simulate
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.materials import ContactLaws, Materials
+from nonsmooth.system.system import System
+
+Floats = NDArray[np.float64]
+
+_SAMPLES = 1000
+_GRAVITY = 9.81
+_LAYER = 2.6
+"""Distance of the layers at the start, in radii."""
+_PLAY = 0.45
+"""Part of the free room about a ball at the start by which it is shifted at random."""
+_ROOT = math.sqrt(0.5)
+_TURNS = ((_ROOT, 0.0, _ROOT, 0.0), (_ROOT, 0.0, -_ROOT, 0.0), (_ROOT, -_ROOT, 0.0, 0.0), (_ROOT, _ROOT, 0.0, 0.0))
+"""Unit quaternions that turn the normal of a plate to +x, -x, +y, -y."""
+
+
+@final
+@dataclass(frozen=True)
+class BallBox(Scenario):
+    """Equal balls, dropped from random places, in an open box with a square floor about the origin.
+
+    Nothing resists rolling: balls on the floor lose their speed in collisions with each other and with the walls only.
+    """
+
+    title: ClassVar[str] = "Balls in a box"
+
+    n_balls: float = parameter(10.0, doc="number of balls", minimum=1.0, maximum=300.0)
+    radius: float = parameter(0.01, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0))
+    density: float = parameter(2500.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
+    restitution: float = parameter(0.5, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    friction: float = parameter(0.3, doc="friction coefficient between balls", minimum=0.0, maximum=10.0)
+    wall_friction: float = parameter(
+        0.3, doc="friction coefficient of a ball on floor and walls", minimum=0.0, maximum=10.0
+    )
+    box_width: float = parameter(0.15, doc="inner width of the box", unit="m", above=0.0, usual=(1e-4, 10.0))
+    drop_height: float = parameter(
+        0.02, doc="way of the lowest balls to the floor", unit="m", above=0.0, usual=(1e-4, 10.0)
+    )
+    speed: float = parameter(
+        0.3, doc="largest speed at the start along each axis, at random", unit="m/s", minimum=0.0, usual=(1e-3, 10.0)
+    )
+    contact_time: float = parameter(
+        1e-4, doc="contact time T_c of the accumulation rule (33)", unit="s", above=0.0, usual=(1e-12, 1e-2)
+    )
+    seed: float = parameter(0.0, doc="seed of the random places and velocities", minimum=0.0, maximum=1e9)
+    t_end: float = parameter(4.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
+
+    def _check(self) -> None:
+        for name in ("n_balls", "seed"):
+            value = getattr(self, name)
+            if value != int(value):
+                raise InvalidInput(f"BallBox.{name}", "must be a whole number", value, "Leave out the fraction.")
+        if self.box_width <= 2.0 * self.radius:
+            raise InvalidInput(
+                "BallBox.box_width",
+                f"must be above the diameter {2.0 * self.radius:g} [m]",
+                self.box_width,
+                "Make the box wider or the balls smaller.",
+            )
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """A thousandth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    @property
+    def mass(self) -> float:
+        """Mass of a ball [kg]."""
+        return Ball(self.radius, self.density).total_mass
+
+    @property
+    def materials(self) -> Materials:
+        """Laws of a ball with a ball and with the box."""
+        return Materials({("ball", "ball"): self._laws(self.friction), ("ball", "box"): self._laws(self.wall_friction)})
+
+    def _laws(self, friction: float) -> ContactLaws:
+        impact = EnergeticImpact(self.restitution, duration=self.contact_time)
+        return ContactLaws(Unilateral(), Coulomb(friction) if friction > 0.0 else Frictionless(), impact)
+
+    def places(self) -> Floats:
+        """Return the balls' centres at the start [m], shape [n_balls, 3]: layers of a shaken square grid."""
+        random = np.random.default_rng(int(self.seed))
+        n, r = int(self.n_balls), self.radius
+        a_side = max(1, min(int(self.box_width / (2.2 * r)), math.ceil(n ** (1.0 / 3.0))))
+        cell = self.box_width / a_side
+        places = []
+        for number in range(n):
+            layer, rest = divmod(number, a_side**2)
+            if rest == 0:
+                order = random.permutation(a_side**2)
+            i, j = divmod(int(order[rest]), a_side)
+            free = np.array([cell - 2.0 * r, cell - 2.0 * r, (_LAYER - 2.0) * r])
+            centre = np.array(
+                [
+                    (i + 0.5) * cell - 0.5 * self.box_width,
+                    (j + 0.5) * cell - 0.5 * self.box_width,
+                    self.drop_height + r + (layer + 0.5 * (_LAYER - 2.0) / _LAYER) * _LAYER * r,
+                ]
+            )
+            places.append(centre + random.uniform(-_PLAY, _PLAY, 3) * free)
+        return np.array(places)
+
+    def build(self) -> System:
+        """Return box and balls at their start."""
+        half = 0.5 * self.box_width
+        sides = ((-half, 0.0, 0.0), (half, 0.0, 0.0), (0.0, -half, 0.0), (0.0, half, 0.0))
+        walls = [Plate(Rest(position=p, orientation=q)) for p, q in zip(sides, _TURNS, strict=True)]
+        box: list[Body] = [Plate(), *walls]
+        balls = [Ball(self.radius, self.density) for _ in range(int(self.n_balls))]
+        system = System([*box, *balls], gravity=_GRAVITY)
+        system.contact_all(self.materials, {"box": box, "ball": balls})
+        random = np.random.default_rng([int(self.seed), 1])
+        for ball, place in zip(balls, self.places(), strict=True):
+            velocity = random.uniform(-self.speed, self.speed, 3)
+            system.place(ball, position=tuple(place), velocity=tuple(velocity))
+        return system
+
+    def positions(self, solution: Solution) -> Floats:
+        """Return the balls' centres [m], shape [n_samples, n_balls, 3]."""
+        return solution.q.reshape(len(solution.t), -1, 7)[:, :, :3]
+
+    def kinetic_energy(self, solution: Solution) -> Floats:
+        """Return the kinetic energy of all balls over the samples [J], shape [n_samples]."""
+        return self._kinetic(solution.u)
+
+    def _kinetic(self, u: Floats) -> Floats:
+        weights = 0.5 * self.mass * np.array([1.0, 1.0, 1.0, *(3 * [0.4 * self.radius**2])])
+        energy: Floats = np.sum(u.reshape(len(u), -1, 6) ** 2 * weights, axis=(1, 2))
+        return energy
+
+    def closed_contacts(self, solution: Solution) -> NDArray[np.int64]:
+        """Return how many contacts are closed after each event, shape [n_events]."""
+        events = solution.events
+        event = np.repeat(np.arange(len(events)), np.diff(events.first))
+        return np.bincount(event, weights=events.codes >> 6 & 1, minlength=len(events)).astype(np.int64)
+
+    @property
+    def fall_energy(self) -> float:
+        """Energy of the fall [J], what all balls lose in height if they end on the floor."""
+        return float(self.mass * _GRAVITY * np.sum(self.places()[:, 2] - self.radius))
+
+    def settled(self, solution: Solution) -> float | None:
+        """Return the first sample after which the kinetic energy stays below 1e-6 of that of the fall [s], or None."""
+        moving = np.flatnonzero(self.kinetic_energy(solution) > 1e-6 * self.fall_energy)
+        last = int(moving[-1]) + 1 if len(moving) > 0 else 0
+        return float(solution.t[last]) if last < len(solution.t) else None
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return kinetic energy [J] and height of the highest ball's top [m] over the samples."""
+        top = np.max(self.positions(solution)[:, :, 2], axis=1) + self.radius
+        return {"kinetic_energy": self.kinetic_energy(solution), "height": top}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u}: centres [m] and velocities [m/s] of the balls at the end, one after another."""
+        q, u = solution.q_end.reshape(-1, 7)[:, :3], solution.u_end.reshape(-1, 6)[:, :3]
+        return {"q": q.ravel().tolist(), "u": u.ravel().tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the counts, the share of energy still in motion, when it settled and how high the pile is."""
+        return {
+            "events": len(solution.events),
+            "impacts": solution.counters.impacts,
+            "closed_contacts": int(self.closed_contacts(solution)[-1]),
+            "kinetic_share": float(self._kinetic(solution.u_end[None])[0]) / self.fall_energy,
+            "settled_at": self.settled(solution),
+            "height": float(np.max(solution.q_end.reshape(-1, 7)[:, 2])) + self.radius,
+            "energy_residual": solution.energy.residual,
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the pile at the end and what led to it over time."""
+        from scenarios.ball_box.figures import history, pile
+
+        return {"pile": pile(self, solution), "history": history({"": (self, solution)})}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the pile of the default run, and its history beside that of other coefficients of restitution."""
+        from scenarios.ball_box.figures import history, pile
+
+        runs = {}
+        for restitution in (0.5, 0.8):
+            scenario = cls(restitution=restitution)
+            run = simulate(
+                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
+            )
+            runs[f"e = {restitution:g}"] = scenario, run
+        return {"pile": pile(*runs["e = 0.5"]), "history": history(runs)}
