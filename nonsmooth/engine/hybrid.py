@@ -20,6 +20,7 @@ from nonsmooth.engine.modes import (
     GUARD,
     IMPACT,
     JAM,
+    JOINTS_APART,
     LIFT_OFF,
     NO_SLOT,
     NOT_FINITE,
@@ -291,6 +292,8 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
         if 2 * S.n_samples > S.sample_capacity:
             return PAUSED
         status = _step(S, w, k)
+        if status == RUNNING and S.joints_apart == 1:
+            status = JOINTS_APART
         if status != RUNNING:
             return status
     return PAUSED

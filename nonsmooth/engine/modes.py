@@ -28,7 +28,7 @@ POLICIES = ("impact", "compliant", "refuse")
 
 RUNNING, DONE, PAUSED = 0, 1, 2
 STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
-SINGULAR_SLIDING, STOPPED, NO_SLOT, PARADOX_REFUSED = range(9, 13)
+SINGULAR_SLIDING, STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 14)
 """Status of the engine."""
 
 REASONS = {
@@ -40,6 +40,7 @@ REASONS = {
     IMPACT_ENDLESS: "an impact did not end within its steps",
     NO_CONTACT_SOLUTION: "the contact forces have no solution and the impact without collision did not help",
     SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
+    JOINTS_APART: "joints contradict each other: there is no motion that keeps all of them closed",
     PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",
     NO_SLOT: "more contacts came near each other than a system of this size has room for",
     SINGULAR_SLIDING: "sliding ran into the Painleve singularity, and no pushing impulse stops it there",

@@ -16,6 +16,8 @@ from nonsmooth.model.layout import GEOMETRY
 _MOST_ITERATIONS = 5
 _CLOSED = 1e-3
 """A residual of the joints below this part of the gap tolerance counts as none."""
+_APART = 1e4
+"""A residual that stays above this many gap tolerances cannot be closed."""
 
 
 @room("f8(S, F, I)")
@@ -136,6 +138,7 @@ def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
 @room()
 def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
     """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
+    worst = 0.0
     for _iteration in range(_MOST_ITERATIONS):
         evaluate_bodies(S, w, k, S.t, S.y)
         for i in range(S.n_y):
@@ -151,6 +154,8 @@ def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
         for body in range(S.n_bodies):
             for i in range(k[S.body_nq + body]):
                 w[S.y + k[S.body_q + body] + i] += w[k[S.body_tail + body] + i]
+    if not worst <= _APART * S.gap_tolerance:
+        S.joints_apart = 1
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")

@@ -166,6 +166,7 @@ INTEGER_SCALARS = (
     "impact_map",
     "painleve",
     "singular",
+    "joints_apart",
     "policy",
     "trigger",
     "aimed",

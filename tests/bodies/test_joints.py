@@ -231,3 +231,14 @@ def test_wrong_starts_and_wrong_joints() -> None:
         Hinge(axis=(1.0, 1.0, 0.0))
     with pytest.raises(ns.InvalidInput, match=r"BallJoint.first must be 3 finite numbers"):
         BallJoint(first=(0.0, math.nan, 0.0))
+
+
+def test_joints_that_come_to_contradict_each_other() -> None:
+    """Closed at the start, and then one support vibrates and the other does not: the run ends and says why."""
+    plates, ball = (Plate(), Plate(Harmonic(amplitude=1e-3, frequency=5.0, phase=math.pi / 2.0))), Ball(0.1)
+    system = ns.System([*plates, ball])
+    system.joint(BallJoint(second=(0.0, 0.0, 0.5)), plates[0], ball)
+    system.joint(BallJoint(first=(0.0, 0.0, -1e-3), second=(0.0, 0.0, 0.5)), plates[1], ball)
+    system.place(ball, position=(0.0, 0.0, -0.5))
+    with pytest.raises(ns.RunFailed, match="joints contradict each other"):
+        ns.simulate(system, 0.1)

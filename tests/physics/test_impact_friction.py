@@ -184,8 +184,9 @@ def test_tangents_are_arbitrary(seed: int, angles: Any) -> None:
     laws = [EnergeticImpact(0.7), EnergeticImpact(0.4)], [Coulomb(0.3), Coulomb(0.15, 0.4)]
     turns = [np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]]) for a in angles]
     turned = np.stack([tangential[:, i] @ turns[i] for i in range(2)], axis=1)
-    one = ns.solve_impact(mass, normal, tangential, u, *laws, tolerance=1e-11)
-    other = ns.solve_impact(mass, normal, turned, u, *laws, tolerance=1e-11)
+    # a slip that circles next to rest ends within a multiple of the tolerance
+    one = ns.solve_impact(mass, normal, tangential, u, *laws, tolerance=1e-12)
+    other = ns.solve_impact(mass, normal, turned, u, *laws, tolerance=1e-12)
     np.testing.assert_allclose(other.velocity, one.velocity, rtol=0, atol=1e-8)
     back = np.stack([turns[i] @ other.tangential_impulse[i] for i in range(2)])
     np.testing.assert_allclose(back, one.tangential_impulse, rtol=0, atol=1e-8)
