@@ -103,14 +103,13 @@ def _least_norm(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Solve the singular system for least norm; keep the projector on its null space."""
     for i in range(n * n):
         w[S.matrix + i] = w[S.reduced + i]
-    minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
+    rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
     S.deficient = 1
     for i in range(n):
         for j in range(n):
             total = 1.0 if i == j else 0.0
-            for c in range(n):
-                if w[S.sigma + c] > 0.0:
-                    total -= w[S.basis + i * n + c] * w[S.basis + j * n + c]
+            for c in range(rank):
+                total -= w[S.basis + c * n + i] * w[S.basis + c * n + j]
             w[S.null + i * n + j] = total
     for i in range(n):
         a = k[S.column + i] // 3

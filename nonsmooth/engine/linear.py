@@ -7,7 +7,7 @@ import math
 from nonsmooth.engine.kernel import Floats, kernel
 
 SINGULAR = 1e-10
-"""A pivot or singular value below this, relative to the largest, counts as zero."""
+"""A pivot or remaining column below this, relative to the largest, counts as zero."""
 
 
 @kernel("i8(F, i8, i8, i8)")
@@ -40,65 +40,81 @@ def eliminate(w: Floats, a: int, n: int, x: int) -> int:
     return 1
 
 
-@kernel("void(F, i8, i8, i8)")
-def _orthogonalise(w: Floats, a: int, n: int, v: int) -> None:
-    """Turn the columns of ``a`` orthogonal by plane rotations, collected in ``v`` (one-sided Jacobi)."""
+@kernel("f8(F, i8, i8, i8, i8)")
+def _dot(w: Floats, one: int, two: int, n: int, stride: int) -> float:
+    total = 0.0
     for i in range(n):
+        total += w[one + i * stride] * w[two + i * stride]
+    return total
+
+
+@kernel("i8(F, i8, i8, i8, i8, i8)")
+def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int) -> int:
+    """Write A = Q R with the largest remaining column first; return the rank.
+
+    The columns of ``a`` lose what the columns chosen so far explain of them, and so does ``b``; rows of R go to
+    ``r``, and behind the n-th entry of ``marks`` the components Q^T b.
+    """
+    for j in range(n):
+        w[marks + j] = 0.0
+    largest = 0.0
+    for rank in range(n):
+        best, size = -1, 0.0
         for j in range(n):
-            w[v + i * n + j] = 1.0 if i == j else 0.0
-    for _sweep in range(60):
-        rotated = 0
-        for p in range(n - 1):
-            for q in range(p + 1, n):
-                alpha = beta = gamma = 0.0
-                for i in range(n):
-                    alpha += w[a + i * n + p] * w[a + i * n + p]
-                    beta += w[a + i * n + q] * w[a + i * n + q]
-                    gamma += w[a + i * n + p] * w[a + i * n + q]
-                if abs(gamma) <= 1e-15 * math.sqrt(alpha * beta) or gamma == 0.0:
-                    continue
-                rotated = 1
-                zeta = (beta - alpha) / (2.0 * gamma)
-                t = 1.0 / (abs(zeta) + math.sqrt(1.0 + zeta * zeta))
-                if zeta < 0.0:
-                    t = -t
-                c = 1.0 / math.sqrt(1.0 + t * t)
-                s = c * t
-                for block in (a, v):
+            if w[marks + j] == 0.0:
+                square = _dot(w, a + j, a + j, n, n)
+                if square > size:
+                    best, size = j, square
+        norm = math.sqrt(size)
+        largest = max(largest, norm)
+        if best < 0 or not norm > SINGULAR * largest:
+            return rank
+        w[marks + best] = 1.0
+        for i in range(n):
+            w[a + i * n + best] /= norm
+        for j in range(n):
+            w[r + rank * n + j] = 0.0
+            if w[marks + j] == 0.0:
+                # twice is enough
+                for _time in range(2):
+                    part = _dot(w, a + best, a + j, n, n)
+                    w[r + rank * n + j] += part
                     for i in range(n):
-                        left, right = w[block + i * n + p], w[block + i * n + q]
-                        w[block + i * n + p] = c * left - s * right
-                        w[block + i * n + q] = s * left + c * right
-        if rotated == 0:
-            return
+                        w[a + i * n + j] -= part * w[a + i * n + best]
+        w[r + rank * n + best] = norm
+        total = 0.0
+        for i in range(n):
+            total += w[a + i * n + best] * w[b + i]
+        w[marks + n + rank] = total
+        for i in range(n):
+            w[b + i] -= total * w[a + i * n + best]
+    return n
 
 
 @kernel("i8(F, i8, i8, i8, i8, i8, i8)")
-def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, sigma: int) -> int:
-    """Least-squares solution of least norm by singular values; return the rank.
+def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, work: int) -> int:
+    """Least-squares solution of least norm, by orthogonal decompositions; return the rank.
 
-    ``a`` is overwritten; ``v`` receives the right singular vectors as columns, ``sigma`` the singular
-    values with those that count as zero set to zero, ``x`` the solution.
+    ``a`` and ``b`` are overwritten; ``v`` receives an orthonormal basis of the row space in its first rows, ``x`` the
+    solution; ``work`` holds 2 n floats.
     """
-    _orthogonalise(w, a, n, v)
-    largest = 0.0
-    for j in range(n):
-        square = 0.0
+    rank = _triangulate(w, a, n, b, v, work)
+    for i in range(n):
+        w[x + i] = 0.0
+    # rows R = L V: forward substitution goes along with the orthogonalisation of the rows
+    for j in range(rank):
+        row = v + j * n
+        rest = w[work + n + j]
+        for _time in range(2):
+            for c in range(j):
+                part = _dot(w, v + c * n, row, n, 1)
+                rest -= part * w[work + n + c]
+                for i in range(n):
+                    w[row + i] -= part * w[v + c * n + i]
+        norm = math.sqrt(_dot(w, row, row, n, 1))
         for i in range(n):
-            square += w[a + i * n + j] * w[a + i * n + j]
-        w[sigma + j] = math.sqrt(square)
-        largest = max(largest, w[sigma + j])
-        w[x + j] = 0.0
-    rank = 0
-    for j in range(n):
-        if not w[sigma + j] > SINGULAR * largest:
-            w[sigma + j] = 0.0
-            continue
-        rank += 1
-        projection = 0.0
+            w[row + i] /= norm
+        w[work + n + j] = rest / norm
         for i in range(n):
-            projection += w[a + i * n + j] * w[b + i]
-        projection /= w[sigma + j] * w[sigma + j]
-        for i in range(n):
-            w[x + i] += w[v + i * n + j] * projection
+            w[x + i] += w[work + n + j] * w[row + i]
     return rank

@@ -292,7 +292,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     # linear algebra
     "right": _per(3, "n_slots"),
     "x": _per(3, "n_slots"),
-    "sigma": _per(3, "n_slots"),
+    "sigma": _per(6, "n_slots"),
     # the impact
     "impact_y": _per(8, "n_slots"),
     "impact_new": _per(8, "n_slots"),
