@@ -55,6 +55,16 @@ def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int
     return total
 
 
+@kernel("i8(S, F, I, i8, i8)")
+def share_a_body(S: Scalars, w: Floats, k: Integers, c: int, d: int) -> int:
+    """Return 1 if two contacts act on a movable body, or on bodies tied together, in common."""
+    one, two = k[S.linkage_a + c], k[S.linkage_b + c]
+    other, another = k[S.linkage_a + d], k[S.linkage_b + d]
+    if (one == other or one == another) and k[S.linkage_nu + one] > 0:
+        return 1
+    return 1 if (two == other or two == another) and k[S.linkage_nu + two] > 0 else 0
+
+
 @kernel("i8(S, F, I)")
 def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
     """List the rows of the active contacts; return how many there are."""
@@ -75,8 +85,12 @@ def _reduce(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     for i in range(n):
         c, r = k[S.row_contact + i], k[S.row_index + i]
         w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
+        near, last = 0, -1
         for j in range(n):
-            w[S.reduced + i * n + j] = _coupling(S, w, k, c, r, k[S.row_contact + j], k[S.row_index + j])
+            d = k[S.row_contact + j]
+            if d != last:
+                near, last = share_a_body(S, w, k, c, d), d
+            w[S.reduced + i * n + j] = _coupling(S, w, k, c, r, d, k[S.row_index + j]) if near == 1 else 0.0
         # a sliding contact on which more force gives more approach
         if r == 0 and k[S.mode + c] == SLIDE and w[S.reduced + i * n + i] <= 0.0:
             S.singular = c
