@@ -112,14 +112,3 @@ def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:
         return float(call_scalar(address, x, memoryview(heap.data)))
     function = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.c_void_p)(address)
     return float(function(x, heap.ctypes.data))
-
-
-def uncompiled(function: Callable[..., Any]) -> bool:
-    """Return whether Python may call a function: not where it calls helpers that are compiled without a way back."""
-    helper = type(jit(_nothing))
-    inside = inspect.getclosurevars(function)
-    return PLAIN or not any(type(v) is helper for v in (*inside.globals.values(), *inside.nonlocals.values()))
-
-
-def _nothing() -> None:
-    """Do nothing."""

@@ -14,7 +14,7 @@ from nonsmooth.interfaces import ImpactProcess
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.layout import FRAME, GEOMETRY, LOAD
 from nonsmooth.model.model import Model
-from nonsmooth.plugins.compile import bind, evaluate, parameter_names, uncompiled
+from nonsmooth.plugins.compile import bind, evaluate, parameter_names
 
 _PROBES = (0.0, *np.geomspace(1e-12, 1.0, 25).tolist())
 _REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can step through it."
@@ -107,8 +107,6 @@ def _probe(law: Any, function: Callable[..., float], probes: tuple[float, ...]) 
 
 
 def _outcome(function: Callable[..., float], x: float, values: dict[str, Any]) -> str:
-    if not uncompiled(function):
-        return "raises or returns a number that is not finite"
     try:
         return f"returns {function(x, **values)!r}"
     except Exception as error:
