@@ -174,7 +174,7 @@ def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
     importlib.import_module("nonsmooth.engine.hybrid")
     if not _marker().exists():
-        print("compiling the engine once for this machine (about 20 s) ...", file=sys.stderr, flush=True)
+        print("compiling the engine once for this machine (about 35 s) ...", file=sys.stderr, flush=True)
         # millions of small objects that live: looking for garbage among them is lost time
         collecting = gc.isenabled()
         gc.disable()

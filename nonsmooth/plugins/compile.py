@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import dis
 import functools
 import inspect
 import math
@@ -25,18 +26,21 @@ ROLES = {
 }
 """What the engine passes to a function of each form, before the function's own parameters."""
 
-_FAILS = " except Exception: "
-_SHIMS = {
-    "scalar": "def shim(x, p):\n try: return law(x{unpacked})\n" + _FAILS + "return nan",
-    "guard": "def shim(t, q, u, p):\n try: return law(t, q, u{unpacked})\n" + _FAILS + "return nan",
-    "body": "def shim(t, q, u, p, out):\n try: law(t, q, u, out{unpacked})\n" + _FAILS + "out[0] = nan",
-    "load": "def shim(t, a, b, p, out):\n try: law(t, a, b, out{unpacked})\n" + _FAILS + "out[0] = nan",
-    "pair": "def shim(a, b, p, out):\n try: law(a, b, out{unpacked})\n" + _FAILS + "out[0] = nan",
-    "map": "def shim(n, delassus, rates, p, out):\n try: law(n, delassus, rates, out{unpacked})\n"
-    + _FAILS
-    + "out[0] = nan",
+_CALLS = {
+    "scalar": ("x, p", "return law(x{unpacked})", "return nan"),
+    "guard": ("t, q, u, p", "return law(t, q, u{unpacked})", "return nan"),
+    "body": ("t, q, u, p, out", "law(t, q, u, out{unpacked})", "out[0] = nan"),
+    "load": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
+    "pair": ("a, b, p, out", "law(a, b, out{unpacked})", "out[0] = nan"),
+    "map": ("n, delassus, rates, p, out", "law(n, delassus, rates, out{unpacked})", "out[0] = nan"),
 }
-"""What the engine calls; a compiled function cannot raise into it, so that an exception becomes a number not finite."""
+"""What the engine calls with, the call of the function, and what stands for an exception."""
+_PLAIN_SHIM = "def shim({arguments}):\n {call}"
+_GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}"
+"""A compiled function cannot raise into the engine: an exception becomes a number that is not finite.
+
+Compiling the guard takes as long as compiling the function, so that it is left out where nothing raises.
+"""
 
 
 def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
@@ -101,8 +105,26 @@ def _address(function: Callable[..., Any], form: str, vectors: tuple[bool, ...])
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
     unpacked = "".join(", " + text.format(i) for i, text in enumerate(items))
     scope: dict[str, Any] = {"law": jit(function), "at": at, "nan": math.nan}
-    exec(_SHIMS[form].format(unpacked=unpacked), scope)  # the shim's text is ours, never the user's
+    arguments, call, failure = _CALLS[form]
+    shim = _GUARDED_SHIM if PLAIN or _may_raise(function) else _PLAIN_SHIM
+    text = shim.format(arguments=arguments, call=call.format(unpacked=unpacked), failure=failure)
+    exec(text, scope)  # the shim's text is ours, never the user's
     return address_of(scope["shim"], form)
+
+
+def _may_raise(function: Callable[..., Any]) -> bool:
+    """Return whether a function, or one that it names, has a statement that raises."""
+    waiting, seen = [inspect.unwrap(function)], set()
+    while waiting:
+        one = waiting.pop()
+        if one in seen or not inspect.isfunction(one):
+            continue
+        seen.add(one)
+        if any(instruction.opname == "RAISE_VARARGS" for instruction in dis.get_instructions(one)):
+            return True
+        named = inspect.getclosurevars(one)
+        waiting += [inspect.unwrap(v) for v in (*named.globals.values(), *named.nonlocals.values()) if callable(v)]
+    return False
 
 
 def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:
