@@ -64,6 +64,11 @@ def rotation(quaternion: Any) -> Vector:
     )
 
 
+def turned_back(quaternion: Any, value: Any) -> tuple[float, ...]:
+    """Return a vector as a frame of the given unit quaternion (scalar first) sees it."""
+    return tuple((rotation(quaternion).T @ np.asarray(value)).tolist())
+
+
 def read_start(name: str, words: Mapping[str, Word], start: Mapping[str, Any]) -> dict[str, Vector]:
     """Return the values of all words of a start, given or by default.
 

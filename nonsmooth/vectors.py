@@ -52,14 +52,3 @@ def perpendiculars(axis: Sequence[float]) -> tuple[tuple[float, ...], tuple[floa
     norm = math.sqrt(sum(c * c for c in first))
     u = tuple(c / norm for c in first)
     return u, (y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0])
-
-
-def turned_back(quaternion: Sequence[float], value: Sequence[float]) -> tuple[float, ...]:
-    """Return a vector as a frame of the given unit quaternion (scalar first) sees it."""
-    s, x, y, z = quaternion
-    rows = (
-        (s * s + x * x - y * y - z * z, 2.0 * (x * y + s * z), 2.0 * (x * z - s * y)),
-        (2.0 * (x * y - s * z), s * s - x * x + y * y - z * z, 2.0 * (y * z + s * x)),
-        (2.0 * (x * z + s * y), 2.0 * (y * z - s * x), s * s - x * x - y * y + z * z),
-    )
-    return tuple(sum(r * v for r, v in zip(row, value, strict=True)) for row in rows)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import final
 
 from bodies.joints.rows import angle_row, point_row
+from bodies.values import turned_back
 from nonsmooth.interfaces import Joint
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
-from nonsmooth.vectors import turned_back, unit_vector, vector
+from nonsmooth.vectors import unit_vector, vector
 
 Point = tuple[float, float, float]
 

@@ -165,9 +165,9 @@ def longest_step(S: Scalars, w: Floats, k: Integers) -> float:
     """Return for how long the list holds, the bodies being evaluated; 0 if it must be drawn anew."""
     longest = 1e300
     for unit in range(S.n_units):
-        left = 0.5 * S.margin_of_list - _way(S, w, k, unit)
-        speed = _unit_speed(S, w, k, unit)
-        w[S.unit_speed + unit] = speed
+        way, speed = _way(S, w, k, unit), _unit_speed(S, w, k, unit)
+        left = 0.5 * S.margin_of_list - way
+        w[S.unit_way + unit], w[S.unit_speed + unit] = way, speed
         if left < 0.5 * (1.0 - _SPENT) * S.margin_of_list:
             return 0.0
         if speed * longest * _ACCELERATION > left:
@@ -177,9 +177,12 @@ def longest_step(S: Scalars, w: Floats, k: Integers) -> float:
 
 @kernel("i8(S, F, I, f8)")
 def overran_list(S: Scalars, w: Floats, k: Integers, h: float) -> int:
-    """Return 1 if some unit may have left its way in a step of ``h``, the bodies being evaluated at its end."""
+    """Return 1 if some unit may have left its way in a step of ``h``, the bodies being evaluated at its end.
+
+    No point of a path of length l between two points is farther off than half of l and of the ends' distances.
+    """
     for unit in range(S.n_units):
-        speed = max(w[S.unit_speed + unit], _unit_speed(S, w, k, unit))
-        if _way(S, w, k, unit) + 0.5 * h * speed > 0.5 * S.margin_of_list:
+        length = h * max(w[S.unit_speed + unit], _unit_speed(S, w, k, unit))
+        if w[S.unit_way + unit] + _way(S, w, k, unit) + length > S.margin_of_list:
             return 1
     return 0
