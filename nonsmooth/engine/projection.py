@@ -138,24 +138,26 @@ def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
 @room()
 def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
     """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
-    worst = 0.0
-    for _iteration in range(_MOST_ITERATIONS):
+    worst, before = 0.0, 1e300
+    for iteration in range(_MOST_ITERATIONS):
         evaluate_bodies(S, w, k, S.t, S.y)
         for i in range(S.n_y):
             w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
         worst = 0.0
         for linkage in range(S.n_linkages):
             worst = max(worst, _add_correction(S, w, k, linkage, S.linkage_residual, S.y_stage + S.n_q))
-        if worst <= _CLOSED * S.gap_tolerance:
-            for linkage in range(S.n_linkages):
-                _add_correction(S, w, k, linkage, S.linkage_rate, S.y + S.n_q)
-            return
+        # far from the origin round-off alone is more than the tolerance, and no iteration helps
+        if worst <= _CLOSED * S.gap_tolerance or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
+            break
+        before = worst
         evaluate_bodies(S, w, k, S.t, S.y_stage)
         for body in range(S.n_bodies):
             for i in range(k[S.body_nq + body]):
                 w[S.y + k[S.body_q + body] + i] += w[k[S.body_tail + body] + i]
     if not worst <= _APART * S.gap_tolerance:
         S.joints_apart = 1
+    for linkage in range(S.n_linkages):
+        _add_correction(S, w, k, linkage, S.linkage_rate, S.y + S.n_q)
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")

@@ -242,3 +242,19 @@ def test_joints_that_come_to_contradict_each_other() -> None:
     system.place(ball, position=(0.0, 0.0, -0.5))
     with pytest.raises(ns.RunFailed, match="joints contradict each other"):
         ns.simulate(system, 0.1)
+
+
+def test_far_from_the_origin() -> None:
+    """Where round-off exceeds the tolerance of gaps, the rates of the joints are still kept at zero."""
+    plate, ball, away = Plate(), Ball(0.1), 1000.0
+    system = ns.System([plate, ball])
+    system.joint(Hinge((away, 0.0, 0.0), (0.0, 0.0, 0.5)), plate, ball)
+    turned = (math.cos(0.25), 0.0, math.sin(0.25), 0.0)
+    system.place(ball, position=(away - 0.5 * math.sin(0.5), 0.0, -0.5 * math.cos(0.5)), orientation=turned)
+    solution = ns.simulate(system, 20.0)
+    q, u = solution.of(ball)
+    radius = q[:, :3] - (away, 0.0, 0.0)
+    np.testing.assert_allclose(np.hypot(radius[:, 0], radius[:, 2]), 0.5, rtol=0, atol=1e-9)
+    # across the arm only
+    np.testing.assert_allclose(np.sum(radius * u[:, :3], axis=1), 0.0, atol=1e-7)
+    assert solution.energy.residual <= 1e-7
