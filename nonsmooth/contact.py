@@ -11,6 +11,7 @@ from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw
+from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
@@ -104,7 +105,7 @@ def solve_contact(
         raise InvalidInput("solve_contact: normal", "must have no column of zeros", w.tolist(), "Leave it out.")
     free = np.linalg.solve(m, h)
     memory = _memory(friction, number)
-    memory.array("delassus", 9 * n * n)[:] = (scaled.T @ scaled).ravel()
+    write_delassus(memory, scaled.T @ scaled)
     memory.array("b", 3 * n)[:] = s.ravel() + columns.T @ free
     memory.scalars["acceleration_scale"] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
     memory.array("rate", 3 * n).reshape(n, 3)[:, 1:] = v

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.linear import SINGULAR
 from nonsmooth.engine.modes import OPEN, SLIDE
+from nonsmooth.model.delassus import read_delassus
 from nonsmooth.model.memory import Memory
 from nonsmooth.model.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
 
@@ -112,7 +113,7 @@ class ContactResult:
             return False
         if not np.any(mu > 0.0):
             return True
-        delassus = self._memory.array("delassus", 9 * n * n).reshape(3 * n, 3 * n)
+        delassus = read_delassus(self._memory, n)
         values, vectors = np.linalg.eigh(delassus)
         if values[0] <= SINGULAR * values[-1]:
             return False
@@ -150,6 +151,6 @@ class ContactResult:
 
     def _differs(self, trial: Memory, small: float) -> bool:
         n = len(self.modes)
-        delassus = trial.array("delassus", 9 * n * n).reshape(3 * n, 3 * n)
+        delassus = read_delassus(trial, n)
         acceleration = delassus @ trial.array("f", 3 * n) + trial.array("b", 3 * n)
         return float(np.max(np.abs(acceleration - self.contact_acceleration.ravel()))) > small

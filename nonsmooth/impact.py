@@ -12,6 +12,7 @@ from nonsmooth.engine.impact_problem import FINISHED
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
+from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.plugins.compile import bind
@@ -125,7 +126,7 @@ def solve_impact(
     delassus = columns.T @ response
     rates = columns.T @ u + z_driven.ravel()
     memory = _memory(impact, friction, tolerance)
-    memory.array("delassus", 9 * n * n)[:] = delassus.ravel()
+    write_delassus(memory, delassus)
     memory.array("impact_z0", 3 * n)[:] = rates
     outcome = FINISHED
     if np.any(rates[::3] < 0.0):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.delassus import own_block, product
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 
 SWEEPS = 4000
@@ -16,27 +17,23 @@ _FLAT = 1e-14
 """Determinant of a tangential block, relative to its trace squared, below which it has rank one."""
 
 
-@kernel("f8(S, F, i8)")
-def _row(S: Scalars, w: Floats, line: int) -> float:
-    width = 3 * S.n_active
-    total = w[S.b + line]
-    for j in range(width):
-        total += w[S.delassus + line * width + j] * w[S.f + j]
-    return total
+@kernel("f8(S, F, I, i8, i8)")
+def _row(S: Scalars, w: Floats, k: Integers, a: int, r: int) -> float:
+    return float(w[S.b + 3 * a + r] + product(S, w, k, a, r, S.f))
 
 
 @kernel("void(S, F, I, i8)")
 def _update_normal(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Set the normal force that stops the approach, or zero."""
-    width = 3 * S.n_active
     line = 3 * a
-    own = w[S.delassus + line * width + line]
-    rest = _row(S, w, line) - own * w[S.f + line]
+    g = own_block(S, k, a)
+    own = w[g]
+    rest = _row(S, w, k, a, 0) - own * w[S.f + line]
     if k[S.at_rest + a] == 0:
         # the friction of a sliding contact moves with its normal force
         for i in range(1, 3):
-            rest -= w[S.delassus + line * width + line + i] * w[S.f + line + i]
-            own -= w[S.mu + a] * w[S.d + 2 * a + i - 1] * w[S.delassus + line * width + line + i]
+            rest -= w[g + i] * w[S.f + line + i]
+            own -= w[S.mu + a] * w[S.d + 2 * a + i - 1] * w[g + i]
         if own <= 0.0:
             S.painleve = 1
             return
@@ -51,12 +48,11 @@ def _update_tangent(S: Scalars, w: Floats, k: Integers, a: int) -> None:
         for i in range(2):
             w[f + 1 + i] = -w[S.mu + a] * w[f] * w[S.d + 2 * a + i]
         return
-    width = 3 * S.n_active
-    g = S.delassus + (3 * a + 1) * width + 3 * a + 1
-    g11, g12, g22 = w[g], w[g + 1], w[g + width + 1]
+    g = own_block(S, k, a)
+    g11, g12, g22 = w[g + 4], w[g + 5], w[g + 8]
     t1, t2 = w[f + 1], w[f + 2]
-    c1 = _row(S, w, 3 * a + 1) - g11 * t1 - g12 * t2
-    c2 = _row(S, w, 3 * a + 2) - g12 * t1 - g22 * t2
+    c1 = _row(S, w, k, a, 1) - g11 * t1 - g12 * t2
+    c2 = _row(S, w, k, a, 2) - g12 * t1 - g22 * t2
     k[S.tangent_held + a] = 1
     determinant = g11 * g22 - g12 * g12
     trace = g11 + g22
@@ -126,7 +122,7 @@ def gauss_seidel(S: Scalars, w: Floats, k: Integers, sweeps: int) -> int:
             w[S.d + 2 * a + 1] = -t2 / norm
         elif k[S.at_rest + a] == 1 and k[S.tangent_held + a] == 0:
             # no normal force, no friction: the slip starts along its acceleration
-            v1, v2 = _row(S, w, 3 * a + 1), _row(S, w, 3 * a + 2)
+            v1, v2 = _row(S, w, k, a, 1), _row(S, w, k, a, 2)
             norm = math.sqrt(v1 * v1 + v2 * v2)
             w[S.d + 2 * a] = v1 / norm if norm > 0.0 else 1.0
             w[S.d + 2 * a + 1] = v2 / norm if norm > 0.0 else 0.0

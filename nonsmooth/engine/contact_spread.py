@@ -108,7 +108,7 @@ def spread(S: Scalars, w: Floats, k: Integers) -> int:
             w[S.matrix + i * n + i] += _FLOOR
             w[S.x + i] = total
             w[S.sigma + i] = total
-        if eliminate(w, S.matrix, n, S.x) == 0:
+        if eliminate(w, S.matrix, n, n, S.x) == 0:
             return 0
         # the elimination leaks out of the null space by round-off over the floor
         for i in range(n):

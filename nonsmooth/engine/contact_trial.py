@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_spread import spread
+from nonsmooth.engine.delassus import own_block, product
 from nonsmooth.engine.forces import friction_of_slip, reduced_coefficient, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
@@ -27,23 +28,25 @@ def hold_tried(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("void(S, F, I)")
 def set_scales(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the accelerations and what counts as zero among them and among the forces."""
-    width = 3 * S.n_active
     # the accelerations that may cancel one another in b set the scale, not b itself
     scale = S.acceleration_scale
     force_scale = 0.0
-    for i in range(width):
+    for i in range(3 * S.n_active):
         force_scale = max(force_scale, abs(w[S.f + i]))
     for a in range(S.n_active):
-        own = w[S.delassus + 3 * a * width + 3 * a]
+        own = w[own_block(S, k, a)]
         if own > 0.0:
             force_scale = max(force_scale, scale / own)
-    for i in range(width):
-        total = w[S.b + i]
-        for j in range(width):
-            product = w[S.delassus + i * width + j] * w[S.f + j]
-            total += product
-            scale = max(scale, abs(product))
-        w[S.acceleration + i] = total
+    for a in range(S.n_active):
+        row = S.block_start + S.first_grouped + a
+        for r in range(3):
+            total = w[S.b + 3 * a + r]
+            for block in range(k[row], k[row + 1]):
+                for s in range(3):
+                    part = w[S.delassus + 9 * block + 3 * r + s] * w[S.f + 3 * k[S.block_column + block] + s]
+                    total += part
+                    scale = max(scale, abs(part))
+            w[S.acceleration + 3 * a + r] = total
     S.small_acceleration, S.small_force = _TOLERANCE * scale, _TOLERANCE * force_scale
 
 
@@ -74,7 +77,7 @@ def _compare(S: Scalars, w: Floats, k: Integers) -> int:
         if not abs(normal) <= small:
             return 0
         # sliding on which more force gives more approach is balanced on an edge, and falls off either side
-        if mode == SLIDE and k[S.at_rest + a] == 0 and reduced_coefficient(S, w, a) <= 0.0:
+        if mode == SLIDE and k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
             return 0
         if not w[S.f + 3 * a] >= -small_force:
             if S.lenient == 0 or S.deficient == 0:
@@ -113,20 +116,17 @@ def judge(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("void(S, F, I)")
 def identify(S: Scalars, w: Floats, k: Integers) -> None:
     """Guess modes and directions from the forces ``f``, by the side of the natural map on which they stand."""
-    width = 3 * S.n_active
     for a in range(S.n_active):
         line = 3 * a
         push = 0.0
         for r in range(3):
-            total = w[S.b + line + r]
-            for j in range(width):
-                total += w[S.delassus + (line + r) * width + j] * w[S.f + j]
+            total = w[S.b + line + r] + product(S, w, k, a, r, S.f)
             if r == 0:
-                push = w[S.f + line] * w[S.delassus + line * width + line] - total
+                push = w[S.f + line] * w[own_block(S, k, a)] - total
             w[S.acceleration + line + r] = total
         k[S.mode_tried + a] = SLIDE
         if k[S.at_rest + a] == 1:
-            g = slope_of_slip(S, w, a)
+            g = slope_of_slip(S, w, k, a)
             y1 = g * w[S.f + line + 1] - w[S.acceleration + line + 1]
             y2 = g * w[S.f + line + 2] - w[S.acceleration + line + 2]
             norm = math.sqrt(y1 * y1 + y2 * y2)
@@ -138,10 +138,9 @@ def identify(S: Scalars, w: Floats, k: Integers) -> None:
             k[S.mode_tried + a] = OPEN
 
 
-@kernel("f8(S, F, i8)")
-def slope_of_slip(S: Scalars, w: Floats, a: int) -> float:
+@kernel("f8(S, F, I, i8)")
+def slope_of_slip(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return how fast contact ``a`` slips under a unit of its own friction, or a number like it where it cannot."""
-    width = 3 * S.n_active
-    g = S.delassus + 3 * a * width + 3 * a
-    largest = max(w[g + width + 1], w[g + 2 * width + 2])
+    g = own_block(S, k, a)
+    largest = max(w[g + 4], w[g + 8])
     return largest if largest > 0.0 else w[g]

@@ -1,40 +1,75 @@
-"""The Delassus matrix of the active contacts and what their forces do to the velocities."""
+"""The Delassus matrix of the active contacts and what their forces do to the velocities.
+
+It is stored by blocks, of contacts that share a movable linkage only (:mod:`nonsmooth.engine.blocks`).
+"""
 
 from __future__ import annotations
 
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 
 
-@kernel("void(F, i8, i8, i8, i8, i8)")
-def _add_block(w: Floats, jacobian: int, response: int, n_u: int, out: int, width: int) -> None:
+@kernel("void(F, i8, i8, i8, i8)")
+def _add_block(w: Floats, jacobian: int, response: int, n_u: int, out: int) -> None:
     for r in range(3):
         for s in range(3):
             total = 0.0
             for i in range(n_u):
                 total += w[jacobian + r * n_u + i] * w[response + s * n_u + i]
-            w[out + r * width + s] += total
+            w[out + 3 * r + s] += total
 
 
 @kernel()
 def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write G = [W N]^T K [W N] of the active contacts, rows (n, t1, t2) of each in turn."""
-    m = S.n_active
-    width = 3 * m
-    for i in range(width * width):
-        w[S.delassus + i] = 0.0
-    for i in range(m):
-        c = k[S.active + i]
-        for j in range(m):
-            d = k[S.active + j]
-            block = S.delassus + 3 * i * width + 3 * j
+    """Write the blocks of G = [W N]^T K [W N] of the active contacts, rows and columns (n, t1, t2) each."""
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        row = S.block_start + S.first_grouped + a
+        for block in range(k[row], k[row + 1]):
+            d = k[S.active + k[S.block_column + block]]
+            out = S.delassus + 9 * block
+            for i in range(9):
+                w[out + i] = 0.0
             for side in range(2):
                 linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
                 jacobian = k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]
                 n_u = k[S.linkage_nu + linkage]
                 if n_u > 0 and k[S.linkage_a + d] == linkage:
-                    _add_block(w, jacobian, k[S.response_a + d], n_u, block, width)
+                    _add_block(w, jacobian, k[S.response_a + d], n_u, out)
                 if n_u > 0 and k[S.linkage_b + d] == linkage:
-                    _add_block(w, jacobian, k[S.response_b + d], n_u, block, width)
+                    _add_block(w, jacobian, k[S.response_b + d], n_u, out)
+
+
+@kernel("i8(S, I, i8)")
+def own_block(S: Scalars, k: Integers, a: int) -> int:
+    """Return where the block of the active contact ``a`` on the diagonal stands."""
+    return int(S.delassus + 9 * k[S.own_block + S.first_grouped + a])
+
+
+@kernel("f8(S, F, I, i8, i8, i8)")
+def product(S: Scalars, w: Floats, k: Integers, a: int, r: int, x: int) -> float:
+    """Return row ``r`` (n, t1, t2) of the active contact ``a`` of G times the vector at ``x``."""
+    row = S.block_start + S.first_grouped + a
+    total = 0.0
+    for block in range(k[row], k[row + 1]):
+        g = S.delassus + 9 * block + 3 * r
+        other = x + 3 * k[S.block_column + block]
+        total += w[g] * w[other] + w[g + 1] * w[other + 1] + w[g + 2] * w[other + 2]
+    return total
+
+
+@kernel()
+def write_dense(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write all of G, row by row, to ``matrix``."""
+    width = 3 * S.n_active
+    for i in range(width * width):
+        w[S.matrix + i] = 0.0
+    for a in range(S.n_active):
+        row = S.block_start + S.first_grouped + a
+        for block in range(k[row], k[row + 1]):
+            for r in range(3):
+                for s in range(3):
+                    line = S.matrix + (3 * a + r) * width + 3 * k[S.block_column + block]
+                    w[line + s] = w[S.delassus + 9 * block + 3 * r + s]
 
 
 @kernel("void(S, F, I, i8, i8)")

@@ -9,8 +9,11 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.band import open_band
+from nonsmooth.engine.delassus import own_block, product
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.linear import eliminate, minimum_norm
+from nonsmooth.engine.linear import band_row, band_width, eliminate, minimum_norm
+from nonsmooth.model.layout import MOST_ENTRIES
 
 _COUPLED = 1e-7
 """Null-space entries above this tie a contact to the group whose forces are not unique."""
@@ -20,21 +23,38 @@ _COUPLED = 1e-7
 def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     """Complete ``f``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)
-    width = 3 * S.n_active
-    for i in range(n):
-        line = k[S.column + i]
-        total = w[S.b + line]
-        for j in range(width):
-            total += w[S.delassus + line * width + j] * w[S.f + j]
-        w[S.right + i] = -total
-        for j in range(n):
-            w[S.reduced + i * n + j] = _entry(S, w, k, line, k[S.column + j])
+    if open_band(S, w, k, n, S.reduced) == 0:
+        return
+    for a in range(S.n_active):
+        for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+            _lay_row(S, w, k, a, i, n)
     solve_unknowns(S, w, k, n)
     for i in range(n):
         w[S.f + k[S.column + i]] = w[S.x + i]
     for a in range(S.n_active):
         if k[S.normal_held + a] == 1 and k[S.tangent_held + a] == 0:
             friction_of_slip(S, w, a)
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
+    r = k[S.column + i] - 3 * a
+    w[S.right + i] = -(w[S.b + 3 * a + r] + product(S, w, k, a, r, S.f))
+    line = band_row(S.reduced, i, n, S.half_band)
+    row = S.block_start + S.first_grouped + a
+    for block in range(k[row], k[row + 1]):
+        d = k[S.block_column + block]
+        g = S.delassus + 9 * block + 3 * r
+        out = line + k[S.first_unknown + d]
+        if k[S.normal_held + d] == 1:
+            w[out] = w[g]
+            if k[S.tangent_held + d] == 0:
+                # the friction of a sliding contact moves with its normal force
+                w[out] -= w[S.mu + d] * (w[S.d + 2 * d] * w[g + 1] + w[S.d + 2 * d + 1] * w[g + 2])
+            out += 1
+        if k[S.tangent_held + d] == 1:
+            w[out], w[out + 1] = w[g + 1], w[g + 2]
 
 
 @kernel("void(S, F, I, i8)")
@@ -45,12 +65,30 @@ def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     if n == 1 and w[S.reduced] != 0.0:
         w[S.x] = w[S.right] / w[S.reduced]
         return
+    rank = solve_reduced(S, w, n)
+    if rank < n:
+        _project(S, w, k, n, rank)
+
+
+@kernel("i8(S, F, i8)")
+def solve_reduced(S: Scalars, w: Floats, n: int) -> int:
+    """Solve ``reduced . x = right``; return the rank, below which x is of least norm and ``basis`` spans its rows."""
     for i in range(n):
         w[S.x + i] = w[S.right + i]
-    for i in range(n * n):
+    for i in range(n * band_width(n, S.half_band)):
         w[S.matrix + i] = w[S.reduced + i]
-    if n > 0 and eliminate(w, S.matrix, n, S.x) == 0:
-        _least_norm(S, w, k, n)
+    if eliminate(w, S.matrix, n, S.half_band, S.x) == 1:
+        return n
+    if n * n > MOST_ENTRIES:
+        S.crowded = 1
+        return n
+    for i in range(n * n):
+        w[S.matrix + i] = 0.0
+    for i in range(n):
+        line = band_row(S.reduced, i, n, S.half_band)
+        for j in range(max(0, i - S.half_band), min(n, i + S.half_band + 1)):
+            w[S.matrix + i * n + j] = w[line + j]
+    return minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
 
 
 @kernel("i8(S, F, I)")
@@ -59,6 +97,7 @@ def _collect(S: Scalars, w: Floats, k: Integers) -> int:
     n = 0
     for a in range(S.n_active):
         k[S.redundant + a] = 0
+        k[S.first_unknown + a] = n
         if k[S.normal_held + a] == 1:
             k[S.column + n] = 3 * a
             n += 1
@@ -71,6 +110,7 @@ def _collect(S: Scalars, w: Floats, k: Integers) -> int:
             n += 2
         else:
             friction_of_slip(S, w, a)
+    k[S.first_unknown + S.n_active] = n
     return n
 
 
@@ -81,29 +121,16 @@ def friction_of_slip(S: Scalars, w: Floats, a: int) -> None:
     w[S.f + 3 * a + 2] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + 1]
 
 
-@kernel("f8(S, F, i8)")
-def reduced_coefficient(S: Scalars, w: Floats, a: int) -> float:
+@kernel("f8(S, F, I, i8)")
+def reduced_coefficient(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
-    g = S.delassus + 3 * a * 3 * S.n_active + 3 * a
+    g = own_block(S, k, a)
     return float(w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2]))
 
 
-@kernel("f8(S, F, I, i8, i8)")
-def _entry(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
-    """Return the effect on row ``line`` of a unit unknown, friction of a sliding contact included."""
-    g = S.delassus + line * 3 * S.n_active + column
-    a = column // 3
-    if column != 3 * a or k[S.tangent_held + a] == 1:
-        return w[g]
-    return w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2])
-
-
-@kernel("void(S, F, I, i8)")
-def _least_norm(S: Scalars, w: Floats, k: Integers, n: int) -> None:
-    """Solve the singular system for least norm; keep the projector on its null space."""
-    for i in range(n * n):
-        w[S.matrix + i] = w[S.reduced + i]
-    rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
+@kernel("void(S, F, I, i8, i8)")
+def _project(S: Scalars, w: Floats, k: Integers, n: int, rank: int) -> None:
+    """Keep the projector on the null space of the singular system, and mark whose friction is not unique."""
     S.deficient = 1
     for i in range(n):
         for j in range(n):

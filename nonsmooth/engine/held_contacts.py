@@ -7,9 +7,11 @@ times columns is the reduced matrix whose unknowns are the forces; no more of G 
 
 from __future__ import annotations
 
+from nonsmooth.engine.band import open_band
 from nonsmooth.engine.forces import friction_of_slip, solve_unknowns
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.kinematics import evaluate_row, evaluate_row_response, row
+from nonsmooth.engine.linear import band_row
 from nonsmooth.engine.modes import SLIDE
 
 
@@ -55,45 +57,35 @@ def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int
     return total
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def share_a_body(S: Scalars, w: Floats, k: Integers, c: int, d: int) -> int:
-    """Return 1 if two contacts act on a movable body, or on bodies tied together, in common."""
-    one, two = k[S.linkage_a + c], k[S.linkage_b + c]
-    other, another = k[S.linkage_a + d], k[S.linkage_b + d]
-    if (one == other or one == another) and k[S.linkage_nu + one] > 0:
-        return 1
-    return 1 if (two == other or two == another) and k[S.linkage_nu + two] > 0 else 0
-
-
 @kernel("i8(S, F, I)")
 def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
     """List the rows of the active contacts; return how many there are."""
     n = 0
     for a in range(S.n_active):
         k[S.redundant + a] = 0
+        k[S.first_unknown + a] = n
         for r in range(1 + 2 * k[S.tangent_held + a]):
             k[S.column + n] = 3 * a + r
-            k[S.row_contact + n] = k[S.active + a]
-            k[S.row_index + n] = r
             n += 1
+    k[S.first_unknown + S.n_active] = n
     return n
 
 
-@kernel("void(S, F, I, i8)")
-def _reduce(S: Scalars, w: Floats, k: Integers, n: int) -> None:
-    """Write the reduced matrix and what the rows lack to vanish without forces."""
-    for i in range(n):
-        c, r = k[S.row_contact + i], k[S.row_index + i]
-        w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
-        near, last = 0, -1
-        for j in range(n):
-            d = k[S.row_contact + j]
-            if d != last:
-                near, last = share_a_body(S, w, k, c, d), d
-            w[S.reduced + i * n + j] = _coupling(S, w, k, c, r, d, k[S.row_index + j]) if near == 1 else 0.0
-        # a sliding contact on which more force gives more approach
-        if r == 0 and k[S.mode + c] == SLIDE and w[S.reduced + i * n + i] <= 0.0:
-            S.singular = c
+@kernel("void(S, F, I, i8, i8, i8)")
+def _reduce(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write row ``i`` of the reduced matrix, one of contact ``a``, and what it lacks to vanish without forces."""
+    c, r = k[S.active + a], i - k[S.first_unknown + a]
+    w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
+    line = band_row(S.reduced, i, n, S.half_band)
+    blocks = S.block_start + S.first_grouped + a
+    for block in range(k[blocks], k[blocks + 1]):
+        other = k[S.block_column + block]
+        first = k[S.first_unknown + other]
+        for s in range(k[S.first_unknown + other + 1] - first):
+            w[line + first + s] = _coupling(S, w, k, c, r, k[S.active + other], s)
+    # a sliding contact on which more force gives more approach
+    if r == 0 and k[S.mode + c] == SLIDE and w[line + i] <= 0.0:
+        S.singular = c
 
 
 @kernel("void(S, F, I)")
@@ -103,7 +95,11 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
     Rows and columns must be laid, the free accelerations stand in ``du``.
     """
     n = _list_rows(S, w, k)
-    _reduce(S, w, k, n)
+    if open_band(S, w, k, n, S.reduced) == 0:
+        return
+    for a in range(S.n_active):
+        for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+            _reduce(S, w, k, a, i, n)
     solve_unknowns(S, w, k, n)
     first = 0
     for a in range(S.n_active):

@@ -280,6 +280,8 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
         S.started = 1
         evaluate_bodies(S, w, k, S.t, S.y)
         status = settle(S, w, k, START, -1)
+        if S.crowded == 1:
+            return NO_SLOT
         if status != RUNNING:
             return status
     for _index in range(most_steps):
@@ -294,6 +296,8 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
         status = _step(S, w, k)
         if status == RUNNING and S.joints_apart == 1:
             status = JOINTS_APART
+        if S.crowded == 1:
+            status = NO_SLOT
         if status != RUNNING:
             return status
     return PAUSED

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.forces import evaluate_margins
+from nonsmooth.engine.delassus import own_block
 from nonsmooth.engine.impact_rates import (
     COMPRESSION,
     EXPANSION,
@@ -206,8 +207,7 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     S.aimed = -1
     a = S.lone
     shortest = h
-    width = 3 * S.n_active
-    rates, forces, block = S.impact_z + 3 * a, S.f + 3 * a, S.delassus + 3 * a * width + 3 * a
+    rates, forces, block = S.impact_z + 3 * a, S.f + 3 * a, own_block(S, k, a)
     c = k[S.active + a]
     growth = slip = slip_growth = 0.0
     for j in range(3):
@@ -215,7 +215,7 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for r in range(1, 3):
         slip += w[rates + r] * w[S.direction + 2 * c + r - 1]
         for j in range(3):
-            slip_growth += w[block + width * r + j] * w[forces + j] * w[S.direction + 2 * c + r - 1]
+            slip_growth += w[block + 3 * r + j] * w[forces + j] * w[S.direction + 2 * c + r - 1]
     if k[S.phase + a] == COMPRESSION and growth > 0.0:
         root = -w[rates] / growth
         if 0.0 < root < shortest:

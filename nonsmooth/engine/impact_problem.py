@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.delassus import own_block, product
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.impact_clock import change_clock
 from nonsmooth.engine.impact_friction import break_away, choose_friction
@@ -72,20 +73,19 @@ _NO_RETURN = 2e-16
 def scale_impact(S: Scalars, w: Floats, k: Integers) -> float:
     """Set the scales of speed, deformation and force; return the shortest time of a compression."""
     m = S.n_active
-    width = 3 * m
     S.speed_scale = S.impact_seed
     for a in range(m):
         S.speed_scale = max(S.speed_scale, -w[S.impact_z0 + 3 * a])
     # a slip that circles round zero does so within the tolerance of its impulse
     slack = 1.0
     for a in range(m):
-        normal = w[S.delassus + 3 * a * width + 3 * a]
+        g = own_block(S, k, a)
         for r in range(1, 3):
-            slack = max(slack, w[S.delassus + (3 * a + r) * width + 3 * a + r] / normal)
+            slack = max(slack, w[g + 4 * r] / w[g])
     S.rest_speed = max(REST, _CIRCLING * slack * S.impact_rtol) * S.speed_scale
     shortest = _UNUSED
     for a in range(m):
-        energy = S.speed_scale * S.speed_scale / w[S.delassus + 3 * a * width + 3 * a]
+        energy = S.speed_scale * S.speed_scale / w[own_block(S, k, a)]
         x = 1.0
         w[S.impact_energy_scale + a] = energy
         if a != S.lone:
@@ -178,9 +178,9 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     return 1 if phase == IDLE else 0
 
 
-@kernel("f8(S, F, i8)")
-def _impulse_scale(S: Scalars, w: Floats, a: int) -> float:
-    return float(S.speed_scale) / w[S.delassus + 3 * a * 3 * S.n_active + 3 * a]
+@kernel("f8(S, F, I, i8)")
+def _impulse_scale(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+    return float(S.speed_scale) / w[own_block(S, k, a)]
 
 
 @kernel("i8(S, F, I)")
@@ -210,11 +210,8 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     choose_friction(S, w, k, probe)
     # a resting contact that the others press in takes part from the start
     pressed = 0
-    width = 3 * S.n_active
     for a in range(S.n_active):
-        growth = 0.0
-        for j in range(width):
-            growth += w[S.delassus + 3 * a * width + j] * w[S.f + j]
+        growth = product(S, w, k, a, 0, S.f)
         if k[S.phase + a] == IDLE and growth < 0.0 and w[S.impact_z0 + 3 * a] <= S.rest_speed:
             k[S.phase + a] = COMPRESSION
             S.phases += 1
@@ -226,7 +223,6 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
 @kernel("i8(S, F, I)")
 def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if some slip has come next to rest and is still slowing down, or does not get away from there."""
-    width = 3 * S.n_active
     slow = 0
     for a in range(S.n_active):
         if k[S.phase + a] == IDLE or k[S.tangent_held + a] == 1 or w[S.mu + a] == 0.0:
@@ -234,10 +230,7 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         if v1 * v1 + v2 * v2 > S.rest_speed * S.rest_speed:
             continue
-        power = 0.0
-        for j in range(width):
-            g = S.delassus + (3 * a + 1) * width + j
-            power += (v1 * w[g] + v2 * w[g + width]) * w[S.f + j]
+        power = v1 * product(S, w, k, a, 1, S.f) + v2 * product(S, w, k, a, 2, S.f)
         slow = 1
         if power < 0.0:
             S.slow_steps = _PATIENCE
@@ -385,7 +378,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
         if fired == 1:
             grown = max(h, shortest * S.impact_rtol**_FIRST)
             if S.lone >= 0:
-                grown = _FAR * _impulse_scale(S, w, S.lone)
+                grown = _FAR * _impulse_scale(S, w, k, S.lone)
         for i in range(n):
             w[S.impact_y + i] = w[S.impact_new + i]
         if fired == 0 and _stopping(S, w, k) == 1:
@@ -397,7 +390,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
         elif fired == 1:
             _switch(S, w, k, 1e-2 * shortest)
             if m > 1 and change_clock(S, w, k) == 1:
-                grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, S.lone)
+                grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, k, S.lone)
             if S.phases > _LONG * (S.n_colliding if S.windowed == 1 else m) and _faded(S, w, k) == 1:
                 _cut_short(S, w, k)
             if S.windowed == 1:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_problem import friction_coefficient
+from nonsmooth.engine.delassus import own_block
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.modes import COMPLIANT
@@ -56,14 +57,19 @@ def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float
 @kernel("void(S, F, I, i8)")
 def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write z = z_0 + G P: gap rates and slip velocities at the impact state ``y``."""
-    width = 3 * S.n_active
-    for i in range(width):
-        w[S.impact_z + i] = w[S.impact_z0 + i]
     for a in range(S.n_active):
-        p0, p1, p2 = w[y + STRIDE * a], w[y + STRIDE * a + 1], w[y + STRIDE * a + 2]
-        for i in range(width):
-            g = S.delassus + i * width + 3 * a
-            w[S.impact_z + i] += w[g] * p0 + w[g + 1] * p1 + w[g + 2] * p2
+        z = S.impact_z0 + 3 * a
+        z0, z1, z2 = w[z], w[z + 1], w[z + 2]
+        row = S.block_start + S.first_grouped + a
+        for block in range(k[row], k[row + 1]):
+            p = y + STRIDE * k[S.block_column + block]
+            p0, p1, p2 = w[p], w[p + 1], w[p + 2]
+            g = S.delassus + 9 * block
+            z0 += w[g] * p0 + w[g + 1] * p1 + w[g + 2] * p2
+            z1 += w[g + 3] * p0 + w[g + 4] * p1 + w[g + 5] * p2
+            z2 += w[g + 6] * p0 + w[g + 7] * p1 + w[g + 8] * p2
+        z = S.impact_z + 3 * a
+        w[z], w[z + 1], w[z + 2] = z0, z1, z2
 
 
 @room("void(S, F, I, i8)")
@@ -143,7 +149,7 @@ def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     step_errors(S, w, S.impact_slopes, n, h, S.impact_stage)
     worst = 0.0
     for a in range(S.n_active):
-        impulse_scale = S.speed_scale / w[S.delassus + 3 * a * 3 * S.n_active + 3 * a]
+        impulse_scale = S.speed_scale / w[own_block(S, k, a)]
         for r in range(STRIDE):
             error = abs(w[S.impact_stage + STRIDE * a + r])
             if r == 3:

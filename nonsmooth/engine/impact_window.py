@@ -7,6 +7,7 @@ about the contacts that act then.  The phases, deformations and energies go on a
 
 from __future__ import annotations
 
+from nonsmooth.engine.blocks import link_active
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact_problem import (
     ENDLESS,
@@ -89,7 +90,8 @@ def _draw(S: Scalars, w: Floats, k: Integers, first: int) -> None:
 
 @kernel("void(S, F, I)")
 def _load(S: Scalars, w: Floats, k: Integers) -> None:
-    """Set matrix, rates and state of the window."""
+    """Set matrix, rates and state of the window, whose structure takes the place of the island's."""
+    link_active(S, w, k)
     assemble_delassus(S, w, k)
     for a in range(S.n_active):
         c = k[S.active + a]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_problem import friction_coefficient
+from nonsmooth.engine.delassus import own_block, product, write_dense
 from nonsmooth.engine.forces import reduced_coefficient, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel
 from nonsmooth.engine.modes import SLIDE, STICK
@@ -16,9 +17,8 @@ _NEXT_TO_ZERO = 1e-3
 @kernel("i8(S, F, I, i8)")
 def is_jammed(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     """Return 1 if the active contact ``a`` slides at the Painleve singularity, its slip direction being known."""
-    g = S.delassus + 3 * a * 3 * S.n_active + 3 * a
     slides = k[S.mode + k[S.active + a]] == SLIDE
-    return 1 if slides and reduced_coefficient(S, w, a) < _NEXT_TO_ZERO * w[g] else 0
+    return 1 if slides and reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * w[own_block(S, k, a)] else 0
 
 
 @kernel("i8(S, F, I)")
@@ -46,7 +46,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
             return 0
         for r in range(3):
             w[S.impulse + 3 * a + r] = w[S.f + 3 * a + r]
-    _split_loss(S, w)
+    _split_loss(S, w, k)
     return 1
 
 
@@ -61,21 +61,19 @@ def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
         w[S.map_block + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
         for i in range(1, S.map_width):
             w[S.map_block + i * m + a] = w[k[S.map_parameters + c] + i - 1]
-    call_map(S.impact_map, m, at(w, S.delassus), at(w, S.impact_z0), at(w, S.map_block), at(w, S.impulse))
-    _split_loss(S, w)
+    write_dense(S, w, k)
+    call_map(S.impact_map, m, at(w, S.matrix), at(w, S.impact_z0), at(w, S.map_block), at(w, S.impulse))
+    _split_loss(S, w, k)
 
 
-@kernel("void(S, F)")
-def _split_loss(S: Scalars, w: Floats) -> None:
+@kernel()
+def _split_loss(S: Scalars, w: Floats, k: Integers) -> None:
     """Split the energy that the impulses take, contact by contact, by the mean rates they act on."""
-    width = 3 * S.n_active
     for a in range(S.n_active):
         normal = tangential = 0.0
         for r in range(3):
             line = 3 * a + r
-            mean = w[S.impact_z0 + line]
-            for j in range(width):
-                mean += 0.5 * w[S.delassus + line * width + j] * w[S.impulse + j]
+            mean = w[S.impact_z0 + line] + 0.5 * product(S, w, k, a, r, S.impulse)
             if r == 0:
                 normal -= w[S.impulse + line] * mean
             else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.modes import OPEN
+from nonsmooth.engine.ordering import order_active
 
 
 @kernel("i8(S, F, I, i8)")
@@ -24,9 +25,19 @@ def _linkage(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     return b if k[S.linkage_nu + a] == 0 and k[S.linkage_nu + b] > 0 else a
 
 
+@kernel("void(S, F, I, i8)")
+def activate_group(S: Scalars, w: Floats, k: Integers, group: int) -> None:
+    """Make the contacts of an island the active ones."""
+    first = k[S.group_start + group]
+    S.first_grouped = first
+    S.n_active = k[S.group_start + group + 1] - first
+    for a in range(S.n_active):
+        k[S.active + a] = k[S.grouped + first + a]
+
+
 @kernel("void(S, F, I)")
 def group_members(S: Scalars, w: Floats, k: Integers) -> None:
-    """Sort the contacts marked as ``member`` into islands, in the order of their first contacts."""
+    """Sort the contacts marked as ``member`` into islands, in the order of their first contacts, and link each."""
     for c in range(S.n_contacts):
         if k[S.member + c] == 1:
             for side in range(2):
@@ -66,6 +77,9 @@ def group_members(S: Scalars, w: Floats, k: Integers) -> None:
             k[S.group_next + g] += 1
     S.n_groups = groups
     S.n_grouped = members
+    for group in range(groups):
+        activate_group(S, w, k, group)
+        order_active(S, w, k)
 
 
 @kernel("void(S, F, I)")
@@ -74,15 +88,6 @@ def group_closed(S: Scalars, w: Floats, k: Integers) -> None:
     for c in range(S.n_contacts):
         k[S.member + c] = 1 if k[S.mode + c] != OPEN else 0
     group_members(S, w, k)
-
-
-@kernel("void(S, F, I, i8)")
-def activate_group(S: Scalars, w: Floats, k: Integers, group: int) -> None:
-    """Make the contacts of an island the active ones."""
-    first = k[S.group_start + group]
-    S.n_active = k[S.group_start + group + 1] - first
-    for a in range(S.n_active):
-        k[S.active + a] = k[S.grouped + first + a]
 
 
 @kernel("void(S, F, I)")

@@ -1,4 +1,4 @@
-"""Small dense linear systems on the float heap: elimination, and minimum norm where it is singular."""
+"""Linear systems on the float heap: elimination within a band, and minimum norm where the matrix is singular."""
 
 from __future__ import annotations
 
@@ -10,33 +10,55 @@ SINGULAR = 1e-10
 """A pivot or remaining column below this, relative to the largest, counts as zero."""
 
 
-@kernel("i8(F, i8, i8, i8)")
-def eliminate(w: Floats, a: int, n: int, x: int) -> int:
-    """Solve the n x n system at ``a`` with right-hand side at ``x``, both overwritten; return 1, or 0 if singular."""
+@kernel("i8(i8, i8)")
+def band_width(n: int, half: int) -> int:
+    """Return the length of a stored row: ``half`` to the left, twice that to the right, all of it if that is less."""
+    return min(n, 3 * half + 1)
+
+
+@kernel("i8(i8, i8, i8, i8)")
+def band_row(a: int, i: int, n: int, half: int) -> int:
+    """Return where row ``i`` of the band at ``a`` would start if it were stored in full: add the column to it."""
+    width = band_width(n, half)
+    return a + i * width - min(max(0, i - half), n - width)
+
+
+@kernel("i8(F, i8, i8, i8, i8)")
+def eliminate(w: Floats, a: int, n: int, half: int, x: int) -> int:
+    """Solve the banded system at ``a`` with right-hand side at ``x``, both overwritten; return 1, or 0 if singular.
+
+    Entries farther than ``half`` off the diagonal are zero; exchanges of rows fill some of them.
+    """
+    width = band_width(n, half)
     largest = 0.0
-    for i in range(n * n):
+    for i in range(n * width):
         largest = max(largest, abs(w[a + i]))
     for j in range(n):
-        pivot = j
-        for i in range(j + 1, n):
-            if abs(w[a + i * n + j]) > abs(w[a + pivot * n + j]):
-                pivot = i
-        if not abs(w[a + pivot * n + j]) > SINGULAR * largest:
+        own = band_row(a, j, n, half)
+        below, right = min(n, j + half + 1), min(n, j + 2 * half + 1)
+        pivot, best = j, own
+        for i in range(j + 1, below):
+            row = band_row(a, i, n, half)
+            if abs(w[row + j]) > abs(w[best + j]):
+                pivot, best = i, row
+        if not abs(w[best + j]) > SINGULAR * largest:
             return 0
         if pivot != j:
-            for i in range(j, n):
-                w[a + j * n + i], w[a + pivot * n + i] = w[a + pivot * n + i], w[a + j * n + i]
+            for c in range(j, right):
+                w[own + c], w[best + c] = w[best + c], w[own + c]
             w[x + j], w[x + pivot] = w[x + pivot], w[x + j]
-        for i in range(j + 1, n):
-            factor = w[a + i * n + j] / w[a + j * n + j]
+        for i in range(j + 1, below):
+            row = band_row(a, i, n, half)
+            factor = w[row + j] / w[own + j]
             if factor != 0.0:
-                for c in range(j + 1, n):
-                    w[a + i * n + c] -= factor * w[a + j * n + c]
+                for c in range(j + 1, right):
+                    w[row + c] -= factor * w[own + c]
                 w[x + i] -= factor * w[x + j]
     for j in range(n - 1, -1, -1):
-        for c in range(j + 1, n):
-            w[x + j] -= w[a + j * n + c] * w[x + c]
-        w[x + j] /= w[a + j * n + j]
+        own = band_row(a, j, n, half)
+        for c in range(j + 1, min(n, j + 2 * half + 1)):
+            w[x + j] -= w[own + c] * w[x + c]
+        w[x + j] /= w[own + j]
     return 1
 
 

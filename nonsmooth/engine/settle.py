@@ -224,7 +224,7 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
         k[S.impacting + c] = 0
     contact = -1
     for a in range(S.n_active):
-        if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, a) <= 0.0:
+        if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
             contact = k[S.active + a]
             k[S.impacting + contact] = 1
             S.impact_seed = max(S.impact_seed, _speed(S, w, k, contact))

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.delassus import write_dense
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 
 STAGES = 12
@@ -34,9 +35,9 @@ def _corner(S: Scalars, w: Floats, a: int, j: int, r: int) -> float:
 
 @kernel("f8(S, F, I, i8, i8)")
 def _push(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
-    """Return what the unknown of a column does to row ``line`` of G f."""
+    """Return what the unknown of a column does to row ``line`` of G f, G standing in full in ``matrix``."""
     a, j = k[S.lemke_contact + column], k[S.lemke_corner + column]
-    g = S.delassus + line * 3 * S.n_active + 3 * a
+    g = S.matrix + line * 3 * S.n_active + 3 * a
     if j >= 0:
         return w[g + 1] * _corner(S, w, a, j, 1) + w[g + 2] * _corner(S, w, a, j, 2)
     if j == -2:
@@ -149,9 +150,10 @@ def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     m = S.n_active
     if m > S.n_pivoted:
         return 1
+    write_dense(S, w, k)
     g = size = 0.0
     for i in range(3 * m):
-        g = max(g, w[S.delassus + i * 3 * m + i])
+        g = max(g, w[S.matrix + i * 3 * m + i])
         size = max(size, abs(w[S.b + i]))
         w[S.f + i] = 0.0
     if size == 0.0:

@@ -11,9 +11,11 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.band import open_band
 from nonsmooth.engine.contact_trial import slope_of_slip
+from nonsmooth.engine.delassus import own_block, product
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.linear import eliminate
+from nonsmooth.engine.linear import band_row, eliminate
 from nonsmooth.engine.solver_gauss_seidel import sweep
 
 STAGES = 4
@@ -28,16 +30,12 @@ _SETTLED = 1e-11
 @kernel("f8(S, F, I)")
 def _residual(S: Scalars, w: Floats, k: Integers) -> float:
     """Write the natural map to ``right``; return its square."""
-    width = 3 * S.n_active
     square = 0.0
     for a in range(S.n_active):
         line = 3 * a
         for r in range(3):
-            total = w[S.b + line + r]
-            for j in range(width):
-                total += w[S.delassus + (line + r) * width + j] * w[S.f + j]
-            w[S.acceleration + line + r] = total
-        y = w[S.f + line] - w[S.acceleration + line] / w[S.delassus + line * width + line]
+            w[S.acceleration + line + r] = w[S.b + line + r] + product(S, w, k, a, r, S.f)
+        y = w[S.f + line] - w[S.acceleration + line] / w[own_block(S, k, a)]
         w[S.right + line] = w[S.f + line] - max(0.0, y)
         radius = w[S.mu + a] * max(0.0, y)
         t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
@@ -46,7 +44,7 @@ def _residual(S: Scalars, w: Floats, k: Integers) -> float:
             w[S.right + line + 1] = t1 + pull * w[S.d + 2 * a]
             w[S.right + line + 2] = t2 + pull * w[S.d + 2 * a + 1]
         else:
-            g = slope_of_slip(S, w, a)
+            g = slope_of_slip(S, w, k, a)
             y1 = t1 - w[S.acceleration + line + 1] / g
             y2 = t2 - w[S.acceleration + line + 2] / g
             length = math.sqrt(y1 * y1 + y2 * y2)
@@ -57,49 +55,72 @@ def _residual(S: Scalars, w: Floats, k: Integers) -> float:
     return square
 
 
-@kernel("void(S, F, I)")
-def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write the derivative of the natural map to ``matrix``; accelerations must be those of ``f``."""
-    width = 3 * S.n_active
+@kernel("void(S, F, I, i8, i8, f8)")
+def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, factor: float) -> None:
+    """Add a row of G, that is of contact ``a``, times a factor to the same row of ``matrix``."""
+    row = S.block_start + S.first_grouped + a
+    line = band_row(S.matrix, 3 * a + r, 3 * S.n_active, S.half_band)
+    for block in range(k[row], k[row + 1]):
+        for s in range(3):
+            w[line + 3 * k[S.block_column + block] + s] += factor * w[S.delassus + 9 * block + 3 * r + s]
+
+
+@kernel("void(S, F, I, i8, f8, f8, f8)")
+def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, c2: float) -> None:
+    """Add the derivative of the friction that is cut to the disc, along (c1, c2), to its two rows of ``matrix``."""
+    own, slope = w[own_block(S, k, a)], slope_of_slip(S, w, k, a)
+    n = 3 * S.n_active
+    first, second = band_row(S.matrix, 3 * a + 1, n, S.half_band), band_row(S.matrix, 3 * a + 2, n, S.half_band)
+    row = S.block_start + S.first_grouped + a
+    for block in range(k[row], k[row + 1]):
+        for s in range(3):
+            g, j = S.delassus + 9 * block + s, 3 * k[S.block_column + block] + s
+            z1, z2 = -w[g + 3] / slope, -w[g + 6] / slope
+            z1 += 1.0 if j == 3 * a + 1 else 0.0
+            z2 += 1.0 if j == 3 * a + 2 else 0.0
+            across = c2 * z1 - c1 * z2
+            grown = w[S.mu + a] * ((1.0 if j == 3 * a else 0.0) - w[g] / own)
+            w[first + j] -= cut * c2 * across + c1 * grown
+            w[second + j] += cut * c1 * across - c2 * grown
+
+
+@kernel("i8(S, F, I)")
+def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
+    """Write the derivative of the natural map to ``matrix``, accelerations being those of ``f``; return 1, 0 if no room."""
+    n = 3 * S.n_active
+    for a in range(S.n_active + 1):
+        k[S.first_unknown + a] = 3 * a
+    if open_band(S, w, k, n, S.matrix) == 0:
+        return 0
     for a in range(S.n_active):
         line = 3 * a
-        row, g = S.matrix + line * width, S.delassus + line * width
-        for i in range(3 * width):
-            w[row + i] = 0.0
-        own = w[g + line]
+        own = w[own_block(S, k, a)]
         y = w[S.f + line] - w[S.acceleration + line] / own
+        row = band_row(S.matrix, line, n, S.half_band)
         if y > 0.0:
-            for j in range(width):
-                w[row + j] = w[g + j] / own
+            _add_row(S, w, k, a, 0, 1.0 / own)
             w[row + line] += _FLOOR
         else:
             w[row + line] = 1.0
         for r in range(1, 3):
-            w[row + r * width + line + r] = 1.0
+            row = band_row(S.matrix, line + r, n, S.half_band)
+            w[row + line + r] = 1.0
+            if k[S.at_rest + a] == 0:
+                w[row + line] = w[S.mu + a] * w[S.d + 2 * a + r - 1]
         if k[S.at_rest + a] == 0:
-            for r in range(1, 3):
-                w[row + r * width + line] = w[S.mu + a] * w[S.d + 2 * a + r - 1]
             continue
-        slope = slope_of_slip(S, w, a)
+        slope = slope_of_slip(S, w, k, a)
         y1 = w[S.f + line + 1] - w[S.acceleration + line + 1] / slope
         y2 = w[S.f + line + 2] - w[S.acceleration + line + 2] / slope
         length, radius = math.sqrt(y1 * y1 + y2 * y2), w[S.mu + a] * max(0.0, y)
         if length <= radius:
             for r in range(1, 3):
-                for j in range(width):
-                    w[row + r * width + j] = w[g + r * width + j] / slope
-                w[row + r * width + line + r] += _FLOOR
+                row = band_row(S.matrix, line + r, n, S.half_band)
+                w[row + line + r] = _FLOOR
+                _add_row(S, w, k, a, r, 1.0 / slope)
         elif radius > 0.0:
-            cut = radius / length
-            c1, c2 = y1 / length, y2 / length
-            for j in range(width):
-                z1, z2 = -w[g + width + j] / slope, -w[g + 2 * width + j] / slope
-                z1 += 1.0 if j == line + 1 else 0.0
-                z2 += 1.0 if j == line + 2 else 0.0
-                across = c2 * z1 - c1 * z2
-                grown = w[S.mu + a] * ((1.0 if j == line else 0.0) - w[g + j] / own)
-                w[row + width + j] -= cut * c2 * across + c1 * grown
-                w[row + 2 * width + j] += cut * c1 * across - c2 * grown
+            _add_cut(S, w, k, a, radius / length, y1 / length, y2 / length)
+    return 1
 
 
 @room("i8(S, F, I, i8)")
@@ -117,10 +138,11 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
             size += w[S.f + i] ** 2
         if square <= _SETTLED * _SETTLED * size:
             return 1
-        _lay_jacobian(S, w, k)
+        if _lay_jacobian(S, w, k) == 0:
+            return 0
         for i in range(width):
             w[S.x + i] = -w[S.right + i]
-        if eliminate(w, S.matrix, width, S.x) == 0:
+        if eliminate(w, S.matrix, width, S.half_band, S.x) == 0:
             return 0
         for i in range(width):
             w[S.f_kept + i] = w[S.f + i]

@@ -79,6 +79,10 @@ CATALOGUE = (
     "mode",
 )
 """Integers of a declared contact; in a slot each of them is an array of its own."""
+MOST_BLOCKS = 2**22
+"""Pairs of contacts that act on one another, of which a system has room for all up to so many."""
+MOST_ENTRIES = 2**26
+"""Entries of a matrix of the contacts' unknowns, of which there is room for all up to so many."""
 N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair."""
 
@@ -137,7 +141,10 @@ INTEGER_SCALARS = (
     "n_u",
     "n_y",
     "n_active",
+    "first_grouped",
     "n_unknown",
+    "half_band",
+    "crowded",
     "n_redundant",
     "deficient",
     "lenient",
@@ -227,6 +234,14 @@ Size = Callable[[Mapping[str, int]], int]
 
 def _per(stride: int, count: str) -> Size:
     return lambda n: stride * n[count]
+
+
+def _entries(n: Mapping[str, int]) -> int:
+    return int(min((3 * n["n_slots"]) ** 2, MOST_ENTRIES))
+
+
+def _blocks(n: Mapping[str, int]) -> int:
+    return int(min(n["n_slots"] ** 2, MOST_BLOCKS))
 
 
 def _guards(n: Mapping[str, int]) -> int:
@@ -319,12 +334,12 @@ FLOAT_ARRAYS: dict[str, Size] = {
     # output
     "events": _per(1, "event_floats"),
     "samples": lambda n: n["sample_capacity"] * (n["n_y"] + 1),
-    # square in the number of contacts and mostly unused: they come last and cost no memory before they are written
-    "delassus": lambda n: (3 * n["n_slots"]) ** 2,
-    "reduced": lambda n: (3 * n["n_slots"]) ** 2,
-    "matrix": lambda n: (3 * n["n_slots"]) ** 2,
-    "basis": lambda n: (3 * n["n_slots"]) ** 2,
-    "null": lambda n: (3 * n["n_slots"]) ** 2,
+    # room for the worst case and mostly unused: they come last and cost no memory before they are written
+    "delassus": lambda n: 9 * _blocks(n),
+    "reduced": _entries,
+    "matrix": _entries,
+    "basis": _entries,
+    "null": _entries,
     "tableau": lambda n: 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2),
 }
 INTEGER_ARRAYS: dict[str, Size] = {
@@ -414,8 +429,8 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "lemke_row": _per(6, "n_pivoted"),
     "lemke_column": lambda n: 6 * n["n_pivoted"] + 1,
     "column": _per(3, "n_slots"),
-    "row_contact": _per(3, "n_slots"),
-    "row_index": _per(3, "n_slots"),
+    "turn": _per(3, "n_slots"),
+    "first_unknown": lambda n: n["n_slots"] + 1,
     "phase": _per(1, "n_slots"),
     "phase_kept": _per(1, "n_slots"),
     "held_kept": _per(1, "n_slots"),
@@ -425,6 +440,8 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "waves": _per(1, "n_slots"),
     "chain": _per(2, "n_slots"),
     "linkage_head": _per(1, "n_linkages"),
+    "link_head": _per(1, "n_linkages"),
+    "link_next": _per(2, "n_slots"),
     "linkage_root": _per(1, "n_linkages"),
     "linkage_group": _per(1, "n_linkages"),
     "kept": _per(2, "n_slots"),
@@ -442,6 +459,12 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "group_of": _per(1, "n_slots"),
     "group_next": _per(1, "n_slots"),
     "group_start": lambda n: n["n_slots"] + 1,
+    "block_start": lambda n: n["n_slots"] + 1,
+    "block_count": _per(1, "n_slots"),
+    "block_mark": _per(1, "n_slots"),
+    "own_block": _per(1, "n_slots"),
+    "order": _per(1, "n_slots"),
+    "rank": _per(1, "n_slots"),
     "mode_agreed": _per(1, "n_slots"),
     "tied": _per(1, "n_slots"),
     "listed": _per(1, "n_slots"),
@@ -453,6 +476,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "partner_unit": _per(1, "n_partners"),
     "partner_contact": lambda n: n["n_partners"] + 1,
     "paired_contact": _per(1, "n_paired"),
+    "block_column": _blocks,
 }
 
 SCALARS = np.dtype(

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Memory, allocate
 from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
@@ -67,7 +68,7 @@ def lay_out(problem: Problem, solver: int) -> Memory:
     memory.scalars["n_active"], memory.scalars["solver"] = n, solver
     memory.scalars["acceleration_scale"] = np.max(np.abs(problem.bias))
     memory.array("active", n)[:] = np.arange(n)
-    memory.array("delassus", 9 * n * n)[:] = problem.delassus.ravel()
+    write_delassus(memory, problem.delassus)
     memory.array("b", 3 * n)[:] = problem.bias
     memory.array("mu", n)[:] = memory.array("mu_static", n)[:] = FRICTION
     memory.array("at_rest", n)[:] = 1

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from laws import Coulomb, Unilateral
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
+from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Memory, allocate
 
@@ -24,7 +25,7 @@ def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.array("active", n)[:] = np.arange(n)
-    memory.array("delassus", 9 * n * n)[:] = np.ravel(delassus)
+    write_delassus(memory, np.asarray(delassus))
     memory.array("b", 3 * n)[:] = np.ravel(bias)
     memory.array("mu", n)[:], memory.array("mu_static", n)[:] = mu, static
     rest = np.all(np.asarray(slip) == 0.0, axis=1)
