@@ -1,6 +1,6 @@
-"""The structure of the Delassus matrix: which of the active contacts share a movable linkage, row by row of 3 x 3 blocks.
+"""The structure of the Delassus matrix by blocks: which of the active contacts share a movable linkage.
 
-Rows are compressed: block row a of the active island stands at ``block_start`` from entry ``first_grouped`` + a on, and
+Rows of 3 x 3 blocks are compressed: that of active contact a stands at ``block_start`` from entry ``first_grouped`` + a on, and
 ``block_column`` holds the active contacts that it couples with, in ascending order and itself among them.
 """
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.delassus import own_block, product
+from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 
 SWEEPS = 4000
@@ -19,7 +19,7 @@ _FLAT = 1e-14
 
 @kernel("f8(S, F, I, i8, i8)")
 def _row(S: Scalars, w: Floats, k: Integers, a: int, r: int) -> float:
-    return float(w[S.b + 3 * a + r] + product(S, w, k, a, r, S.f))
+    return add_product(S, w, k, w[S.b + 3 * a + r], a, r, S.f)
 
 
 @kernel("void(S, F, I, i8)")

@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.band import open_band
 from nonsmooth.engine.contact_trial import hold_tried
-from nonsmooth.engine.delassus import product
+from nonsmooth.engine.delassus import add_product
 from nonsmooth.engine.forces import solve_reduced
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import band_row
@@ -21,7 +21,7 @@ _NEAR = 1e-8
 
 @kernel("f8(S, F, I, i8, i8)")
 def _acceleration(S: Scalars, w: Floats, k: Integers, a: int, r: int) -> float:
-    return float(w[S.b + 3 * a + r] + product(S, w, k, a, r, S.f))
+    return add_product(S, w, k, w[S.b + 3 * a + r], a, r, S.f)
 
 
 @kernel("f8(S, F, I, i8, i8)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_spread import spread
-from nonsmooth.engine.delassus import own_block, product
+from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.forces import friction_of_slip, reduced_coefficient, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
@@ -120,7 +120,7 @@ def identify(S: Scalars, w: Floats, k: Integers) -> None:
         line = 3 * a
         push = 0.0
         for r in range(3):
-            total = w[S.b + line + r] + product(S, w, k, a, r, S.f)
+            total = add_product(S, w, k, w[S.b + line + r], a, r, S.f)
             if r == 0:
                 push = w[S.f + line] * w[own_block(S, k, a)] - total
             w[S.acceleration + line + r] = total

@@ -45,15 +45,15 @@ def own_block(S: Scalars, k: Integers, a: int) -> int:
     return int(S.delassus + 9 * k[S.own_block + S.first_grouped + a])
 
 
-@kernel("f8(S, F, I, i8, i8, i8)")
-def product(S: Scalars, w: Floats, k: Integers, a: int, r: int, x: int) -> float:
-    """Return row ``r`` (n, t1, t2) of the active contact ``a`` of G times the vector at ``x``."""
+@kernel("f8(S, F, I, f8, i8, i8, i8)")
+def add_product(S: Scalars, w: Floats, k: Integers, total: float, a: int, r: int, x: int) -> float:
+    """Return ``total`` plus row ``r`` (n, t1, t2) of the active contact ``a`` of G times the vector at ``x``."""
     row = S.block_start + S.first_grouped + a
-    total = 0.0
     for block in range(k[row], k[row + 1]):
         g = S.delassus + 9 * block + 3 * r
         other = x + 3 * k[S.block_column + block]
-        total += w[g] * w[other] + w[g + 1] * w[other + 1] + w[g + 2] * w[other + 2]
+        for s in range(3):
+            total += w[g + s] * w[other + s]
     return total
 
 

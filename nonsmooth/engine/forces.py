@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.band import open_band
-from nonsmooth.engine.delassus import own_block, product
+from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import band_row, band_width, eliminate, minimum_norm
 from nonsmooth.model.layout import MOST_ENTRIES
@@ -40,7 +40,7 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
 def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
     r = k[S.column + i] - 3 * a
-    w[S.right + i] = -(w[S.b + 3 * a + r] + product(S, w, k, a, r, S.f))
+    w[S.right + i] = -add_product(S, w, k, w[S.b + 3 * a + r], a, r, S.f)
     line = band_row(S.reduced, i, n, S.half_band)
     row = S.block_start + S.first_grouped + a
     for block in range(k[row], k[row + 1]):

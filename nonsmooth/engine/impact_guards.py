@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.forces import evaluate_margins
 from nonsmooth.engine.delassus import own_block
+from nonsmooth.engine.forces import evaluate_margins
 from nonsmooth.engine.impact_rates import (
     COMPRESSION,
     EXPANSION,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.delassus import own_block, product
+from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.impact_clock import change_clock
 from nonsmooth.engine.impact_friction import break_away, choose_friction
@@ -211,7 +211,7 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     # a resting contact that the others press in takes part from the start
     pressed = 0
     for a in range(S.n_active):
-        growth = product(S, w, k, a, 0, S.f)
+        growth = add_product(S, w, k, 0.0, a, 0, S.f)
         if k[S.phase + a] == IDLE and growth < 0.0 and w[S.impact_z0 + 3 * a] <= S.rest_speed:
             k[S.phase + a] = COMPRESSION
             S.phases += 1
@@ -230,7 +230,7 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         if v1 * v1 + v2 * v2 > S.rest_speed * S.rest_speed:
             continue
-        power = v1 * product(S, w, k, a, 1, S.f) + v2 * product(S, w, k, a, 2, S.f)
+        power = v1 * add_product(S, w, k, 0.0, a, 1, S.f) + v2 * add_product(S, w, k, 0.0, a, 2, S.f)
         slow = 1
         if power < 0.0:
             S.slow_steps = _PATIENCE

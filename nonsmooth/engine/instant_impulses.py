@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_problem import friction_coefficient
-from nonsmooth.engine.delassus import own_block, product, write_dense
+from nonsmooth.engine.delassus import add_product, own_block, write_dense
 from nonsmooth.engine.forces import reduced_coefficient, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel
 from nonsmooth.engine.modes import SLIDE, STICK
@@ -73,7 +73,7 @@ def _split_loss(S: Scalars, w: Floats, k: Integers) -> None:
         normal = tangential = 0.0
         for r in range(3):
             line = 3 * a + r
-            mean = w[S.impact_z0 + line] + 0.5 * product(S, w, k, a, r, S.impulse)
+            mean = 0.5 * add_product(S, w, k, 2.0 * w[S.impact_z0 + line], a, r, S.impulse)
             if r == 0:
                 normal -= w[S.impulse + line] * mean
             else:

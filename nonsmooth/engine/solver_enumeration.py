@@ -7,7 +7,7 @@ import math
 from nonsmooth.engine.cone import gauss_seidel
 from nonsmooth.engine.contact_polish import polish
 from nonsmooth.engine.contact_trial import hold_tried, verify
-from nonsmooth.engine.delassus import product
+from nonsmooth.engine.delassus import add_product
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 from nonsmooth.model.solvers import MOST_ENUMERATED
@@ -48,8 +48,8 @@ def _start_slips(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         if k[S.at_rest + a] == 0 or k[S.mode_tried + a] != SLIDE:
             continue
-        a1 = w[S.b + 3 * a + 1] + product(S, w, k, a, 1, S.f)
-        a2 = w[S.b + 3 * a + 2] + product(S, w, k, a, 2, S.f)
+        a1 = add_product(S, w, k, w[S.b + 3 * a + 1], a, 1, S.f)
+        a2 = add_product(S, w, k, w[S.b + 3 * a + 2], a, 2, S.f)
         norm = math.sqrt(a1 * a1 + a2 * a2)
         w[S.d + 2 * a] = a1 / norm if norm > 0.0 else 1.0
         w[S.d + 2 * a + 1] = a2 / norm if norm > 0.0 else 0.0

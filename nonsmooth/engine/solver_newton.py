@@ -13,7 +13,7 @@ import math
 
 from nonsmooth.engine.band import open_band
 from nonsmooth.engine.contact_trial import slope_of_slip
-from nonsmooth.engine.delassus import own_block, product
+from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import band_row, eliminate
 from nonsmooth.engine.solver_gauss_seidel import sweep
@@ -34,7 +34,7 @@ def _residual(S: Scalars, w: Floats, k: Integers) -> float:
     for a in range(S.n_active):
         line = 3 * a
         for r in range(3):
-            w[S.acceleration + line + r] = w[S.b + line + r] + product(S, w, k, a, r, S.f)
+            w[S.acceleration + line + r] = add_product(S, w, k, w[S.b + line + r], a, r, S.f)
         y = w[S.f + line] - w[S.acceleration + line] / w[own_block(S, k, a)]
         w[S.right + line] = w[S.f + line] - max(0.0, y)
         radius = w[S.mu + a] * max(0.0, y)
@@ -56,13 +56,13 @@ def _residual(S: Scalars, w: Floats, k: Integers) -> float:
 
 
 @kernel("void(S, F, I, i8, i8, f8)")
-def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, factor: float) -> None:
-    """Add a row of G, that is of contact ``a``, times a factor to the same row of ``matrix``."""
+def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, slope: float) -> None:
+    """Add a row of G, that is of contact ``a``, over a slope to the same row of ``matrix``."""
     row = S.block_start + S.first_grouped + a
     line = band_row(S.matrix, 3 * a + r, 3 * S.n_active, S.half_band)
     for block in range(k[row], k[row + 1]):
         for s in range(3):
-            w[line + 3 * k[S.block_column + block] + s] += factor * w[S.delassus + 9 * block + 3 * r + s]
+            w[line + 3 * k[S.block_column + block] + s] += w[S.delassus + 9 * block + 3 * r + s] / slope
 
 
 @kernel("void(S, F, I, i8, f8, f8, f8)")
@@ -86,7 +86,7 @@ def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, 
 
 @kernel("i8(S, F, I)")
 def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
-    """Write the derivative of the natural map to ``matrix``, accelerations being those of ``f``; return 1, 0 if no room."""
+    """Write the derivative of the natural map to ``matrix``, accelerations being those of ``f``; return 0 if no room."""
     n = 3 * S.n_active
     for a in range(S.n_active + 1):
         k[S.first_unknown + a] = 3 * a
@@ -98,7 +98,7 @@ def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
         y = w[S.f + line] - w[S.acceleration + line] / own
         row = band_row(S.matrix, line, n, S.half_band)
         if y > 0.0:
-            _add_row(S, w, k, a, 0, 1.0 / own)
+            _add_row(S, w, k, a, 0, own)
             w[row + line] += _FLOOR
         else:
             w[row + line] = 1.0
@@ -116,8 +116,9 @@ def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
         if length <= radius:
             for r in range(1, 3):
                 row = band_row(S.matrix, line + r, n, S.half_band)
-                w[row + line + r] = _FLOOR
-                _add_row(S, w, k, a, r, 1.0 / slope)
+                w[row + line + r] = 0.0
+                _add_row(S, w, k, a, r, slope)
+                w[row + line + r] += _FLOOR
         elif radius > 0.0:
             _add_cut(S, w, k, a, radius / length, y1 / length, y2 / length)
     return 1
