@@ -7,10 +7,11 @@ import math
 from nonsmooth.engine.band import open_band
 from nonsmooth.engine.contact_trial import hold_tried
 from nonsmooth.engine.delassus import add_product
-from nonsmooth.engine.forces import solve_reduced
+from nonsmooth.engine.forces import eliminate_reduced
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.linear import band_row
+from nonsmooth.engine.linear import band_row, band_width, minimum_norm
 from nonsmooth.engine.modes import SLIDE
+from nonsmooth.engine.null_band import solve_shifted
 
 _STEPS = 25
 _TURN = 0.7
@@ -106,6 +107,21 @@ def _turn(S: Scalars, w: Floats, k: Integers, i: int) -> None:
         w[S.d + 2 * a], w[S.d + 2 * a + 1] = a1 / norm, a2 / norm
 
 
+@kernel("void(S, F, i8)")
+def _solve(S: Scalars, w: Floats, n: int) -> None:
+    """Solve Newton's system; where it is singular, for least norm, or a little off where its band is narrow."""
+    if eliminate_reduced(S, w, n) == 1:
+        return
+    if band_width(n, S.half_band) < n:
+        for i in range(n):
+            w[S.x + i] = w[S.right + i]
+        solve_shifted(S, w, n)
+        return
+    for i in range(n * n):
+        w[S.matrix + i] = w[S.reduced + i]
+    minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
+
+
 @room("i8(S, F, I)")
 def polish(S: Scalars, w: Floats, k: Integers) -> int:
     """Turn the directions ``d`` of incipient slip until no acceleration is left across them, the modes being given.
@@ -131,7 +147,7 @@ def polish(S: Scalars, w: Floats, k: Integers) -> int:
         if worst <= _EXACT or (worst <= _NEAR and worst >= best):
             return 1
         best = min(best, worst)
-        solve_reduced(S, w, n)
+        _solve(S, w, n)
         for i in range(n):
             if k[S.turn + i] == 1:
                 _turn(S, w, k, i)

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.band_cholesky import factorise_band, substitute_band
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.linear import eliminate
+from nonsmooth.engine.linear import band_row, eliminate
+from nonsmooth.engine.null_band import copy_shifted, largest_diagonal, project_on_null
 
 _STEPS = 60
 _ARRIVED = 0.1
 _FLOOR = 1e-9
-"""Added to the Hessian, whose largest eigenvalue is 1, so that it can be inverted."""
+"""Added to the Hessian, whose largest eigenvalue is 1, so that it can be inverted;"""
+_FLOOR_IN_BAND = 1e-3
+"""more where what leaves the null space has to stay far above it:"""
+_CHEAP = 1e-7
+"""the Hessian counts by this, relative to H."""
 
 
 @kernel("f8(S, F, I, i8)")
@@ -41,34 +47,38 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     return 0.5 * square
 
 
-@kernel("void(S, F, I, i8)")
-def _curve(S: Scalars, w: Floats, k: Integers, n: int) -> None:
-    """Write the Hessian of the half square, block by block, to ``basis``."""
-    for i in range(n * n):
-        w[S.basis + i] = 0.0
+@kernel("void(S, F, I, i8, i8, i8, f8)")
+def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: int, factor: float) -> None:
+    """Add the Hessian of the half square, block by block and times a factor, to the band at ``matrix``."""
     for i in range(n):
         line = k[S.column + i]
         a = line // 3
         if line != 3 * a:
             continue
-        normal, h = w[S.f + line], S.basis + i * n + i
+        normal, h = w[S.f + line], band_row(matrix, i, n, half) + i
         if k[S.tangent_held + a] == 0:
-            w[h] = 1.0 if normal < 0.0 else 0.0
+            w[h] += factor if normal < 0.0 else 0.0
             continue
+        h1, h2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
         t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
         mu, length = w[S.mu_static + a], math.sqrt(t1 * t1 + t2 * t2)
         if mu * length <= -normal:
-            w[h] = w[h + n + 1] = w[h + 2 * n + 2] = 1.0
+            w[h] += factor
+            w[h1 + 1] += factor
+            w[h2 + 2] += factor
         elif length > mu * normal:
-            s = 1.0 + mu * mu
+            s = (1.0 + mu * mu) / factor
             c1, c2 = t1 / length, t2 / length
             round_ = (length - mu * normal) / (s * length)
-            w[h] = mu * mu / s
-            w[h + 1] = w[h + n] = -mu * c1 / s
-            w[h + 2] = w[h + 2 * n] = -mu * c2 / s
-            w[h + n + 1] = c1 * c1 / s + round_ * c2 * c2
-            w[h + 2 * n + 2] = c2 * c2 / s + round_ * c1 * c1
-            w[h + n + 2] = w[h + 2 * n + 1] = c1 * c2 / s - round_ * c1 * c2
+            w[h] += mu * mu / s
+            w[h + 1] -= mu * c1 / s
+            w[h + 2] -= mu * c2 / s
+            w[h1] -= mu * c1 / s
+            w[h2] -= mu * c2 / s
+            w[h1 + 1] += c1 * c1 / s + round_ * c2 * c2
+            w[h2 + 2] += c2 * c2 / s + round_ * c1 * c1
+            w[h1 + 2] += c1 * c2 / s - round_ * c1 * c2
+            w[h2 + 1] += c1 * c2 / s - round_ * c1 * c2
 
 
 @kernel("void(F, i8, i8, i8, i8)")
@@ -81,48 +91,70 @@ def _multiply(w: Floats, left: int, right: int, out: int, n: int) -> None:
             w[out + i * n + j] = total
 
 
+@kernel("i8(S, F, I, i8)")
+def _step(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+    """Write Newton's step in the null space, whose projector stands in full, to ``x``; return 0 if there is none."""
+    for i in range(n * n):
+        w[S.basis + i] = 0.0
+    _add_curve(S, w, k, n, S.basis, n, 1.0)
+    _multiply(w, S.basis, S.null, S.matrix, n)
+    _multiply(w, S.null, S.matrix, S.basis, n)
+    for i in range(n):
+        w[S.x + i] = 0.0
+        for j in range(n):
+            w[S.x + i] -= w[S.null + i * n + j] * w[S.right + j]
+            w[S.matrix + i * n + j] = w[S.basis + i * n + j]
+        w[S.matrix + i * n + i] += _FLOOR
+    if eliminate(w, S.matrix, n, n, S.x) == 0:
+        return 0
+    # the elimination leaks out of the null space by round-off over the floor
+    for i in range(n):
+        w[S.matrix + i] = w[S.x + i]
+    for i in range(n):
+        w[S.x + i] = 0.0
+        for j in range(n):
+            w[S.x + i] += w[S.null + i * n + j] * w[S.matrix + j]
+    return 1
+
+
+@kernel("i8(S, F, I, i8)")
+def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+    """Write Newton's step to ``x``: what leaves the null space, by H in ``basis``, is made dear, and cut off then."""
+    weight = _CHEAP * largest_diagonal(w, S.basis, n, S.half_band)
+    copy_shifted(w, S.basis, n, S.half_band, S.matrix, weight * _FLOOR_IN_BAND)
+    _add_curve(S, w, k, n, S.matrix, S.half_band, weight)
+    factorise_band(w, S.matrix, n, S.half_band, 0.1 * weight * _FLOOR_IN_BAND)
+    for i in range(n):
+        w[S.x + i] = -weight * w[S.right + i]
+    substitute_band(w, S.matrix, n, S.half_band, S.x)
+    project_on_null(S, w, n, S.x)
+    return 1
+
+
 @room("i8(S, F, I)")
 def spread(S: Scalars, w: Floats, k: Integers) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 
-    ``f`` is the answer of least norm, ``null`` the projector on what may be added to it.  The half square of the
-    distance to the cones is convex along the null space, and its smallest value is sought by Newton's method.
+    ``f`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the distance to the
+    cones is convex along the null space, and its smallest value is sought by Newton's method.
     """
     n = S.n_unknown
     square = _excess(S, w, k, n)
-    for _step in range(_STEPS):
+    for _round in range(_STEPS):
         worst = 0.0
         for i in range(n):
             worst = max(worst, abs(w[S.right + i]))
         if worst <= _ARRIVED * S.small_force:
             return 1
-        _curve(S, w, k, n)
-        _multiply(w, S.basis, S.null, S.matrix, n)
-        _multiply(w, S.null, S.matrix, S.basis, n)
+        if (_step_in_band(S, w, k, n) if S.null_banded == 1 else _step(S, w, k, n)) == 0:
+            return 0
         slope = 0.0
         for i in range(n):
-            total = 0.0
-            for j in range(n):
-                total -= w[S.null + i * n + j] * w[S.right + j]
-                w[S.matrix + i * n + j] = w[S.basis + i * n + j]
-            w[S.matrix + i * n + i] += _FLOOR
-            w[S.x + i] = total
-            w[S.sigma + i] = total
-        if eliminate(w, S.matrix, n, n, S.x) == 0:
-            return 0
-        # the elimination leaks out of the null space by round-off over the floor
-        for i in range(n):
-            w[S.matrix + i] = w[S.x + i]
-        for i in range(n):
-            w[S.x + i] = 0.0
-            for j in range(n):
-                w[S.x + i] += w[S.null + i * n + j] * w[S.matrix + j]
-            slope -= w[S.sigma + i] * w[S.x + i]
+            slope += w[S.right + i] * w[S.x + i]
+            w[S.sigma + i] = w[S.f + k[S.column + i]]
         if not slope < 0.0:
             return 0
         share, moved = 1.0, 0
-        for i in range(n):
-            w[S.sigma + i] = w[S.f + k[S.column + i]]
         for _halving in range(30):
             for i in range(n):
                 w[S.f + k[S.column + i]] = w[S.sigma + i] + share * w[S.x + i]

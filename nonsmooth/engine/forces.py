@@ -13,7 +13,7 @@ from nonsmooth.engine.band import open_band
 from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import band_row, band_width, eliminate, minimum_norm
-from nonsmooth.model.layout import MOST_ENTRIES
+from nonsmooth.engine.null_band import least_norm_in_band
 
 _COUPLED = 1e-7
 """Null-space entries above this tie a contact to the group whose forces are not unique."""
@@ -28,7 +28,13 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
             _lay_row(S, w, k, a, i, n)
-    solve_unknowns(S, w, k, n)
+    if solve_unknowns(S, w, k, n) == 0:
+        for i in range(n * band_width(n, S.half_band)):
+            w[S.basis + i] = 0.0
+        for a in range(S.n_active):
+            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+                _lay_gram(S, w, k, a, i, n)
+        spread_in_band(S, w, k, n)
     for i in range(n):
         w[S.f + k[S.column + i]] = w[S.x + i]
     for a in range(S.n_active):
@@ -41,54 +47,105 @@ def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None
     """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
     r = k[S.column + i] - 3 * a
     w[S.right + i] = -add_product(S, w, k, w[S.b + 3 * a + r], a, r, S.f)
-    line = band_row(S.reduced, i, n, S.half_band)
+    _add_effects(S, w, k, a, r, 1.0, band_row(S.reduced, i, n, S.half_band))
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _lay_gram(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write the row of unknown ``i``, one of contact ``a``, of H: what the unknowns do along the way it pushes."""
+    r = k[S.column + i] - 3 * a
+    line = band_row(S.basis, i, n, S.half_band)
+    _add_effects(S, w, k, a, r, 1.0, line)
+    if r == 0 and k[S.tangent_held + a] == 0:
+        for j in range(2):
+            _add_effects(S, w, k, a, 1 + j, -w[S.mu + a] * w[S.d + 2 * a + j], line)
+
+
+@kernel("void(S, F, I, i8, i8, f8, i8)")
+def _add_effects(S: Scalars, w: Floats, k: Integers, a: int, r: int, factor: float, line: int) -> None:
+    """Add what the unknowns do to row ``r`` of contact ``a``, times a factor, to the row at ``line``."""
     row = S.block_start + S.first_grouped + a
     for block in range(k[row], k[row + 1]):
         d = k[S.block_column + block]
         g = S.delassus + 9 * block + 3 * r
         out = line + k[S.first_unknown + d]
         if k[S.normal_held + d] == 1:
-            w[out] = w[g]
+            effect = w[g]
             if k[S.tangent_held + d] == 0:
                 # the friction of a sliding contact moves with its normal force
-                w[out] -= w[S.mu + d] * (w[S.d + 2 * d] * w[g + 1] + w[S.d + 2 * d + 1] * w[g + 2])
+                effect -= w[S.mu + d] * (w[S.d + 2 * d] * w[g + 1] + w[S.d + 2 * d + 1] * w[g + 2])
+            w[out] += factor * effect
             out += 1
         if k[S.tangent_held + d] == 1:
-            w[out], w[out + 1] = w[g + 1], w[g + 2]
+            w[out] += factor * w[g + 1]
+            w[out + 1] += factor * w[g + 2]
 
 
-@kernel("void(S, F, I, i8)")
-def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
-    """Solve the reduced system ``reduced . x = right`` of the unknowns in ``column``, for least norm if singular."""
+@kernel("i8(S, F, I, i8)")
+def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+    """Solve ``reduced . x = right`` of the unknowns in ``column``, for least norm if singular and stored in full.
+
+    Return 0 if it is singular in a narrower band: then :func:`spread_in_band` is to follow.
+    """
     S.n_unknown = n
-    S.n_redundant = S.deficient = 0
+    S.n_redundant = S.deficient = S.null_banded = 0
     if n == 1 and w[S.reduced] != 0.0:
         w[S.x] = w[S.right] / w[S.reduced]
-        return
-    rank = solve_reduced(S, w, n)
-    if rank < n:
-        _project(S, w, k, n, rank)
+        return 1
+    if eliminate_reduced(S, w, n) == 1:
+        return 1
+    S.deficient = 1
+    if band_width(n, S.half_band) < n:
+        return 0
+    for i in range(n * n):
+        w[S.matrix + i] = w[S.reduced + i]
+    rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
+    for i in range(n):
+        for j in range(n):
+            total = 1.0 if i == j else 0.0
+            for c in range(rank):
+                total -= w[S.basis + c * n + i] * w[S.basis + c * n + j]
+            w[S.null + i * n + j] = total
+    _mark_redundant(S, w, k, n)
+    return 1
 
 
 @kernel("i8(S, F, i8)")
-def solve_reduced(S: Scalars, w: Floats, n: int) -> int:
-    """Solve ``reduced . x = right``; return the rank, below which x is of least norm and ``basis`` spans its rows."""
+def eliminate_reduced(S: Scalars, w: Floats, n: int) -> int:
+    """Solve ``reduced . x = right`` by elimination; return 0 if singular."""
     for i in range(n):
         w[S.x + i] = w[S.right + i]
     for i in range(n * band_width(n, S.half_band)):
         w[S.matrix + i] = w[S.reduced + i]
-    if eliminate(w, S.matrix, n, S.half_band, S.x) == 1:
-        return n
-    if n * n > MOST_ENTRIES:
-        S.crowded = 1
-        return n
-    for i in range(n * n):
-        w[S.matrix + i] = 0.0
+    return eliminate(w, S.matrix, n, S.half_band, S.x)
+
+
+@kernel("void(S, F, I, i8)")
+def spread_in_band(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+    """Solve the singular banded system for least norm, H standing in ``basis``."""
+    least_norm_in_band(S, w, n)
+    S.null_banded = 1
+    _mark_redundant(S, w, k, n)
+
+
+@kernel("f8(S, F, i8, i8)")
+def null_entry(S: Scalars, w: Floats, i: int, j: int) -> float:
+    """Return an entry of the projector on the null space; those outside of a band count as zero."""
+    if S.null_banded == 0:
+        return w[S.null + i * S.n_unknown + j]
+    if abs(i - j) > S.half_band:
+        return 0.0
+    return w[band_row(S.reduced, i, S.n_unknown, S.half_band) + j]
+
+
+@kernel("void(S, F, I, i8)")
+def _mark_redundant(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+    """Mark the contacts whose friction is not unique."""
     for i in range(n):
-        line = band_row(S.reduced, i, n, S.half_band)
-        for j in range(max(0, i - S.half_band), min(n, i + S.half_band + 1)):
-            w[S.matrix + i * n + j] = w[line + j]
-    return minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
+        a = k[S.column + i] // 3
+        if k[S.column + i] != 3 * a and null_entry(S, w, i, i) > _COUPLED:
+            k[S.redundant + a] = 1
+            S.n_redundant = 1
 
 
 @kernel("i8(S, F, I)")
@@ -128,23 +185,6 @@ def reduced_coefficient(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     return float(w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2]))
 
 
-@kernel("void(S, F, I, i8, i8)")
-def _project(S: Scalars, w: Floats, k: Integers, n: int, rank: int) -> None:
-    """Keep the projector on the null space of the singular system, and mark whose friction is not unique."""
-    S.deficient = 1
-    for i in range(n):
-        for j in range(n):
-            total = 1.0 if i == j else 0.0
-            for c in range(rank):
-                total -= w[S.basis + c * n + i] * w[S.basis + c * n + j]
-            w[S.null + i * n + j] = total
-    for i in range(n):
-        a = k[S.column + i] // 3
-        if k[S.column + i] != 3 * a and w[S.null + i * n + i] > _COUPLED:
-            k[S.redundant + a] = 1
-            S.n_redundant = 1
-
-
 @kernel()
 def evaluate_margins(S: Scalars, w: Floats, k: Integers) -> None:
     """Write, for every sticking active contact, how far its friction is from the static bound [N].
@@ -165,21 +205,20 @@ def evaluate_margins(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("void(S, F, I, i8)")
 def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
-    n = S.n_unknown
-    own = 0
-    for i in range(n):
-        if k[S.column + i] == 3 * a + 1:
-            own = i
+    own = k[S.first_unknown + a] + k[S.normal_held + a]
+    first, end = 0, S.n_unknown - 1
+    if S.null_banded == 1:
+        first, end = max(0, own - S.half_band), min(end, own + S.half_band)
     bound = sum1 = sum2 = 0.0
-    for i in range(n - 1):
+    for i in range(first, end):
         other = k[S.column + i] // 3
         if k[S.column + i] != 3 * other + 1 or k[S.redundant + other] == 0:
             continue
         coupling = (
-            abs(w[S.null + own * n + i])
-            + abs(w[S.null + own * n + i + 1])
-            + abs(w[S.null + (own + 1) * n + i])
-            + abs(w[S.null + (own + 1) * n + i + 1])
+            abs(null_entry(S, w, own, i))
+            + abs(null_entry(S, w, own, i + 1))
+            + abs(null_entry(S, w, own + 1, i))
+            + abs(null_entry(S, w, own + 1, i + 1))
         )
         if coupling > _COUPLED or other == a:
             bound += w[S.mu_static + other] * w[S.f + 3 * other]
@@ -187,8 +226,8 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
             sum2 += w[S.f + 3 * other + 2]
     group = bound - math.sqrt(sum1 * sum1 + sum2 * sum2)
     # the part of the force orthogonal to this contact's share of the null space
-    p11, p12 = w[S.null + own * n + own], w[S.null + own * n + own + 1]
-    p22 = w[S.null + (own + 1) * n + own + 1]
+    p11, p12 = null_entry(S, w, own, own), null_entry(S, w, own, own + 1)
+    p22 = null_entry(S, w, own + 1, own + 1)
     t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
     unique = 0.0
     if p11 * p22 - p12 * p12 < _COUPLED * (p11 + p22) * (p11 + p22):

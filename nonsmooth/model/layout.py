@@ -147,6 +147,7 @@ INTEGER_SCALARS = (
     "crowded",
     "n_redundant",
     "deficient",
+    "null_banded",
     "lenient",
     "n_pivoted",
     "solver",
@@ -227,6 +228,7 @@ FLOAT_SCALARS = (
     "acceleration_scale",
     "small_acceleration",
     "small_force",
+    "null_shift",
 )
 
 Size = Callable[[Mapping[str, int]], int]
