@@ -54,8 +54,7 @@ class ContactResult:
     @property
     def _size(self) -> float:
         """Largest of the accelerations that cancel one another [m/s^2]."""
-        n = len(self.modes)
-        delassus = self._memory.array("delassus", 9 * n * n)
+        delassus = read_delassus(self._memory, len(self.modes))
         return max(float(np.max(np.abs(delassus))) * float(np.max(np.abs(self.normal_force))), 1e-300)
 
     @cached_property

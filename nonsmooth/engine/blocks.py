@@ -1,6 +1,6 @@
 """The structure of the Delassus matrix by blocks: which of the active contacts share a movable linkage.
 
-Rows of 3 x 3 blocks are compressed: that of active contact a stands at ``block_start`` from entry ``first_grouped`` + a on, and
+Rows of 3 x 3 blocks are compressed: that of active contact a is entry ``first_grouped`` + a of ``block_start``, and
 ``block_column`` holds the active contacts that it couples with, in ascending order and itself among them.
 """
 

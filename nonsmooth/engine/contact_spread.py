@@ -120,13 +120,13 @@ def _step(S: Scalars, w: Floats, k: Integers, n: int) -> int:
 @kernel("i8(S, F, I, i8)")
 def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int) -> int:
     """Write Newton's step to ``x``: what leaves the null space, by H in ``basis``, is made dear, and cut off then."""
-    weight = _CHEAP * largest_diagonal(w, S.basis, n, S.half_band)
-    copy_shifted(w, S.basis, n, S.half_band, S.matrix, weight * _FLOOR_IN_BAND)
-    _add_curve(S, w, k, n, S.matrix, S.half_band, weight)
-    factorise_band(w, S.matrix, n, S.half_band, 0.1 * weight * _FLOOR_IN_BAND)
+    weight = _CHEAP * largest_diagonal(w, S.basis, n, S.null_half)
+    copy_shifted(w, S.basis, n, S.null_half, S.matrix, weight * _FLOOR_IN_BAND)
+    _add_curve(S, w, k, n, S.matrix, S.null_half, weight)
+    factorise_band(w, S.matrix, n, S.null_half, 0.1 * weight * _FLOOR_IN_BAND)
     for i in range(n):
         w[S.x + i] = -weight * w[S.right + i]
-    substitute_band(w, S.matrix, n, S.half_band, S.x)
+    substitute_band(w, S.matrix, n, S.null_half, S.x)
     project_on_null(S, w, n, S.x)
     return 1
 

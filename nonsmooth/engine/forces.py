@@ -28,13 +28,7 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
             _lay_row(S, w, k, a, i, n)
-    if solve_unknowns(S, w, k, n) == 0:
-        for i in range(n * band_width(n, S.half_band)):
-            w[S.basis + i] = 0.0
-        for a in range(S.n_active):
-            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
-                _lay_gram(S, w, k, a, i, n)
-        spread_in_band(S, w, k, n)
+    solve_unknowns(S, w, k, n)
     for i in range(n):
         w[S.f + k[S.column + i]] = w[S.x + i]
     for a in range(S.n_active):
@@ -47,56 +41,51 @@ def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None
     """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
     r = k[S.column + i] - 3 * a
     w[S.right + i] = -add_product(S, w, k, w[S.b + 3 * a + r], a, r, S.f)
-    _add_effects(S, w, k, a, r, 1.0, band_row(S.reduced, i, n, S.half_band))
-
-
-@kernel("void(S, F, I, i8, i8, i8)")
-def _lay_gram(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
-    """Write the row of unknown ``i``, one of contact ``a``, of H: what the unknowns do along the way it pushes."""
-    r = k[S.column + i] - 3 * a
-    line = band_row(S.basis, i, n, S.half_band)
-    _add_effects(S, w, k, a, r, 1.0, line)
-    if r == 0 and k[S.tangent_held + a] == 0:
-        for j in range(2):
-            _add_effects(S, w, k, a, 1 + j, -w[S.mu + a] * w[S.d + 2 * a + j], line)
-
-
-@kernel("void(S, F, I, i8, i8, f8, i8)")
-def _add_effects(S: Scalars, w: Floats, k: Integers, a: int, r: int, factor: float, line: int) -> None:
-    """Add what the unknowns do to row ``r`` of contact ``a``, times a factor, to the row at ``line``."""
+    line = band_row(S.reduced, i, n, S.half_band)
     row = S.block_start + S.first_grouped + a
     for block in range(k[row], k[row + 1]):
         d = k[S.block_column + block]
         g = S.delassus + 9 * block + 3 * r
         out = line + k[S.first_unknown + d]
         if k[S.normal_held + d] == 1:
-            effect = w[g]
+            w[out] = w[g]
             if k[S.tangent_held + d] == 0:
                 # the friction of a sliding contact moves with its normal force
-                effect -= w[S.mu + d] * (w[S.d + 2 * d] * w[g + 1] + w[S.d + 2 * d + 1] * w[g + 2])
-            w[out] += factor * effect
+                w[out] -= w[S.mu + d] * (w[S.d + 2 * d] * w[g + 1] + w[S.d + 2 * d + 1] * w[g + 2])
             out += 1
         if k[S.tangent_held + d] == 1:
-            w[out] += factor * w[g + 1]
-            w[out + 1] += factor * w[g + 2]
+            w[out], w[out + 1] = w[g + 1], w[g + 2]
 
 
-@kernel("i8(S, F, I, i8)")
-def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> int:
-    """Solve ``reduced . x = right`` of the unknowns in ``column``, for least norm if singular and stored in full.
+@kernel("void(S, F, I, i8)")
+def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+    """Solve ``reduced . x = right`` of the unknowns in ``column``, for least norm if singular.
 
-    Return 0 if it is singular in a narrower band: then :func:`spread_in_band` is to follow.
+    It stays in its band then, or is treated in full where the band fills it.
     """
     S.n_unknown = n
     S.n_redundant = S.deficient = S.null_banded = 0
     if n == 1 and w[S.reduced] != 0.0:
         w[S.x] = w[S.right] / w[S.reduced]
-        return 1
+        return
     if eliminate_reduced(S, w, n) == 1:
-        return 1
+        return
     S.deficient = 1
     if band_width(n, S.half_band) < n:
-        return 0
+        S.null_banded = 1
+        least_norm_in_band(S, w, n)
+    else:
+        _least_norm(S, w, n)
+    for i in range(n):
+        a = k[S.column + i] // 3
+        if k[S.column + i] != 3 * a and null_entry(S, w, i, i) > _COUPLED:
+            k[S.redundant + a] = 1
+            S.n_redundant = 1
+
+
+@kernel("void(S, F, i8)")
+def _least_norm(S: Scalars, w: Floats, n: int) -> None:
+    """Solve the singular system, stored in full, for least norm; keep the projector on its null space."""
     for i in range(n * n):
         w[S.matrix + i] = w[S.reduced + i]
     rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
@@ -106,8 +95,6 @@ def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> int:
             for c in range(rank):
                 total -= w[S.basis + c * n + i] * w[S.basis + c * n + j]
             w[S.null + i * n + j] = total
-    _mark_redundant(S, w, k, n)
-    return 1
 
 
 @kernel("i8(S, F, i8)")
@@ -120,32 +107,14 @@ def eliminate_reduced(S: Scalars, w: Floats, n: int) -> int:
     return eliminate(w, S.matrix, n, S.half_band, S.x)
 
 
-@kernel("void(S, F, I, i8)")
-def spread_in_band(S: Scalars, w: Floats, k: Integers, n: int) -> None:
-    """Solve the singular banded system for least norm, H standing in ``basis``."""
-    least_norm_in_band(S, w, n)
-    S.null_banded = 1
-    _mark_redundant(S, w, k, n)
-
-
 @kernel("f8(S, F, i8, i8)")
 def null_entry(S: Scalars, w: Floats, i: int, j: int) -> float:
     """Return an entry of the projector on the null space; those outside of a band count as zero."""
     if S.null_banded == 0:
         return w[S.null + i * S.n_unknown + j]
-    if abs(i - j) > S.half_band:
+    if abs(i - j) > S.null_half:
         return 0.0
-    return w[band_row(S.reduced, i, S.n_unknown, S.half_band) + j]
-
-
-@kernel("void(S, F, I, i8)")
-def _mark_redundant(S: Scalars, w: Floats, k: Integers, n: int) -> None:
-    """Mark the contacts whose friction is not unique."""
-    for i in range(n):
-        a = k[S.column + i] // 3
-        if k[S.column + i] != 3 * a and null_entry(S, w, i, i) > _COUPLED:
-            k[S.redundant + a] = 1
-            S.n_redundant = 1
+    return w[band_row(S.reduced, i, S.n_unknown, S.null_half) + j]
 
 
 @kernel("i8(S, F, I)")
@@ -208,7 +177,7 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     own = k[S.first_unknown + a] + k[S.normal_held + a]
     first, end = 0, S.n_unknown - 1
     if S.null_banded == 1:
-        first, end = max(0, own - S.half_band), min(end, own + S.half_band)
+        first, end = max(0, own - S.null_half), min(end, own + S.null_half)
     bound = sum1 = sum2 = 0.0
     for i in range(first, end):
         other = k[S.column + i] // 3

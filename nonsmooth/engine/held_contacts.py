@@ -8,10 +8,10 @@ times columns is the reduced matrix whose unknowns are the forces; no more of G 
 from __future__ import annotations
 
 from nonsmooth.engine.band import open_band
-from nonsmooth.engine.forces import friction_of_slip, solve_unknowns, spread_in_band
+from nonsmooth.engine.forces import friction_of_slip, solve_unknowns
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.kinematics import evaluate_row, evaluate_row_response, row
-from nonsmooth.engine.linear import band_row, band_width
+from nonsmooth.engine.linear import band_row
 from nonsmooth.engine.modes import SLIDE
 
 
@@ -77,22 +77,15 @@ def _reduce(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     c, r = k[S.active + a], i - k[S.first_unknown + a]
     w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
     line = band_row(S.reduced, i, n, S.half_band)
-    _couple(S, w, k, a, r, line)
-    # a sliding contact on which more force gives more approach
-    if r == 0 and k[S.mode + c] == SLIDE and w[line + i] <= 0.0:
-        S.singular = c
-
-
-@kernel("void(S, F, I, i8, i8, i8)")
-def _couple(S: Scalars, w: Floats, k: Integers, a: int, r: int, line: int) -> None:
-    """Write what all columns do to row ``r`` of the Jacobians of contact ``a``."""
-    c = k[S.active + a]
     blocks = S.block_start + S.first_grouped + a
     for block in range(k[blocks], k[blocks + 1]):
         other = k[S.block_column + block]
         first = k[S.first_unknown + other]
         for s in range(k[S.first_unknown + other + 1] - first):
             w[line + first + s] = _coupling(S, w, k, c, r, k[S.active + other], s)
+    # a sliding contact on which more force gives more approach
+    if r == 0 and k[S.mode + c] == SLIDE and w[line + i] <= 0.0:
+        S.singular = c
 
 
 @kernel("void(S, F, I)")
@@ -107,15 +100,7 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
             _reduce(S, w, k, a, i, n)
-    if solve_unknowns(S, w, k, n) == 0:
-        for i in range(n * band_width(n, S.half_band)):
-            w[S.basis + i] = 0.0
-        for a in range(S.n_active):
-            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
-                # along the way it pushes: row 1 of a sliding contact
-                r = i - k[S.first_unknown + a] if k[S.tangent_held + a] == 1 else 1
-                _couple(S, w, k, a, r, band_row(S.basis, i, n, S.half_band))
-        spread_in_band(S, w, k, n)
+    solve_unknowns(S, w, k, n)
     first = 0
     for a in range(S.n_active):
         c = k[S.active + a]

@@ -1,7 +1,7 @@
 """Least norm and null space of a singular banded system, at the cost of the band.
 
-With H = C^T K C, C being what the unknown forces do to the bodies, the forces that move nothing are the null space of H,
-and e (H + e)^-1 tends to the projector on it as e goes to zero.  It is applied twice.  A solution comes from the system
+The null space of G is that of H, which is G itself where it is symmetric, and G^T G where something slides; and
+e (H + e)^-1 tends to the projector on it as e goes to zero.  It is applied twice.  A solution comes from the system
 with a little added to its diagonal, less its part in the null space, and is refined until nothing remains.
 """
 
@@ -10,12 +10,16 @@ from __future__ import annotations
 from nonsmooth.engine.band_cholesky import factorise_band, invert_in_band, substitute_band
 from nonsmooth.engine.kernel import Floats, Scalars, kernel
 from nonsmooth.engine.linear import band_row, band_width, eliminate
+from nonsmooth.model.layout import MOST_ENTRIES
 
 _SHIFT = 1e-8
 """Added to the diagonal of the system, relative to its largest entry: clearly more than counts as zero there."""
 _FAINT = 1e-12
 """Added to that of H, relative to its largest entry: clearly less than any force that moves something has."""
 _ROUNDS = 20
+_REMOVALS = 4
+"""The projector is known to a part of rounding over what was added, and takes off all but that part each time."""
+_SYMMETRIC = 1e-12
 _SETTLED = 1e-15
 
 
@@ -49,7 +53,7 @@ def solve_shifted(S: Scalars, w: Floats, n: int) -> int:
 def project_on_null(S: Scalars, w: Floats, n: int, v: int) -> None:
     """Replace the vector at ``v`` by its part in the null space."""
     for _time in range(2):
-        substitute_band(w, S.null, n, S.half_band, v)
+        substitute_band(w, S.null, n, S.null_half, v)
         for i in range(n):
             w[v + i] *= S.null_shift
 
@@ -57,7 +61,7 @@ def project_on_null(S: Scalars, w: Floats, n: int, v: int) -> None:
 @kernel("void(S, F, i8, i8)")
 def _remove_null(S: Scalars, w: Floats, n: int, v: int) -> None:
     """Take its part in the null space off the vector at ``v``; ``matrix`` is overwritten."""
-    for _time in range(2):
+    for _time in range(_REMOVALS):
         for i in range(n):
             w[S.matrix + i] = w[v + i]
         project_on_null(S, w, n, S.matrix)
@@ -78,16 +82,51 @@ def _lay_residual(S: Scalars, w: Floats, n: int, x: int, out: int) -> float:
     return worst
 
 
+@kernel("i8(S, F, i8)")
+def _is_symmetric(S: Scalars, w: Floats, n: int) -> int:
+    small = _SYMMETRIC * largest_diagonal(w, S.reduced, n, S.half_band)
+    for i in range(n):
+        line = band_row(S.reduced, i, n, S.half_band)
+        for j in range(max(0, i - S.half_band), i):
+            if abs(w[line + j] - w[band_row(S.reduced, j, n, S.half_band) + i]) > small:
+                return 0
+    return 1
+
+
+@kernel("void(S, F, i8)")
+def _lay_square(S: Scalars, w: Floats, n: int) -> None:
+    """Write H, of half band ``null_half``, to ``basis``."""
+    half = S.half_band
+    if _is_symmetric(S, w, n) == 1:
+        S.null_half = half
+        copy_shifted(w, S.reduced, n, half, S.basis, 0.0)
+        return
+    S.null_half = min(2 * half, n - 1)
+    for i in range(n * band_width(n, S.null_half)):
+        w[S.basis + i] = 0.0
+    for line in range(n):
+        row = band_row(S.reduced, line, n, half)
+        first, end = max(0, line - half), min(n, line + half + 1)
+        for i in range(first, end):
+            out = band_row(S.basis, i, n, S.null_half)
+            if w[row + i] != 0.0:
+                for j in range(first, end):
+                    w[out + j] += w[row + i] * w[row + j]
+
+
 @kernel("void(S, F, i8)")
 def least_norm_in_band(S: Scalars, w: Floats, n: int) -> None:
-    """Solve ``reduced . x = right`` for least norm, H standing in ``basis``.
+    """Solve ``reduced . x = right`` for least norm.
 
-    Leaves the factor of H in ``null`` and the band of the projector on the null space in ``reduced``.
+    Leaves H in ``basis``, its factor in ``null``, and the band of the projector on the null space in ``reduced``.
     """
-    half = S.half_band
-    S.null_shift = _FAINT * largest_diagonal(w, S.basis, n, half)
-    copy_shifted(w, S.basis, n, half, S.null, S.null_shift)
-    factorise_band(w, S.null, n, half, 0.1 * S.null_shift)
+    if n * band_width(n, 2 * S.half_band) > MOST_ENTRIES:
+        S.crowded = 1
+        return
+    _lay_square(S, w, n)
+    S.null_shift = _FAINT * largest_diagonal(w, S.basis, n, S.null_half)
+    copy_shifted(w, S.basis, n, S.null_half, S.null, S.null_shift)
+    factorise_band(w, S.null, n, S.null_half, 0.1 * S.null_shift)
     # the answer so far grows in sigma, the correction in x
     total, size, before = S.sigma, 0.0, 1e300
     for i in range(n):
@@ -110,6 +149,6 @@ def least_norm_in_band(S: Scalars, w: Floats, n: int) -> None:
             w[total + i] += w[S.x + i]
     for i in range(n):
         w[S.x + i] = w[total + i]
-    invert_in_band(w, S.null, n, half, S.reduced)
-    for i in range(n * band_width(n, half)):
+    invert_in_band(w, S.null, n, S.null_half, S.reduced)
+    for i in range(n * band_width(n, S.null_half)):
         w[S.reduced + i] *= S.null_shift

@@ -63,18 +63,18 @@ def _potential_energy(S: Scalars, w: Floats, k: Integers) -> float:
     return total
 
 
-@kernel("f8(S, F, I)")
-def project_gaps(S: Scalars, w: Floats, k: Integers) -> float:
-    """Bring the gaps of the active contacts to zero by one Newton step along K W.
+@kernel("i8(S, F, I)")
+def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
+    """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time, along K W.
 
-    Returns the potential energy it removes [J].
+    Return 1, or 0 where no gap is left.
     """
     m = S.n_active
     worst = 0.0
     for a in range(m):
         worst = max(worst, abs(w[S.geometry + GEOMETRY * k[S.active + a]]))
     if worst <= 1e-16:
-        return 0.0
+        return 0
     assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
@@ -83,11 +83,15 @@ def project_gaps(S: Scalars, w: Floats, k: Integers) -> float:
         w[S.mu + a] = 0.0
         w[S.b + 3 * a] = w[S.geometry + GEOMETRY * c]
     resolve(S, w, k)
-    # dq = B du: let the bodies turn the displacement into coordinate rates
-    for i in range(S.n_y):
-        w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
     add_response(S, w, k, S.f, S.y_stage + S.n_q)
+    return 1
+
+
+@kernel("f8(S, F, I)")
+def _displace(S: Scalars, w: Floats, k: Integers) -> float:
+    """Move the bodies by the velocities in ``y_stage`` for unit time; return the potential energy this removes [J]."""
     before = _potential_energy(S, w, k)
+    # dq = B du: let the bodies turn the displacement into coordinate rates
     evaluate_bodies(S, w, k, S.t, S.y_stage)
     for body in range(S.n_bodies):
         for i in range(k[S.body_nq + body]):
@@ -107,13 +111,18 @@ def project_closed(S: Scalars, w: Floats, k: Integers, book_gaps: int) -> float:
     if S.n_grouped == 0:
         return 0.0
     evaluate_bodies(S, w, k, S.t, S.y)
+    for i in range(S.n_y):
+        w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
     loss = 0.0
+    moved = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         for a in range(S.n_active):
             evaluate_contact(S, w, k, k[S.active + a], 1)
         loss += project_rates(S, w, k)
-        removed = project_gaps(S, w, k)
+        moved += _add_gaps(S, w, k)
+    if moved > 0:
+        removed = _displace(S, w, k)
         if book_gaps == 1:
             loss += removed
     return loss

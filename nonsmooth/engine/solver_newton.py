@@ -86,7 +86,7 @@ def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, 
 
 @kernel("i8(S, F, I)")
 def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
-    """Write the derivative of the natural map to ``matrix``, accelerations being those of ``f``; return 0 if no room."""
+    """Write the derivative of the natural map at ``f`` and its accelerations to ``matrix``; return 0 if no room."""
     n = 3 * S.n_active
     for a in range(S.n_active + 1):
         k[S.first_unknown + a] = 3 * a

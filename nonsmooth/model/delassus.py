@@ -1,4 +1,4 @@
-"""A Delassus matrix of contacts that all act on one another, in and out of the engine's memory."""
+"""A Delassus matrix given in full, in and out of the blocks of the engine's memory."""
 
 from __future__ import annotations
 
@@ -11,15 +11,26 @@ Floats = NDArray[np.float64]
 
 
 def write_delassus(memory: Memory, matrix: Floats) -> None:
-    """Lay a matrix of shape [3 n, 3 n] into the memory as n^2 blocks, of the contacts 0 to n - 1."""
+    """Lay a matrix of shape [3 n, 3 n] into the memory, for the contacts 0 to n - 1 in this order.
+
+    Contacts whose blocks are zero both ways do not act on each other.
+    """
     n = len(matrix) // 3
-    memory.array("block_start", n + 1)[:] = n * np.arange(n + 1)
-    memory.array("block_column", n * n)[:] = np.tile(np.arange(n), n)
-    memory.array("own_block", n)[:] = (n + 1) * np.arange(n)
-    memory.array("delassus", 9 * n * n)[:] = np.reshape(matrix, (n, 3, n, 3)).transpose(0, 2, 1, 3).ravel()
+    blocks = np.reshape(matrix, (n, 3, n, 3)).transpose(0, 2, 1, 3)
+    coupled = np.any(blocks != 0.0, axis=(2, 3))
+    coupled |= coupled.T | np.eye(n, dtype=bool)
+    rows, columns = np.nonzero(coupled)
+    memory.array("block_start", n + 1)[:] = np.searchsorted(rows, np.arange(n + 1))
+    memory.array("block_column", len(columns))[:] = columns
+    memory.array("own_block", n)[:] = np.flatnonzero(rows == columns)
+    memory.array("delassus", 9 * len(columns))[:] = blocks[coupled].ravel()
 
 
 def read_delassus(memory: Memory, n: int) -> Floats:
-    """Return a matrix that :func:`write_delassus` has laid, shape [3 n, 3 n]."""
-    blocks = memory.array("delassus", 9 * n * n).reshape(n, n, 3, 3)
+    """Return the matrix of the contacts 0 to n - 1, shape [3 n, 3 n]."""
+    starts = memory.array("block_start", n + 1)
+    columns = memory.array("block_column", int(starts[-1]))
+    rows = np.repeat(np.arange(n), np.diff(starts))
+    blocks = np.zeros((n, n, 3, 3))
+    blocks[rows, columns] = memory.array("delassus", 9 * len(columns)).reshape(-1, 3, 3)
     return np.ascontiguousarray(blocks.transpose(0, 2, 1, 3)).reshape(3 * n, 3 * n)

@@ -148,6 +148,7 @@ INTEGER_SCALARS = (
     "n_redundant",
     "deficient",
     "null_banded",
+    "null_half",
     "lenient",
     "n_pivoted",
     "solver",
