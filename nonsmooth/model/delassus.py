@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.errors import InvalidInput
+from nonsmooth.model.layout import MOST_BLOCKS
 from nonsmooth.model.memory import Memory
 
 Floats = NDArray[np.float64]
@@ -14,12 +16,20 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
     """Lay a matrix of shape [3 n, 3 n] into the memory, for the contacts 0 to n - 1 in this order.
 
     Contacts whose blocks are zero both ways do not act on each other.
+
+    Raises
+    ------
+    InvalidInput
+        If there are more blocks than the memory has room for.
     """
     n = len(matrix) // 3
     blocks = np.reshape(matrix, (n, 3, n, 3)).transpose(0, 2, 1, 3)
     coupled = np.any(blocks != 0.0, axis=(2, 3))
     coupled |= coupled.T | np.eye(n, dtype=bool)
     rows, columns = np.nonzero(coupled)
+    if len(columns) > MOST_BLOCKS:
+        remedy = "Solve contacts that do not act on each other apart."
+        raise InvalidInput("contacts", f"must couple in at most {MOST_BLOCKS} pairs", len(columns), remedy)
     memory.array("block_start", n + 1)[:] = np.searchsorted(rows, np.arange(n + 1))
     memory.array("block_column", len(columns))[:] = columns
     memory.array("own_block", n)[:] = np.flatnonzero(rows == columns)

@@ -2,8 +2,8 @@
 
     pip install '.[full]' mujoco pybullet && python -m tests.benchmarks.many
 
-Printed are, for chains of 10 to 1000 balls, the wall time of the impact (of a run that ends just after it, less that
-of one that ends just before), per ball, and the slopes in log-log; then, for 10 and 100 balls in a box, milliseconds
+Printed are, for chains of 10 to 1000 balls, the wall time of a run that ends just before the strike and that of the
+impact (of a run that ends just after it, less the other), each per ball and with its slope in log-log; then, for 10 and 100 balls in a box, milliseconds
 of wall time per simulated second of interleaved repetitions, without setting up, the ratio of the medians to this
 engine's, and the deepest overlap relative to the radius.
 """
@@ -28,11 +28,10 @@ REPETITIONS = 3
 
 
 def chains() -> None:
-    """Print what one impact through a row of balls costs."""
-    print(
-        f"{'balls':>8}{'impacts':>9}{'impact steps':>14}{'impact s':>10}{'ms per ball':>13}{'slope':>8}{'energy':>10}"
-    )
-    before: tuple[int, float] | None = None
+    """Print what a row of balls costs before it is struck, and one impact through it."""
+    columns = ("before ms", "per ball", "slope", "impact ms", "per ball", "slope")
+    print(f"{'balls':>8}{'impact steps':>14}" + "".join(f"{name:>11}" for name in columns) + f"{'energy':>10}")
+    last: tuple[float, ...] = ()
     for n in CHAINS:
         scenario = NewtonsCradle(n_balls=float(n))
         strike = scenario.distance / scenario.speed
@@ -40,15 +39,13 @@ def chains() -> None:
         for t_end in (strike * (1.0 - 1e-6), strike * (1.0 + 1e-6)):
             runs = [simulate(scenario.build(), t_end, sample_interval=1.0) for _ in range(REPETITIONS)]
             seconds.append(min(run.counters.wall_seconds for run in runs))
-        cost = seconds[1] - seconds[0]
-        slope = math.log(cost / before[1]) / math.log(n / before[0]) if before is not None else math.nan
-        before = n, cost
-        count = runs[0].counters
-        print(
-            f"{n:8d}{count.impacts:9d}{count.impact_steps:14d}{cost:10.4f}{1e3 * cost / n:13.3f}{slope:8.2f}"
-            f"{runs[0].energy.residual:10.1e}",
-            flush=True,
-        )
+        costs = seconds[0], seconds[1] - seconds[0]
+        line = f"{n:8d}{runs[0].counters.impact_steps:14d}"
+        for i, cost in enumerate(costs):
+            slope = math.log(cost / last[i + 1]) / math.log(n / last[0]) if last else math.nan
+            line += f"{1e3 * cost:11.3f}{1e3 * cost / n:11.4f}{slope:11.2f}"
+        last = float(n), *costs
+        print(line + f"{runs[0].energy.residual:10.1e}", flush=True)
 
 
 def _timed(task: Callable[[], object]) -> float:

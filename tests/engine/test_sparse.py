@@ -13,7 +13,7 @@ from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import System
 from nonsmooth.engine.kernel import call_room, room_addresses
-from nonsmooth.engine.modes import STICK
+from nonsmooth.engine.modes import NO_SLOT, STICK
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.delassus import read_delassus, write_delassus
 from nonsmooth.model.layout import COUNTS
@@ -191,6 +191,14 @@ def test_contact_problem_in_a_band_has_the_dense_motion(push: float) -> None:
         assert call_room("solve_contact", memory) == 1
         motions.append(matrix @ memory.array("f", len(matrix)) + jacobian @ free)
     np.testing.assert_allclose(motions[0], motions[1], rtol=0, atol=1e-8)
+
+
+def test_too_many_blocks_end_the_run() -> None:
+    """Without room for the blocks of an island the run ends with that reason, and nothing is written beyond them."""
+    memory = assemble(_row(6, np.arange(6), False), Options()).memory
+    memory.scalars["n_slots"] = 2
+    assert call_room("advance", memory, 0) == NO_SLOT
+    assert memory.array("block_start", 6).tolist() == [0, 1, 2, 3, 4, 5]
 
 
 def test_a_matrix_goes_in_and_out() -> None:
