@@ -3,9 +3,9 @@
     pip install '.[full]' mujoco pybullet && python -m tests.benchmarks.many
 
 Printed are, for chains of 10 to 1000 balls, the wall time of a run that ends just before the strike and that of the
-impact (of a run that ends just after it, less the other), each per ball and with its slope in log-log; then, for 10 and 100 balls in a box, milliseconds
-of wall time per simulated second of interleaved repetitions, without setting up, the ratio of the medians to this
-engine's, and the deepest overlap relative to the radius.
+impact (of a run that ends just after it, less the other), each per ball and with its slope in log-log; then, for 10 and
+100 balls in a box, milliseconds of wall time per simulated second of interleaved repetitions, without setting up, the
+ratio of the medians to this engine's, and the deepest overlap relative to the radius.
 """
 
 from __future__ import annotations

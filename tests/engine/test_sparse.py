@@ -180,7 +180,7 @@ def test_least_norm_in_a_band_is_that_of_the_pseudoinverse(n: int, share: float)
 @pytest.mark.parametrize("push", [0.0, 0.5, 2.0])
 def test_contact_problem_in_a_band_has_the_dense_motion(push: float) -> None:
     """A row on a plate, its first ball pushed along it: the same motion, whether stored in full or in a band."""
-    n = 12
+    n = 8
     jacobian = _balls_on_plate(n)
     matrix = _weighted(jacobian)
     free = np.zeros(6 * n)
