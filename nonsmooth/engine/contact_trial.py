@@ -10,6 +10,7 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 
 _TOLERANCE = 1e-9
+_ARRIVED = 0.1
 
 
 @kernel("void(S, F, I)")
@@ -101,7 +102,7 @@ def _compare(S: Scalars, w: Floats, k: Integers) -> int:
 def judge(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, once spread where they are not unique."""
     result = _compare(S, w, k)
-    if result == 2 and spread(S, w, k) == 1:
+    if result == 2 and spread(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
         for a in range(S.n_active):
             if k[S.mode_tried + a] == SLIDE:

@@ -6,7 +6,6 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
-from nonsmooth.engine.forces import evaluate_margins
 from nonsmooth.engine.held_contacts import hold_contacts, lay_rows
 from nonsmooth.engine.islands import activate_group
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
@@ -37,11 +36,13 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
             _set_friction(S, w, k, a)
             lay_rows(S, w, k, a)
         hold_contacts(S, w, k)
-        evaluate_margins(S, w, k)
         for a in range(S.n_active):
             c = k[S.active + a]
-            w[S.static_margin + c] = w[S.margin + a]
-            k[S.tied + c] = k[S.redundant + a] if k[S.mode + c] == STICK else 0
+            k[S.tied + c] = k[S.redundant + a]
+            if k[S.mode + c] == STICK:
+                t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+                w[S.static_margin + c] = w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2)
+                w[S.static_margin + c] += w[S.slack + c] * k[S.redundant + a]
             for r in range(3):
                 w[S.force + 3 * c + r] = w[S.f + 3 * a + r]
 
