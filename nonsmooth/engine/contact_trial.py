@@ -19,7 +19,8 @@ def hold_tried(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         mode = k[S.mode_tried + a]
         k[S.normal_held + a] = 0 if mode == OPEN else 1
-        k[S.tangent_held + a] = 1 if mode == STICK else 0
+        # nothing holds what has no friction: it is at rest by chance
+        k[S.tangent_held + a] = 1 if mode == STICK and w[S.mu_static + a] > 0.0 else 0
         if mode == OPEN:
             w[S.f + 3 * a] = 0.0
     resolve(S, w, k)

@@ -253,17 +253,20 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, contact)
     _commit(S, w, k, h)
-    if (cause == LIFT_OFF or cause == STICK_TO_SLIP) and k[S.tied + contact] == 1 and _shares_hold(S, w, k) == 1:
+    if k[S.tied + contact] == 1 and _shares_hold(S, w, k, contact) == 1:
         return RUNNING
     return _settle_event(S, w, k, cause, contact)
 
 
-@kernel("i8(S, F, I)")
-def _shares_hold(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(S, F, I, i8)")
+def _shares_hold(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
     """Choose the forces that are not unique anew; return 1 if all closed contacts can keep their bounds.
 
-    A second time within the time tolerance they cannot: then all their forces vanish.
+    The guard that fired must be that of a force.  A second time within the time tolerance there is no choice: then all
+    forces vanish.
     """
+    if k[S.mode + contact] == OPEN or (S.trigger % 2 == 1 and k[S.holds + contact] == 0):
+        return 0
     if S.t - S.chosen_t <= S.time_tolerance:
         return 0
     S.chosen_t = S.t

@@ -20,7 +20,7 @@ _LEAST = 1e-11
 """A room below this part of the largest force is none."""
 _ARRIVED = 1e-12
 _SLACK = 2e-9
-"""Without room, a bound that is passed by this part of the largest force still holds: to the contact problem it does."""
+"""Without room, a bound that is passed by this part of the largest force holds, as it does to the contact problem."""
 
 
 @kernel("f8(S, F, I, i8)")

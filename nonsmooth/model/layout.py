@@ -449,6 +449,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "group_start": lambda n: n["n_slots"] + 1,
     "mode_agreed": _per(1, "n_slots"),
     "tied": _per(1, "n_slots"),
+    "holds": _per(1, "n_slots"),
     "listed": _per(1, "n_slots"),
     # what the contacts of a system are, whether in a slot or not, and which of them may come near each other
     "catalogue": _per(len(CATALOGUE), "n_declared"),
