@@ -10,7 +10,6 @@ from nonsmooth.engine.linear import band_row, eliminate
 from nonsmooth.engine.null_band import copy_shifted, largest_diagonal, project_on_null
 
 _STEPS = 60
-_ARRIVED = 0.1
 _FLOOR = 1e-9
 """Added to the Hessian, whose largest eigenvalue is 1, so that it can be inverted;"""
 _FLOOR_IN_BAND = 1e-3
@@ -19,8 +18,8 @@ _CHEAP = 1e-7
 """the Hessian counts by this, relative to H."""
 
 
-@kernel("f8(S, F, I, i8)")
-def _excess(S: Scalars, w: Floats, k: Integers, n: int) -> float:
+@kernel("f8(S, F, I, i8, f8)")
+def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
     """Write f less its projection on the cones to ``right``; return half its square."""
     square = 0.0
     for i in range(n):
@@ -28,7 +27,7 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int) -> float:
         a = line // 3
         if line != 3 * a:
             continue
-        normal = w[S.f + line]
+        normal = w[S.f + line] - inset * k[S.redundant + a]
         w[S.right + i] = min(0.0, normal)
         if k[S.tangent_held + a] == 1:
             t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
@@ -47,15 +46,15 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     return 0.5 * square
 
 
-@kernel("void(S, F, I, i8, i8, i8, f8)")
-def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: int, factor: float) -> None:
+@kernel("void(S, F, I, i8, i8, i8, f8, f8)")
+def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: int, factor: float, inset: float) -> None:
     """Add the Hessian of the half square, block by block and times a factor, to the band at ``matrix``."""
     for i in range(n):
         line = k[S.column + i]
         a = line // 3
         if line != 3 * a:
             continue
-        normal, h = w[S.f + line], band_row(matrix, i, n, half) + i
+        normal, h = w[S.f + line] - inset * k[S.redundant + a], band_row(matrix, i, n, half) + i
         if k[S.tangent_held + a] == 0:
             w[h] += factor if normal < 0.0 else 0.0
             continue
@@ -91,12 +90,12 @@ def _multiply(w: Floats, left: int, right: int, out: int, n: int) -> None:
             w[out + i * n + j] = total
 
 
-@kernel("i8(S, F, I, i8)")
-def _step(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+@kernel("i8(S, F, I, i8, f8)")
+def _step(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> int:
     """Write Newton's step in the null space, whose projector stands in full, to ``x``; return 0 if there is none."""
     for i in range(n * n):
         w[S.basis + i] = 0.0
-    _add_curve(S, w, k, n, S.basis, n, 1.0)
+    _add_curve(S, w, k, n, S.basis, n, 1.0, inset)
     _multiply(w, S.basis, S.null, S.matrix, n)
     _multiply(w, S.null, S.matrix, S.basis, n)
     for i in range(n):
@@ -117,12 +116,12 @@ def _step(S: Scalars, w: Floats, k: Integers, n: int) -> int:
     return 1
 
 
-@kernel("i8(S, F, I, i8)")
-def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+@kernel("i8(S, F, I, i8, f8)")
+def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> int:
     """Write Newton's step to ``x``: what leaves the null space, by H in ``basis``, is made dear, and cut off then."""
     weight = _CHEAP * largest_diagonal(w, S.basis, n, S.null_half)
     copy_shifted(w, S.basis, n, S.null_half, S.matrix, weight * _FLOOR_IN_BAND)
-    _add_curve(S, w, k, n, S.matrix, S.null_half, weight)
+    _add_curve(S, w, k, n, S.matrix, S.null_half, weight, inset)
     factorise_band(w, S.matrix, n, S.null_half, 0.1 * weight * _FLOOR_IN_BAND)
     for i in range(n):
         w[S.x + i] = -weight * w[S.right + i]
@@ -131,22 +130,23 @@ def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int) -> int:
     return 1
 
 
-@room("i8(S, F, I)")
-def spread(S: Scalars, w: Floats, k: Integers) -> int:
+@room("i8(S, F, I, f8, f8)")
+def spread(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 
-    ``f`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the distance to the
-    cones is convex along the null space, and its smallest value is sought by Newton's method.
+    ``f`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the
+    distance to the cones, moved up by ``inset`` [N] where forces are not unique, is convex along the null space, and
+    its smallest value is sought by Newton's method until no force is out by more than ``arrived`` [N].
     """
     n = S.n_unknown
-    square = _excess(S, w, k, n)
+    square = _excess(S, w, k, n, inset)
     for _round in range(_STEPS):
         worst = 0.0
         for i in range(n):
             worst = max(worst, abs(w[S.right + i]))
-        if worst <= _ARRIVED * S.small_force:
+        if worst <= arrived:
             return 1
-        if (_step_in_band(S, w, k, n) if S.null_banded == 1 else _step(S, w, k, n)) == 0:
+        if (_step_in_band(S, w, k, n, inset) if S.null_banded == 1 else _step(S, w, k, n, inset)) == 0:
             return 0
         slope = 0.0
         for i in range(n):
@@ -158,7 +158,7 @@ def spread(S: Scalars, w: Floats, k: Integers) -> int:
         for _halving in range(30):
             for i in range(n):
                 w[S.f + k[S.column + i]] = w[S.sigma + i] + share * w[S.x + i]
-            new = _excess(S, w, k, n)
+            new = _excess(S, w, k, n, inset)
             if new <= square + 1e-4 * share * slope:
                 square, moved = new, 1
                 break

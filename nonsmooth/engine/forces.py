@@ -64,7 +64,7 @@ def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     It stays in its band then, or is treated in full where the band fills it.
     """
     S.n_unknown = n
-    S.n_redundant = S.deficient = S.null_banded = 0
+    S.deficient = S.null_banded = 0
     if n == 1 and w[S.reduced] != 0.0:
         w[S.x] = w[S.right] / w[S.reduced]
         return
@@ -78,9 +78,8 @@ def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
         _least_norm(S, w, n)
     for i in range(n):
         a = k[S.column + i] // 3
-        if k[S.column + i] != 3 * a and null_entry(S, w, i, i) > _COUPLED:
+        if null_entry(S, w, i, i) > _COUPLED:
             k[S.redundant + a] = 1
-            S.n_redundant = 1
 
 
 @kernel("void(S, F, i8)")

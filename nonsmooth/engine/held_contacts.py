@@ -13,6 +13,7 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.kinematics import evaluate_row, evaluate_row_response, row
 from nonsmooth.engine.linear import band_row
 from nonsmooth.engine.modes import SLIDE
+from nonsmooth.engine.shares import add_share, choose_share
 
 
 @kernel("void(S, F, I, i8)")
@@ -101,6 +102,10 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
             _reduce(S, w, k, a, i, n)
     solve_unknowns(S, w, k, n)
+    if S.deficient == 1:
+        if S.choosing == 1 and choose_share(S, w, k) == 0:
+            S.shares_hold = 0
+        add_share(S, w, k)
     first = 0
     for a in range(S.n_active):
         c = k[S.active + a]

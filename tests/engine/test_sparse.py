@@ -69,7 +69,7 @@ def test_chain_costs_what_it_is_long(shuffled: bool) -> None:
         call_room("project_closed", memory, 1)
         call_room("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]))
         narrow[n] = _sizes(memory)[2]
-    assert narrow == {16: 5, 64: 5}
+    assert narrow == {16: 1, 64: 1}
 
 
 def test_row_on_a_plate_costs_what_it_is_long() -> None:
