@@ -94,7 +94,7 @@ def test_shapes_of_a_body_get_contacts_and_laws_of_their_own(build: Any) -> None
     plate, body, other = Plate(), Dumbbell(), Dumbbell()
     system = ns.System([plate, body, other])
     last = system.contact(body, plate, shapes=((1,), None), **build.laws(friction=0.1))
-    assert [contact.friction.friction for contact in last] == [0.1]
+    assert [contact.friction for contact in last] == [Coulomb(0.1)]
     again = ("System.contact", "shapes of them, that have no contact", "named by `shapes`")
     _raises(again, lambda: system.contact(plate, body, **build.laws()))
     _raises(again, lambda: system.contact(plate, body, shapes=(None, (0, 1)), **build.laws()))
