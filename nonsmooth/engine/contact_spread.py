@@ -8,13 +8,12 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import eliminate
 
 _STEPS = 60
-_ARRIVED = 0.1
 _FLOOR = 1e-9
 """Added to the Hessian, whose largest eigenvalue is 1, so that it can be inverted."""
 
 
-@kernel("f8(S, F, I, i8)")
-def _excess(S: Scalars, w: Floats, k: Integers, n: int) -> float:
+@kernel("f8(S, F, I, i8, f8)")
+def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
     """Write f less its projection on the cones to ``right``; return half its square."""
     square = 0.0
     for i in range(n):
@@ -22,7 +21,7 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int) -> float:
         a = line // 3
         if line != 3 * a:
             continue
-        normal = w[S.f + line]
+        normal = w[S.f + line] - inset * k[S.redundant + a]
         w[S.right + i] = min(0.0, normal)
         if k[S.tangent_held + a] == 1:
             t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
@@ -41,8 +40,8 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     return 0.5 * square
 
 
-@kernel("void(S, F, I, i8)")
-def _curve(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+@kernel("void(S, F, I, i8, f8)")
+def _curve(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> None:
     """Write the Hessian of the half square, block by block, to ``basis``."""
     for i in range(n * n):
         w[S.basis + i] = 0.0
@@ -51,7 +50,7 @@ def _curve(S: Scalars, w: Floats, k: Integers, n: int) -> None:
         a = line // 3
         if line != 3 * a:
             continue
-        normal, h = w[S.f + line], S.basis + i * n + i
+        normal, h = w[S.f + line] - inset * k[S.redundant + a], S.basis + i * n + i
         if k[S.tangent_held + a] == 0:
             w[h] = 1.0 if normal < 0.0 else 0.0
             continue
@@ -81,22 +80,23 @@ def _multiply(w: Floats, left: int, right: int, out: int, n: int) -> None:
             w[out + i * n + j] = total
 
 
-@room("i8(S, F, I)")
-def spread(S: Scalars, w: Floats, k: Integers) -> int:
+@room("i8(S, F, I, f8, f8)")
+def spread(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 
     ``f`` is the answer of least norm, ``null`` the projector on what may be added to it.  The half square of the
-    distance to the cones is convex along the null space, and its smallest value is sought by Newton's method.
+    distance to the cones, moved up by ``inset`` [N] where forces are not unique, is convex along the null space, and
+    its smallest value is sought by Newton's method until no force is out by more than ``arrived`` [N].
     """
     n = S.n_unknown
-    square = _excess(S, w, k, n)
+    square = _excess(S, w, k, n, inset)
     for _step in range(_STEPS):
         worst = 0.0
         for i in range(n):
             worst = max(worst, abs(w[S.right + i]))
-        if worst <= _ARRIVED * S.small_force:
+        if worst <= arrived:
             return 1
-        _curve(S, w, k, n)
+        _curve(S, w, k, n, inset)
         _multiply(w, S.basis, S.null, S.matrix, n)
         _multiply(w, S.null, S.matrix, S.basis, n)
         slope = 0.0
@@ -126,7 +126,7 @@ def spread(S: Scalars, w: Floats, k: Integers) -> int:
         for _halving in range(30):
             for i in range(n):
                 w[S.f + k[S.column + i]] = w[S.sigma + i] + share * w[S.x + i]
-            new = _excess(S, w, k, n)
+            new = _excess(S, w, k, n, inset)
             if new <= square + 1e-4 * share * slope:
                 square, moved = new, 1
                 break

@@ -10,6 +10,7 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 
 _TOLERANCE = 1e-9
+_ARRIVED = 0.1
 
 
 @kernel("void(S, F, I)")
@@ -18,7 +19,8 @@ def hold_tried(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         mode = k[S.mode_tried + a]
         k[S.normal_held + a] = 0 if mode == OPEN else 1
-        k[S.tangent_held + a] = 1 if mode == STICK else 0
+        # nothing holds what has no friction: it is at rest by chance
+        k[S.tangent_held + a] = 1 if mode == STICK and w[S.mu_static + a] > 0.0 else 0
         if mode == OPEN:
             w[S.f + 3 * a] = 0.0
     resolve(S, w, k)
@@ -101,7 +103,7 @@ def _compare(S: Scalars, w: Floats, k: Integers) -> int:
 def judge(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, once spread where they are not unique."""
     result = _compare(S, w, k)
-    if result == 2 and spread(S, w, k) == 1:
+    if result == 2 and spread(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
         for a in range(S.n_active):
             if k[S.mode_tried + a] == SLIDE:

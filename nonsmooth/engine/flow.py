@@ -6,7 +6,6 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
-from nonsmooth.engine.forces import evaluate_margins
 from nonsmooth.engine.held_contacts import hold_contacts, lay_rows
 from nonsmooth.engine.islands import activate_group
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
@@ -33,17 +32,29 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
             c = k[S.active + a]
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
-            evaluate_bias(S, w, k, c, 3 if k[S.mode + c] == STICK else 1)
             _set_friction(S, w, k, a)
+            evaluate_bias(S, w, k, c, 1 + 2 * k[S.tangent_held + a])
             lay_rows(S, w, k, a)
         hold_contacts(S, w, k)
-        evaluate_margins(S, w, k)
         for a in range(S.n_active):
             c = k[S.active + a]
-            w[S.static_margin + c] = w[S.margin + a]
-            k[S.tied + c] = k[S.redundant + a] if k[S.mode + c] == STICK else 0
+            k[S.tied + c] = k[S.redundant + a]
+            k[S.holds + c] = k[S.tangent_held + a]
+            w[S.static_margin + c] = _static_margin(S, w, k, a)
             for r in range(3):
                 w[S.force + 3 * c + r] = w[S.f + 3 * a + r]
+
+
+@kernel("f8(S, F, I, i8)")
+def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+    """Return how far the friction of an active contact is from its bound [N]; without any, its slip from one [m/s]."""
+    c = k[S.active + a]
+    if k[S.tangent_held + a] == 0:
+        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+        return S.velocity_tolerance - math.sqrt(v1 * v1 + v2 * v2)
+    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    slack = w[S.slack + c] * k[S.redundant + a]
+    return w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2) + slack
 
 
 @kernel("void(S, F, I, i8)")
@@ -54,11 +65,12 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """
     c = k[S.active + a]
     k[S.normal_held + a] = 1
+    k[S.tangent_held + a] = 0
     if k[S.mode + c] == STICK:
         w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
-        k[S.tangent_held + a] = 1
-        return
-    k[S.tangent_held + a] = 0
+        if w[S.mu_static + a] > 0.0:
+            k[S.tangent_held + a] = 1
+            return
     d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
     v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
     speed = math.sqrt(v1 * v1 + v2 * v2)

@@ -41,7 +41,7 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
 def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Solve the reduced system ``reduced . x = right`` of the unknowns in ``column``, for least norm if singular."""
     S.n_unknown = n
-    S.n_redundant = S.deficient = 0
+    S.deficient = 0
     if n == 1 and w[S.reduced] != 0.0:
         w[S.x] = w[S.right] / w[S.reduced]
         return
@@ -113,9 +113,8 @@ def _least_norm(S: Scalars, w: Floats, k: Integers, n: int) -> None:
             w[S.null + i * n + j] = total
     for i in range(n):
         a = k[S.column + i] // 3
-        if k[S.column + i] != 3 * a and w[S.null + i * n + i] > _COUPLED:
+        if w[S.null + i * n + i] > _COUPLED:
             k[S.redundant + a] = 1
-            S.n_redundant = 1
 
 
 @kernel()

@@ -11,6 +11,7 @@ from nonsmooth.engine.forces import friction_of_slip, solve_unknowns
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.kinematics import evaluate_row, evaluate_row_response, row
 from nonsmooth.engine.modes import SLIDE
+from nonsmooth.engine.shares import add_share, choose_share
 
 
 @kernel("void(S, F, I, i8)")
@@ -105,6 +106,10 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
     n = _list_rows(S, w, k)
     _reduce(S, w, k, n)
     solve_unknowns(S, w, k, n)
+    if S.deficient == 1:
+        if S.choosing == 1 and choose_share(S, w, k) == 0:
+            S.shares_hold = 0
+        add_share(S, w, k)
     first = 0
     for a in range(S.n_active):
         c = k[S.active + a]

@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.delassus import assemble_delassus
-from nonsmooth.engine.flow import slope, try_step
+from nonsmooth.engine.flow import right_hand_side, slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
 from nonsmooth.engine.instant_impulses import is_jammed
 from nonsmooth.engine.islands import activate_group, group_closed
@@ -195,7 +195,9 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
     if S.fresh == 0:
         group_closed(S, w, k)
+        S.choosing = 1
         slope(S, w, k, S.t, S.y, S.slopes)
+        S.choosing = 0
         write_guards(S, w, k, S.t, S.y, 1)
         keep_end(S, w, k)
     else:
@@ -251,7 +253,28 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, contact)
     _commit(S, w, k, h)
+    if k[S.tied + contact] == 1 and _shares_hold(S, w, k, contact) == 1:
+        return RUNNING
     return _settle_event(S, w, k, cause, contact)
+
+
+@kernel("i8(S, F, I, i8)")
+def _shares_hold(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
+    """Choose the forces that are not unique anew; return 1 if all closed contacts can keep their bounds.
+
+    The guard that fired must be that of a force.  A second time within the time tolerance there is no choice: then all
+    forces vanish.
+    """
+    if k[S.mode + contact] == OPEN or (S.trigger % 2 == 1 and k[S.holds + contact] == 0):
+        return 0
+    if S.t - S.chosen_t <= S.time_tolerance:
+        return 0
+    S.chosen_t = S.t
+    group_closed(S, w, k)
+    S.shares_hold, S.choosing = 1, 1
+    right_hand_side(S, w, k, S.t, S.y)
+    S.choosing = 0
+    return 1 if S.shares_hold == 1 else 0
 
 
 @kernel("i8(S, F, I, i8)")
@@ -265,8 +288,9 @@ def _own_event(S: Scalars, w: Floats, k: Integers, number: int) -> int:
 
 @kernel("void(S, F, I, i8)")
 def _break_direction(S: Scalars, w: Floats, k: Integers, contact: int) -> None:
-    """Let a contact that breaks away slip against the friction that held it."""
-    t1, t2 = w[S.force + 3 * contact + 1], w[S.force + 3 * contact + 2]
+    """Let a contact that breaks away slip against the friction that held it, that of least norm if it is not unique."""
+    t1 = w[S.force + 3 * contact + 1] - w[S.share + 3 * contact + 1] * k[S.tied + contact]
+    t2 = w[S.force + 3 * contact + 2] - w[S.share + 3 * contact + 2] * k[S.tied + contact]
     norm = math.sqrt(t1 * t1 + t2 * t2)
     if norm > 0.0:
         w[S.direction + 2 * contact] = -t1 / norm
