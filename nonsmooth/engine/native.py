@@ -19,7 +19,7 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic, typeof_impl
 
-from nonsmooth.engine.native_build import KEYED, EnginePasses, c_function, cache_folder, numbered, raw
+from nonsmooth.engine.native_build import KEYED, EnginePasses, c_function, cache_folder, numbered, raw, typed_once
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
 from nonsmooth.model.layout import ROOMS
 from nonsmooth.model.memory import Memory
@@ -141,7 +141,7 @@ def compile_rooms(start: int, stop: int) -> None:
     collecting = gc.isenabled()
     gc.disable()
     try:
-        with numbered(ROOMS[start]):
+        with numbered(ROOMS[start]), typed_once():
             with raw():
                 for inner, typed in _kernels_of(ROOMS[start:stop]):
                     inner.compile(typed)

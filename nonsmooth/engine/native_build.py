@@ -29,6 +29,7 @@ from numba.core.typed_passes import (
     NopythonTypeInference,
     PreLowerStripPhis,
 )
+from numba.core.types.functions import BaseFunction
 from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -113,6 +114,28 @@ class EnginePasses(CompilerBase):
         return [passes]
 
 
+@contextlib.contextmanager
+def typed_once() -> Iterator[None]:
+    """Find the type of an operation once for given types of operands: numba tries all candidates at every place."""
+    find: Callable[..., Any] = BaseFunction.get_call_type
+    found: dict[Any, Any] = {}
+
+    def remember(operation: Any, context: Any, arguments: Any, keywords: Any) -> Any:
+        key = operation, tuple(arguments), tuple(sorted(keywords.items()))
+        if key not in found:
+            found[key] = find(operation, context, arguments, keywords)
+        return found[key]
+
+    with contextlib.ExitStack() as stack:
+        _replace(stack, BaseFunction, "get_call_type", remember)
+        yield
+
+
+def _replace(stack: contextlib.ExitStack, owner: type, name: str, value: Callable[..., Any]) -> None:
+    stack.callback(setattr, owner, name, getattr(owner, name))
+    setattr(owner, name, value)
+
+
 _LATER = (
     (CPUCodeLibrary, "_optimize_final_module"),
     (JITCodeLibrary, "_finalize_specific"),
@@ -127,8 +150,7 @@ def raw() -> Iterator[None]:
     """Leave what is compiled inside as intermediate code: only the rooms that take it in go on with it, once each."""
     with contextlib.ExitStack() as stack:
         for owner, name in _LATER:
-            stack.callback(setattr, owner, name, getattr(owner, name))
-            setattr(owner, name, lambda *_: None)
+            _replace(stack, owner, name, lambda *_: None)
         yield
 
 

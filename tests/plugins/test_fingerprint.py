@@ -76,7 +76,7 @@ def test_the_context_counts() -> None:
         ("def law(x): return x + VALUE[0]", np.array([1.0])),
         ("def law(x): return x + VALUE[0]", (np.float64(1.0),)),
         ("def law(x): return x + VALUE.real", os),
-        ("def law(x): return VALUE(x)", abs.__call__),
+        ("def law(x): return VALUE(x)", "text".count),
         ("def law(x, p=VALUE): return x", [1.0]),
         ("def law(x): return sum([x for _ in range(2)]) + (lambda: 1)()", None),
         ("def make(a):\n def law(x): return x + a\n return law\nlaw = make(VALUE)", 1.0),
