@@ -99,7 +99,11 @@ def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
     importlib.import_module("nonsmooth.engine.hybrid")
     if not _marker().exists():
-        print("compiling the engine once for this machine (about 20 s) ...", file=sys.stderr, flush=True)
+        print(
+            "compiling the engine once for this machine (some 20 s, longer where it is busy) ...",
+            file=sys.stderr,
+            flush=True,
+        )
         _fill_cache()
     return tuple(_compiled(name).address for name in ROOMS)
 
