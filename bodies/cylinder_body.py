@@ -9,6 +9,7 @@ from typing import final
 from bodies.free import FreeBody
 from bodies.inertia import check_mass, mass_of
 from bodies.shapes.cylinder import Cylinder
+from bodies.shapes.feet import USUAL, check_feet
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 
@@ -17,6 +18,9 @@ from nonsmooth.parameters import parameter
 @dataclass(frozen=True)
 class CylinderBody(FreeBody):
     """A free solid cylinder about the third body axis.
+
+    Standing on a plane it stands on three feet, by whose height the rims are set back; tilted by more than three times
+    their height over the radius it touches with a rim only.
 
     Attributes
     ----------
@@ -28,11 +32,15 @@ class CylinderBody(FreeBody):
         Density [kg/m^3]; steel, 7800, where no mass is given.
     mass : float, optional
         Mass [kg], instead of the density.
+    foot_height : float, optional
+        Height of the three feet of either cap [m]; 0 for none.  Where it is not given, a ten-thousandth of the radius,
+        but no more than a tenth of the half-length.
 
     Raises
     ------
     InvalidInput
-        If a size is not positive, or both mass and density are given.
+        If a size is not positive, both mass and density are given, or the feet are higher than a tenth of the radius
+        or not less than the half-length.
     """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-5, 10.0))
@@ -41,9 +49,13 @@ class CylinderBody(FreeBody):
         None, doc="density; 7800 without a mass", unit="kg/m^3", above=0.0, usual=(10.0, 3e4)
     )
     mass: float | None = parameter(None, doc="mass, instead of the density", unit="kg", above=0.0)
+    foot_height: float | None = parameter(
+        None, doc="height of the three feet of either cap; 1e-4 of the radius where not given", unit="m", minimum=0.0
+    )
 
     def _check(self) -> None:
         check_mass("CylinderBody", self.mass, self.density)
+        check_feet("CylinderBody", self.foot_height or 0.0, self.radius, self.half_length)
 
     @property
     def total_mass(self) -> float:
@@ -60,4 +72,6 @@ class CylinderBody(FreeBody):
     @property
     def shapes(self) -> tuple[Shape, ...]:
         """The cylinder about the mass centre."""
-        return (Cylinder(self.radius, self.half_length),)
+        usual = min(USUAL * self.radius, 0.1 * self.half_length)
+        height = usual if self.foot_height is None else self.foot_height
+        return (Cylinder(self.radius, self.half_length, foot_height=height),)

@@ -9,6 +9,7 @@ from typing import final
 from bodies.free import FreeBody
 from bodies.inertia import check_mass, mass_of
 from bodies.shapes.disc import Disc
+from bodies.shapes.feet import USUAL, check_feet
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 
@@ -18,6 +19,9 @@ from nonsmooth.parameters import parameter
 class DiscBody(FreeBody):
     """A free disc without thickness about the third body axis: a coin, a plate on its rim.
 
+    Flat on a plane it stands on three feet, so that its centre is by their height above the plane; tilted by more than
+    three times their height over the radius it touches with its rim only.
+
     Attributes
     ----------
     radius : float
@@ -26,11 +30,14 @@ class DiscBody(FreeBody):
         Mass per area [kg/m^2]; 7.8, a millimetre of steel, where no mass is given.
     mass : float, optional
         Mass [kg], instead of the surface density.
+    foot_height : float, optional
+        Height of the three feet of either face [m]; 0 for none, a ten-thousandth of the radius where it is not given.
 
     Raises
     ------
     InvalidInput
-        If the radius is not positive, or both mass and surface density are given.
+        If the radius is not positive, both mass and surface density are given, or the feet are higher than a tenth of
+        the radius.
     """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-5, 10.0))
@@ -38,9 +45,13 @@ class DiscBody(FreeBody):
         None, doc="mass per area; 7.8 without a mass", unit="kg/m^2", above=0.0, usual=(1e-3, 1e5)
     )
     mass: float | None = parameter(None, doc="mass, instead of the surface density", unit="kg", above=0.0)
+    foot_height: float | None = parameter(
+        None, doc="height of the three feet of either face; 1e-4 of the radius where not given", unit="m", minimum=0.0
+    )
 
     def _check(self) -> None:
         check_mass("DiscBody", self.mass, self.surface_density)
+        check_feet("DiscBody", self.foot_height or 0.0, self.radius)
 
     @property
     def total_mass(self) -> float:
@@ -57,4 +68,5 @@ class DiscBody(FreeBody):
     @property
     def shapes(self) -> tuple[Shape, ...]:
         """The disc about the mass centre."""
-        return (Disc(self.radius),)
+        height = USUAL * self.radius if self.foot_height is None else self.foot_height
+        return (Disc(self.radius, foot_height=height),)

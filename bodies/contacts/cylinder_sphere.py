@@ -68,7 +68,7 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class CylinderSphere(ContactKinematics):
-    """One contact of a sphere with the side, a cap or a rim of a cylinder."""
+    """One contact of a sphere with the side, a cap or a rim of a cylinder; it does not see the feet."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Cylinder, Sphere)
 

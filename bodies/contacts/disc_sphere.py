@@ -60,7 +60,7 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class DiscSphere(ContactKinematics):
-    """One contact of a sphere with a face or the rim of a disc."""
+    """One contact of a sphere with a face or the rim of a disc; it does not see the feet."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Disc, Sphere)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.plane_rim import evaluate_rim_over_plane
+from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.plane import Plane
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -19,7 +20,7 @@ class PlaneCylinder(ContactKinematics):
     """The lowest point of one rim of a cylinder over a plane; a cylinder has two such contacts.
 
     They hold a cylinder that lies on its side.  One that stands has no lowest point: the numbers stay finite, but a
-    single contact cannot hold it.
+    single contact cannot hold it.  Its feet can, each a contact of its own.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Cylinder)
@@ -34,12 +35,13 @@ class PlaneCylinder(ContactKinematics):
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[PlaneCylinder, ...]:
-        """Return the contacts of the two rims, first the one against the axis."""
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of the two rims, first the one against the axis, then those of the feet, if any."""
         assert isinstance(second, Cylinder)
         height = first.parameters()["height"]
         axis = second.axis_x, second.axis_y, second.axis_z
-        return tuple(cls(second.radius, *cap, *axis, height) for cap in second.caps)
+        rims = (cls(second.radius, *rim, *axis, height) for rim in second.rims)
+        return *rims, *(PlaneVertex(*foot, height) for foot in second.feet)
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.plane_rim import evaluate_rim_over_plane
+from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.shapes.disc import Disc
 from bodies.shapes.plane import Plane
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -18,7 +19,8 @@ from nonsmooth.parameters import parameter
 class PlaneDisc(ContactKinematics):
     """The lowest point of a disc's rim over a plane.
 
-    A disc that lies flat has no lowest point: the numbers stay finite, but a single contact cannot hold it.
+    A disc that lies flat has no lowest point: the numbers stay finite, but a single contact cannot hold it.  Its feet
+    can, each a contact of its own.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Disc)
@@ -33,9 +35,12 @@ class PlaneDisc(ContactKinematics):
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[PlaneDisc, ...]:
-        """Return the single contact of a plane and a disc."""
-        return (cls(**second.parameters(), **first.parameters()),)
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contact of the rim, then those of the feet, if there are any."""
+        assert isinstance(second, Disc)
+        height = first.parameters()["height"]
+        rim = cls(second.radius, second.x, second.y, second.z, second.axis_x, second.axis_y, second.axis_z, height)
+        return rim, *(PlaneVertex(*foot, height) for foot in second.feet)
 
     @property
     def evaluator(self) -> Callable[..., None]:

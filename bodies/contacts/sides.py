@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from nonsmooth.interfaces import Shape
 
+UNSEEN = ("foot_height",)
+"""What a shape says of itself that its contacts with others than planes do not see."""
+
 
 def by_side(first: Shape, second: Shape) -> dict[str, float]:
     """Return the parameters of both shapes, with _a behind the names of the first's and _b behind the second's."""
-    one = {f"{name}_a": value for name, value in first.numbers().items()}
-    return one | {f"{name}_b": value for name, value in second.numbers().items()}
+    sides = ("a", first.numbers()), ("b", second.numbers())
+    return {f"{name}_{side}": value for side, numbers in sides for name, value in numbers.items() if name not in UNSEEN}

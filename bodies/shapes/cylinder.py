@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
+from bodies.shapes.feet import check_feet, feet_on
 from bodies.shapes.placement import farthest_on_circle
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
@@ -14,7 +15,12 @@ from nonsmooth.vectors import unit_vector
 @final
 @dataclass(frozen=True)
 class Cylinder(Shape):
-    """A solid circular cylinder with flat caps and its centre at (x, y, z) in the body frame."""
+    """A solid circular cylinder with flat caps and its centre at (x, y, z) in the body frame.
+
+    On a plane it touches with the lowest points of its rims, and a cylinder that stands has none.  What holds it then
+    are three small feet on either cap, at two thirds of the radius, if they have a height.  Their tips lie in the
+    planes of the caps; it is the rims that are set back by the height, so that the cylinder is as long as without.
+    """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)
     half_length: float = parameter(doc="half the distance of the caps", unit="m", above=0.0)
@@ -24,14 +30,32 @@ class Cylinder(Shape):
     axis_x: float = parameter(0.0, doc="unit axis in the body frame, first component")
     axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component")
     axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component")
+    foot_height: float = parameter(0.0, doc="height of the feet on either cap; 0 for none", unit="m", minimum=0.0)
 
     def _check(self) -> None:
         unit_vector("Cylinder axis", (self.axis_x, self.axis_y, self.axis_z))
+        check_feet("Cylinder", self.foot_height, self.radius, self.half_length)
 
     @property
     def caps(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Centres of the caps in the body frame, against and along the axis [m]."""
-        x, y, z = (self.half_length * component for component in (self.axis_x, self.axis_y, self.axis_z))
+        return self._on_axis(self.half_length)
+
+    @property
+    def rims(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Centres of the rims in the body frame, against and along the axis [m]."""
+        return self._on_axis(self.half_length - self.foot_height)
+
+    @property
+    def feet(self) -> tuple[tuple[float, float, float], ...]:
+        """Tips of the feet in the body frame, first of the cap against the axis [m]; none without a height."""
+        if self.foot_height == 0.0:
+            return ()
+        center, axis = (self.x, self.y, self.z), (self.axis_x, self.axis_y, self.axis_z)
+        return feet_on(center, axis, self.radius, self.half_length)
+
+    def _on_axis(self, away: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        x, y, z = (away * component for component in (self.axis_x, self.axis_y, self.axis_z))
         return (self.x - x, self.y - y, self.z - z), (self.x + x, self.y + y, self.z + z)
 
     @property

@@ -51,10 +51,10 @@ def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     c = k[S.active + a]
     if k[S.tangent_held + a] == 0:
         v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-        return S.velocity_tolerance - math.sqrt(v1 * v1 + v2 * v2)
+        return float(S.velocity_tolerance - math.sqrt(v1 * v1 + v2 * v2))
     t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
     slack = w[S.slack + c] * k[S.redundant + a]
-    return w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2) + slack
+    return float(w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2) + slack)
 
 
 @kernel("void(S, F, I, i8)")

@@ -61,8 +61,11 @@ jit: Callable[[Callable[..., Any]], Any] = _half.jit
 """Compile a plug-in's function on demand."""
 shared: Callable[[Callable[..., Any]], Any] = _half.shared
 """Let the functions of plug-ins call this one, compiled or not."""
-address_of: Callable[[Callable[..., Any], str], int] = _half.address_of
-"""Compile a shim of a form ("scalar", "guard", "body", "load", "pair", "map") and return its address."""
+unshared: Callable[[Any], Any] = _half.unshared
+"""The function out of which :func:`shared` has made a value, any other value as it is."""
+address_of: Callable[[Callable[..., Any], str, str], int] = _half.address_of
+"""Compile a shim of a form ("scalar", "guard", "body", "load", "pair", "map"), or find it under its key on disk, and
+return its address.  Without a key nothing is kept on disk."""
 COMPILATION_ERRORS: tuple[type[Exception], ...] = _half.COMPILATION_ERRORS
 """What :func:`address_of` may raise."""
 
@@ -87,4 +90,5 @@ __all__ = [
     "room",
     "room_addresses",
     "shared",
+    "unshared",
 ]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_pair, kernel, room
 from nonsmooth.model.layout import FRAME, GEOMETRY
 
@@ -145,6 +147,9 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
             w[S.small + 2 * i + j] = total
     m11, m12, m21, m22 = w[S.small], w[S.small + 1], w[S.small + 2], w[S.small + 3]
     determinant = m11 * m22 - m12 * m21
+    if determinant == 0.0:
+        # a trial step far too long; what is not a number rejects it, where plain Python would raise
+        determinant = math.nan
     x1, x2 = (m22 * r1 - m12 * r2) / determinant, (m11 * r2 - m21 * r1) / determinant
     u1, u2 = w[turn_a] * x1 + w[turn_a + 1] * x2, w[turn_a + 2] * x1 + w[turn_a + 3] * x2
     nu1, nu2 = w[slide_a] * x1 + w[slide_a + 1] * x2, w[slide_a + 2] * x1 + w[slide_a + 3] * x2

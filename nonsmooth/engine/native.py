@@ -1,4 +1,4 @@
-"""The compiled half of :mod:`nonsmooth.engine.kernel`: numba types, calls by address, the stamped cache."""
+"""The compiled half of :mod:`nonsmooth.engine.kernel`: kernels, rooms, calls by address, shims."""
 
 from __future__ import annotations
 
@@ -6,30 +6,24 @@ import contextlib
 import ctypes
 import functools
 import gc
-import hashlib
 import importlib
 import inspect
-import os
+import subprocess
 import sys
-import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numba
-import numpy as np
 from llvmlite import ir
-from llvmlite.binding import get_host_cpu_name
 from numba import types
-from numba.core.caching import CacheImpl, _CacheLocator
-from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
 from numba.extending import intrinsic, typeof_impl
 
+from nonsmooth.engine.native_build import KEYED, EnginePasses, c_function, cache_folder, numbered, raw, typed_once
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
 from nonsmooth.model.layout import ROOMS
 from nonsmooth.model.memory import Memory
 
-_PACKAGE = Path(__file__).resolve().parents[1]
 _OPTIONS: dict[str, Any] = {
     "nopython": True,
     "nogil": True,
@@ -50,58 +44,7 @@ _C_TYPES: dict[str, Any] = {"f8": ctypes.c_double, "i8": ctypes.c_int64, "void":
 _pending: list[tuple[Any, Any]] = []
 _alive: list[Any] = []
 _rooms: dict[str, tuple[Callable[..., Any], str]] = {}
-_STUB = "def stub({names}): return call(k[S.rooms + {index}], {names})"
-
-
-def cache_folder() -> Path:
-    """Return the folder of the compiled engine, named after a hash over all of its sources.
-
-    An edit of any source file, another numba, another Python or another kind of processor gives another folder: a
-    stale cache cannot be met.  Falls back to a temporary folder where the user's cache is not writable.
-    """
-    return _cache_folder()
-
-
-@functools.cache
-def _cache_folder() -> Path:
-    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{get_host_cpu_name()}".encode())
-    for folder in ("engine", "model"):
-        for source in sorted((_PACKAGE / folder).glob("*.py")):
-            digest.update(source.name.encode() + source.read_bytes())
-    name = f"engine-{digest.hexdigest()[:16]}"
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    for root in (home / "nonsmooth", Path(tempfile.gettempdir()) / f"nonsmooth-{os.getuid()}"):
-        try:
-            (root / name).mkdir(parents=True, exist_ok=True)
-        except OSError:
-            continue
-        if os.access(root / name, os.W_OK):
-            return root / name
-    raise OSError(f"No folder for the compiled engine: neither {home} nor {tempfile.gettempdir()} can be written to.")
-
-
-class _StampedLocator(_CacheLocator):
-    """Keeps the engine's compiled code in :func:`cache_folder`; leaves other functions alone."""
-
-    def __init__(self, source: str) -> None:
-        self._source = source
-
-    def get_cache_path(self) -> str:
-        return str(cache_folder())
-
-    def get_source_stamp(self) -> str:
-        return cache_folder().name
-
-    def get_disambiguator(self) -> str:
-        return Path(self._source).stem
-
-    @classmethod
-    def from_function(cls, function: Any, source: str) -> _StampedLocator | None:
-        inside = Path(source).resolve().parent == _PACKAGE / "engine"
-        return cls(source) if inside else None
-
-
-CacheImpl._locator_classes.insert(0, _StampedLocator)
+_STUB = "def stub_{name}({names}): return call(k[S.rooms + {index}], {names})"
 
 
 def _signature(text: str) -> Any:
@@ -114,7 +57,7 @@ def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], A
     """Compile an engine function with an explicit signature, when an entry point first needs it."""
 
     def decorate(function: Callable[..., Any]) -> Any:
-        dispatcher = numba.jit(**_OPTIONS)(function)
+        dispatcher = numba.jit(pipeline_class=EnginePasses, **_OPTIONS)(function)
         _pending.append((dispatcher, _signature(signature)))
         return dispatcher
 
@@ -132,8 +75,9 @@ def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any
         _rooms[function.__name__] = (function, signature)
         names = ", ".join(inspect.signature(function).parameters)
         scope: dict[str, Any] = {"call": _room_caller(_signature(signature))}
-        exec(_STUB.format(names=names, index=ROOMS.index(function.__name__)), scope)
-        return numba.jit(**_OPTIONS)(scope["stub"])
+        name = function.__name__
+        exec(_STUB.format(name=name, names=names, index=ROOMS.index(name)), scope)
+        return kernel(signature)(scope[f"stub_{name}"])
 
     return decorate
 
@@ -150,56 +94,86 @@ def _room_caller(signature: Any) -> Any:
     return intrinsic(scope["typed"])
 
 
-_LATER = (
-    (CPUCodeLibrary, "_optimize_final_module"),
-    (JITCodeLibrary, "_finalize_specific"),
-    (JITCPUCodegen, "_add_module"),
-    (JITCPUCodegen, "set_env"),
-)
-"""The steps of numba that optimise a function and make machine code of it."""
-
-
-@contextlib.contextmanager
-def _raw() -> Iterator[None]:
-    """Leave what is compiled inside as intermediate code: only the rooms that take it in go on with it, once each."""
-    with contextlib.ExitStack() as stack:
-        for owner, name in _LATER:
-            stack.callback(setattr, owner, name, getattr(owner, name))
-            setattr(owner, name, lambda *_: None)
-        yield
-
-
 @functools.cache
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
     importlib.import_module("nonsmooth.engine.hybrid")
     if not _marker().exists():
-        print("compiling the engine once for this machine (about 35 s) ...", file=sys.stderr, flush=True)
-        # millions of small objects that live: looking for garbage among them is lost time
-        collecting = gc.isenabled()
-        gc.disable()
-        try:
-            return _compile_rooms()
-        finally:
-            if collecting:
-                gc.enable()
-    return _compile_rooms()
+        print(
+            "compiling the engine once for this machine (some 20 s, longer where it is busy) ...",
+            file=sys.stderr,
+            flush=True,
+        )
+        _fill_cache()
+    return tuple(_compiled(name).address for name in ROOMS)
 
 
-def _compile_rooms() -> tuple[int, ...]:
-    if not _marker().exists():
-        with _raw():
-            for inner, typed in _pending:
-                inner.compile(typed)
-    addresses = []
-    for name in ROOMS:
-        function, signature = _rooms[name]
-        compiled = numba.cfunc(_signature(signature), cache=True, nopython=True, error_model="numpy")(function)
-        _alive.append(compiled)
-        addresses.append(int(compiled.address))
+def _fill_cache() -> None:
+    """Compile all rooms, half of them in a process of its own where there are two processors."""
+    middle = len(ROOMS) // 2
+    helper = _helper(middle) if numba.config.NUMBA_DEFAULT_NUM_THREADS > 1 else None
+    if helper is None:
+        compile_rooms(0, len(ROOMS))
+    else:
+        with helper:
+            compile_rooms(0, middle)
+        if helper.returncode != 0:
+            compile_rooms(middle, len(ROOMS))
     with contextlib.suppress(OSError):
         _marker().touch()
-    return tuple(addresses)
+
+
+def _helper(start: int) -> subprocess.Popen[bytes] | None:
+    """Compile the rooms from one on in another process; it may fail, as only the cache knows of it."""
+    # an interpreter of our own: multiprocessing would run the user's script again, a frozen program itself
+    if "python" not in Path(sys.executable or "").name:
+        return None
+    task = (
+        f"import sys; sys.path[:] = {sys.path!r}; from nonsmooth.engine import native, hybrid; "
+        f"native.compile_rooms({start}, {len(ROOMS)})"
+    )
+    try:
+        quiet = subprocess.DEVNULL
+        return subprocess.Popen([sys.executable, "-c", task], stdin=quiet, stdout=quiet, stderr=quiet)
+    except OSError:
+        return None
+
+
+def compile_rooms(start: int, stop: int) -> None:
+    """Compile a range of ``ROOMS`` into the cache."""
+    # millions of small objects that live: looking for garbage among them is lost time
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        with numbered(ROOMS[start]), typed_once():
+            with raw():
+                for inner, typed in _kernels_of(ROOMS[start:stop]):
+                    inner.compile(typed)
+            for name in ROOMS[start:stop]:
+                _compiled(name)
+    finally:
+        if collecting:
+            gc.enable()
+
+
+def _kernels_of(rooms: tuple[str, ...]) -> list[tuple[Any, Any]]:
+    """Return the kernels that rooms call, and those that these call, with their signatures, in order of definition."""
+    kernels = {id(inner): inner for inner, _ in _pending}
+    called: set[int] = set()
+    waiting = [_rooms[name][0] for name in rooms]
+    while waiting:
+        function = waiting.pop()
+        named = {id(function.__globals__.get(name)) for name in function.__code__.co_names}
+        new = (named & kernels.keys()) - called
+        called |= new
+        waiting += [kernels[one].py_func for one in new]
+    return [(inner, typed) for inner, typed in _pending if id(inner) in called]
+
+
+@functools.cache
+def _compiled(room: str) -> Any:
+    function, signature = _rooms[room]
+    return c_function(function, _signature(signature), cache=True, pipeline_class=EnginePasses)
 
 
 def _marker() -> Path:
@@ -287,7 +261,7 @@ _C_SIGNATURES = {
 
 
 def jit(function: Callable[..., Any]) -> Any:
-    """Compile a plug-in's function on demand; never cached on disk."""
+    """Compile a plug-in's function on demand; it is cached with the shim that calls it, or not at all."""
     return numba.jit(**_OPTIONS)(function)
 
 
@@ -313,9 +287,20 @@ def shared(function: Callable[..., Any]) -> Any:
     return _Shared(function)
 
 
-def address_of(shim: Callable[..., Any], form: str) -> int:
-    """Compile ``shim`` to a C function of the given form and return its address."""
-    compiled = numba.cfunc(_C_SIGNATURES[form], nopython=True, error_model="numpy")(shim)
+def unshared(value: Any) -> Any:
+    """Return the function out of which :func:`shared` has made a value, any other value as it is."""
+    return value.function if isinstance(value, _Shared) else value
+
+
+def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
+    """Compile ``shim`` to a C function of the given form, or find it in the cache by its key, and return its address.
+
+    Equal keys must mean equal functions; without a key nothing is cached.
+    """
+    if key:
+        shim.__code__ = shim.__code__.replace(co_filename=KEYED + key)
+    with numbered(key) if key else contextlib.nullcontext():
+        compiled = c_function(shim, _C_SIGNATURES[form], cache=bool(key))
     _alive.append(compiled)
     return int(compiled.address)
 

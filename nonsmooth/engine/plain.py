@@ -91,7 +91,12 @@ def shared(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-def address_of(shim: Callable[..., Any], form: str) -> int:
+def unshared(value: Any) -> Any:
+    """Leave the value as it is."""
+    return value
+
+
+def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
     """Register ``shim`` and return the number it answers to."""
     _functions.append(shim)
     return len(_functions)

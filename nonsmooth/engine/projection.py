@@ -20,12 +20,12 @@ _APART = 1e4
 """A residual that stays above this many gap tolerances cannot be closed."""
 
 
-@room("f8(S, F, I)")
-def project_rates(S: Scalars, w: Floats, k: Integers) -> float:
+@room("f8(S, F, I, i8)")
+def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
 
-    A slip that is only about to start counts as none: its direction would be that of round-off.  The correction
-    is the impulse of least kinetic energy, without friction on sliding contacts.
+    At an event (1) a slip that is only about to start counts as none: its direction would be that of round-off.  The
+    correction is the impulse of least kinetic energy, without friction on sliding contacts.
     Returns the kinetic energy it removes [J]; the work of the driven bodies is booked.
     """
     m = S.n_active
@@ -36,7 +36,7 @@ def project_rates(S: Scalars, w: Floats, k: Integers) -> float:
         c = k[S.active + a]
         k[S.normal_held + a] = 1
         slow = max(abs(w[S.rate + 3 * c + 1]), abs(w[S.rate + 3 * c + 2])) <= S.velocity_tolerance
-        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or slow else 0
+        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or (at_event == 1 and slow) else 0
         w[S.mu + a] = 0.0
         for r in range(3):
             w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
@@ -101,11 +101,10 @@ def _displace(S: Scalars, w: Floats, k: Integers) -> float:
 
 
 @room("f8(S, F, I, i8)")
-def project_closed(S: Scalars, w: Floats, k: Integers, book_gaps: int) -> float:
+def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
 
-    What the gaps take counts if ``book_gaps`` is 1; within a step it is the error of the step, which no energy
-    paid for.
+    What the gaps take counts at an event (1); within a step it is the error of the step, which no energy paid for.
     """
     group_closed(S, w, k)
     if S.n_grouped == 0:
@@ -119,11 +118,11 @@ def project_closed(S: Scalars, w: Floats, k: Integers, book_gaps: int) -> float:
         activate_group(S, w, k, group)
         for a in range(S.n_active):
             evaluate_contact(S, w, k, k[S.active + a], 1)
-        loss += project_rates(S, w, k)
+        loss += project_rates(S, w, k, at_event)
         moved += _add_gaps(S, w, k)
     if moved > 0:
         removed = _displace(S, w, k)
-        if book_gaps == 1:
+        if at_event == 1:
             loss += removed
     return loss
 

@@ -269,7 +269,7 @@ def _close(S: Scalars, w: Floats, k: Integers) -> int:
     w[S.event_head + 4] = 0.0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
-        w[S.event_head + 4] += project_rates(S, w, k)
+        w[S.event_head + 4] += project_rates(S, w, k, 1)
     w[S.event_head + 1] = S.driven_work - before
     S.closing_loss += w[S.event_head + 4]
     record_event(S, w, k, CLOSING, contact, 0)

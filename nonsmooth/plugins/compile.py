@@ -15,6 +15,7 @@ import numpy as np
 from nonsmooth.engine.kernel import COMPILATION_ERRORS, PLAIN, address_of, at, call_scalar, jit
 from nonsmooth.errors import PluginError, UnknownName
 from nonsmooth.parameters import Value
+from nonsmooth.plugins.fingerprint import fingerprint
 
 ROLES = {
     "scalar": ("x",),
@@ -104,12 +105,12 @@ def _address(function: Callable[..., Any], form: str, vectors: tuple[bool, ...])
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
     unpacked = "".join(", " + text.format(i) for i, text in enumerate(items))
-    scope: dict[str, Any] = {"law": jit(function), "at": at, "nan": math.nan}
+    scope: dict[str, Any] = {"__name__": __name__, "law": jit(function), "at": at, "nan": math.nan}
     arguments, call, failure = _CALLS[form]
     shim = _GUARDED_SHIM if PLAIN or _may_raise(function) else _PLAIN_SHIM
     text = shim.format(arguments=arguments, call=call.format(unpacked=unpacked), failure=failure)
     exec(text, scope)  # the shim's text is ours, never the user's
-    return address_of(scope["shim"], form)
+    return address_of(scope["shim"], form, fingerprint(function, form + text))
 
 
 def _may_raise(function: Callable[..., Any]) -> bool:

@@ -19,17 +19,17 @@ from nonsmooth.interfaces import (
     Joint,
     Load,
     NormalLaw,
-    Shape,
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
 from nonsmooth.plugins import registry
 from nonsmooth.system.contact import Contact, Tie
 from nonsmooth.system.materials import Materials, check_laws
+from nonsmooth.system.selection import Side, select
 
 _LARGEST_GRAVITY = 1e4
-_Side: TypeAlias = tuple[Body, int, Shape]
 _Pair: TypeAlias = frozenset[int]
+_ShapePair: TypeAlias = frozenset[tuple[int, int]]
 
 
 class System:
@@ -63,7 +63,7 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = float(gravity)
         self._contacts: list[Contact] = []
-        self._paired: set[_Pair] = set()
+        self._paired: set[_ShapePair] = set()
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
         self._guards: list[Guard] = []
@@ -180,9 +180,27 @@ class System:
         self._starts[id(body)] = np.array(q, dtype=float), np.array(u, dtype=float)
 
     def contact(
-        self, first: Body, second: Body, *, normal: NormalLaw, friction: FrictionLaw, impact: ImpactLaw
+        self,
+        first: Body,
+        second: Body,
+        *,
+        normal: NormalLaw,
+        friction: FrictionLaw,
+        impact: ImpactLaw,
+        shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
     ) -> tuple[Contact, ...]:
         """Let two bodies touch: one contact per pair of their shapes, all with the same laws.
+
+        Parameters
+        ----------
+        first, second : Body
+            The bodies.
+        normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw
+            The laws.
+        shapes : tuple of two sequences of int, optional
+            Which shapes of either body may touch, None for all.  The shapes of a body are numbered from 0 through all
+            of its frames, in the order of ``Body.frames``.  Shapes of the same two bodies may so get laws of their own
+            by further calls.
 
         Returns
         -------
@@ -193,8 +211,8 @@ class System:
         ------
         InvalidInput
             If a body is not of this system, a law is missing or of the wrong kind, no kinematics is known
-            for a pair of shapes, a body carries none, the two have their contacts already, or the impact law is of
-            another kind than that of the other contacts.
+            for a pair of shapes, a body carries none or not the one named, two shapes have their contacts already, or
+            the impact law is of another kind than that of the other contacts.
         """
         self._require(first, "System.contact")
         self._require(second, "System.contact")
@@ -210,26 +228,20 @@ class System:
             raise InvalidInput(
                 "System.contact", "needs two different bodies", type(first).__name__, "Name the other body."
             )
-        for body in (first, second):
-            if not any(body.frames):
-                raise InvalidInput(
-                    "System.contact", "needs bodies that carry shapes", body, "Without a shape nothing can touch it."
-                )
-        pair = _key(first, second)
-        if pair in self._paired:
+        sides = select("System.contact", (first, second), shapes)
+        pairs = {frozenset((one.key, other.key)) for one, other in itertools.product(*sides)}
+        if pairs & self._paired:
             raise InvalidInput(
                 "System.contact",
-                "needs two bodies that have no contact with each other yet",
+                "needs two bodies, or shapes of them, that have no contact with each other yet",
                 (type(first).__name__, type(second).__name__),
-                "One call adds the contacts of all their shapes.",
+                "One call adds the contacts of all their shapes, or of those named by `shapes`.",
             )
         added: list[Contact] = []
-        for i, carried in enumerate(first.frames):
-            for j, others in enumerate(second.frames):
-                for a, b in itertools.product(carried, others):
-                    added += self._pair((first, i, a), (second, j, b), len(added), normal, friction, impact)
+        for one, other in itertools.product(*sides):
+            added += self._pair(one, other, len(added), normal, friction, impact)
         self._contacts += added
-        self._paired.add(pair)
+        self._paired |= pairs
         return tuple(added)
 
     def contact_all(
@@ -243,8 +255,8 @@ class System:
         """Let all bodies touch each other, with the laws that belong to the materials of every two.
 
         Left out are pairs of driven bodies, pairs tied by a joint so far (a joint usually makes its bodies overlap)
-        and the pairs of ``exclude``.  Pairs that have contacts already keep them: declare a pair with laws of its own,
-        or one tied by a joint, by :meth:`contact` first.
+        and the pairs of ``exclude``.  Pairs that have contacts already, be it of some of their shapes, keep them and
+        get no more: declare a pair with laws of its own, or one tied by a joint, by :meth:`contact` first.
 
         Parameters
         ----------
@@ -271,7 +283,8 @@ class System:
         """
         chosen = [body for body in self._bodies if any(body.frames)] if bodies is None else list(bodies)
         names = self._material_names(materials, of or {})
-        out = {_key(tie.first, tie.second) for tie in self._joints} | self._paired
+        out = {_key(tie.first, tie.second) for tie in self._joints}
+        out |= {frozenset(body for body, _ in pair) for pair in self._paired}
         for one, other in exclude:
             self._require(one, "System.contact_all: exclude")
             self._require(other, "System.contact_all: exclude")
@@ -306,8 +319,8 @@ class System:
 
     def _pair(
         self,
-        first: _Side,
-        second: _Side,
+        first: Side,
+        second: Side,
         n_added: int,
         normal: NormalLaw,
         friction: FrictionLaw,
@@ -316,27 +329,28 @@ class System:
         known = registry.load_all("kinematics").values()
         number = len(self._contacts) + n_added + 1
         for kinematics in known:
-            for (one, i, a), (two, j, b) in ((first, second), (second, first)):
-                if kinematics.pair == (type(a), type(b)):
+            for one, two in ((first, second), (second, first)):
+                if kinematics.pair == (type(one.shape), type(two.shape)):
+                    names = type(one.body).__name__, type(two.body).__name__
                     return [
                         Contact(
-                            f"contact of {type(one).__name__} and {type(two).__name__} (from number {number})",
-                            one,
-                            two,
-                            (i, j),
+                            f"contact of {names[0]} and {names[1]} (from number {number})",
+                            one.body,
+                            two.body,
+                            (one.frame, two.frame),
                             geometry,
-                            (a.extent, b.extent),
+                            (one.shape.extent, two.shape.extent),
                             normal,
                             friction,
                             impact,
                         )
-                        for geometry in kinematics.between(a, b)
+                        for geometry in kinematics.between(one.shape, two.shape)
                     ]
         pairs = sorted(f"{k.pair[0].__name__}-{k.pair[1].__name__}" for k in known)
         raise InvalidInput(
             "System.contact",
             "needs shapes whose contact kinematics is known",
-            f"{type(first[2]).__name__}-{type(second[2]).__name__}",
+            f"{type(first.shape).__name__}-{type(second.shape).__name__}",
             f"Known pairs: {', '.join(pairs)}.",
         )
 

@@ -81,7 +81,7 @@ class RollingDisc(Scenario):
 
     def build(self) -> System:
         """Return table and disc; the lowest point of the rim is in the direction of x."""
-        table, disc = Plate(Rest()), DiscBody(self.radius, mass=self.mass)
+        table, disc = Plate(Rest()), DiscBody(self.radius, mass=self.mass, foot_height=0.0)
         system = System([table, disc], gravity=_GRAVITY)
         friction = Coulomb(self.friction) if self.friction > 0.0 else Frictionless()
         system.contact(table, disc, normal=Unilateral(), friction=friction, impact=EnergeticImpact(self.restitution))

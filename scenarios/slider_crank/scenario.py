@@ -91,13 +91,14 @@ class SliderCrank(Scenario):
         ceiling = Plate(Rest(position=(0.0, 0.0, half), orientation=(0.0, 1.0, 0.0, 0.0)))
         system = System([body, floor, ceiling], gravity=_GRAVITY)
         law = _LAWS[self.law]
-        for side in (floor, ceiling):
+        for side, near in ((floor, (0, 1)), (ceiling, (2, 3))):
             system.contact(
                 body,
                 side,
                 normal=Unilateral(),
                 friction=Coulomb(self.friction),
                 impact=law(self.restitution),
+                shapes=(near, None),
             )
         return system
 

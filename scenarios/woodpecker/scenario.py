@@ -102,8 +102,15 @@ class Woodpecker(Scenario):
         side = Plate(Rest(orientation=(half, -half, 0.0, 0.0)))  # its normal is y
         system = System([body, front, side], gravity=_GRAVITY)
         law = _LAWS[self.law]
-        for face, restitution in ((front, self.beak_restitution), (side, self.sleeve_restitution)):
-            system.contact(body, face, normal=Unilateral(), friction=Coulomb(self.friction), impact=law(restitution))
+        for points, face, e in (((0,), front, self.beak_restitution), ((1, 2), side, self.sleeve_restitution)):
+            system.contact(
+                body,
+                face,
+                normal=Unilateral(),
+                friction=Coulomb(self.friction),
+                impact=law(e),
+                shapes=(points, None),
+            )
         return system
 
     def pecks(self, solution: Solution) -> tuple[Floats, Floats]:

@@ -2,15 +2,12 @@
 
 Coordinates are the height y of the sleeve and the angles phi_M, phi_S of sleeve and bird.  The model knows gaps and
 slips along the pole but no outlines: here the beak's gap lies along x, those of the sleeve's edges along y, and each
-point stays at the distance ``ASIDE`` from the face of the pole that is not its own.
+point has a contact with its own face of the pole only.
 """
 
 from __future__ import annotations
 
 from nonsmooth.types import Floats
-
-ASIDE = 1.0
-"""Distance from the face that a point does not touch [m]."""
 
 
 def mass(
@@ -74,9 +71,8 @@ def beak(
     beak_height: float,
     pole_radius: float,
 ) -> None:
-    """Write the gap of the beak, its distance from the other face, and its place along the pole [m]."""
+    """Write the gap of the beak, along x, and its place along the pole [m]."""
     out[0] = sleeve_arm + bird_arm - beak_arm - pole_radius - beak_height * q[2]
-    out[1] = ASIDE
     out[2] = q[0] + sleeve_arm * q[1] + (bird_arm - beak_arm) * q[2]
 
 
@@ -89,8 +85,7 @@ def beak_jacobian(
 
 
 def lower_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float, sleeve_height: float) -> None:
-    """Write the same of the sleeve's edges that touch when it tilts to negative angles."""
-    out[0] = ASIDE
+    """Write the gap of the sleeve's edges that touch when it tilts to negative angles, along y, and their place [m]."""
     out[1] = sleeve_radius - pole_radius + sleeve_height * q[1]
     out[2] = q[0] + sleeve_radius * q[1]
 
@@ -103,7 +98,6 @@ def lower_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_hei
 
 def upper_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float, sleeve_height: float) -> None:
     """Write the same of the edges that touch when the sleeve tilts to positive angles."""
-    out[0] = ASIDE
     out[1] = sleeve_radius - pole_radius - sleeve_height * q[1]
     out[2] = q[0] + sleeve_radius * q[1]
 

@@ -26,6 +26,8 @@ BOX = Box(0.3, 0.2, 0.4, **PLACE, **AXES)
 CAPSULE = Capsule(0.15, 0.4, **PLACE, **AXIS)
 CYLINDER = Cylinder(0.3, 0.25, **PLACE, **AXIS)
 DISC = Disc(0.4, **PLACE, **AXIS)
+CYLINDER_ON_FEET = Cylinder(0.3, 0.25, **PLACE, **AXIS, foot_height=0.02)
+DISC_ON_FEET = Disc(0.4, **PLACE, **AXIS, foot_height=0.03)
 ELLIPSOID = Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES)
 
 PAIRS: dict[str, tuple[Shape, Shape, int]] = {
@@ -34,6 +36,8 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "plane-box": (PLANE, BOX, 8),
     "plane-disc": (PLANE, DISC, 1),
     "plane-cylinder": (PLANE, CYLINDER, 2),
+    "plane-disc on feet": (PLANE, DISC_ON_FEET, 1 + 6),
+    "plane-cylinder on feet": (PLANE, CYLINDER_ON_FEET, 2 + 6),
     "plane-ellipsoid": (PLANE, ELLIPSOID, 1),
     "sphere-sphere": (SPHERE, Sphere(0.3, x=0.1), 1),
     "box-sphere": (BOX, SPHERE, 1),
@@ -74,11 +78,38 @@ def _across(shape: Any, x: Array) -> Any:
     return np.linalg.norm(x - np.multiply.outer(x @ axis, axis), axis=-1)
 
 
+def _feet(shape: Any) -> Array:
+    """Return the tips of the feet from the centre, three on either face, a third of a turn apart [6, 3]."""
+    own = getattr(shape, "half_length", shape.foot_height)
+    first = np.cross(_axis(shape), [0.0, -1.0, 0.0])
+    first *= 2.0 / 3.0 * shape.radius / np.linalg.norm(first)
+    thirds = [Rotation.from_rotvec(2.0 * np.pi / 3.0 * i * _axis(shape)).apply(first) for i in range(3)]
+    return np.array([away * _axis(shape) + third for away in (-own, own) for third in thirds])
+
+
+def _with_feet(shape: Any, n: Array, round_body: Any) -> Any:
+    """Return the support of a body that stands on feet, whose rims are set back."""
+    if shape.foot_height == 0.0:
+        return round_body
+    return np.maximum(round_body - shape.foot_height * _set_back(shape, n), np.max(n @ _feet(shape).T, axis=-1))
+
+
+def _set_back(shape: Any, n: Array) -> Any:
+    return np.abs(n @ _axis(shape)) if isinstance(shape, Cylinder) else 0.0
+
+
+def _off_feet(shape: Any, x: Array, outside: Any) -> Any:
+    """Return how far a point is outside of the round body or, if that is nearer, of the tip of a foot."""
+    if shape.foot_height == 0.0:
+        return outside
+    return min(outside, np.min(np.linalg.norm(_feet(shape) - _local(shape, x), axis=-1)))
+
+
 SUPPORT: dict[type[Shape], Any] = {
     Sphere: lambda s, n: s.radius,
     Capsule: lambda s, n: s.radius + s.half_length * np.abs(n @ _axis(s)),
-    Cylinder: lambda s, n: s.radius * _across(s, n) + s.half_length * np.abs(n @ _axis(s)),
-    Disc: lambda s, n: s.radius * _across(s, n),
+    Cylinder: lambda s, n: _with_feet(s, n, s.radius * _across(s, n) + s.half_length * np.abs(n @ _axis(s))),
+    Disc: lambda s, n: _with_feet(s, n, s.radius * _across(s, n)),
     Box: lambda s, n: np.abs(n @ _own_axes(s)) @ np.array([s.half_x, s.half_y, s.half_z]),
     Ellipsoid: lambda s, n: np.linalg.norm(n @ _own_axes(s) * np.array([s.semi_x, s.semi_y, s.semi_z]), axis=-1),
 }
@@ -91,8 +122,10 @@ OUTSIDE: dict[type[Shape], Any] = {
         np.linalg.norm(_local(s, x) - np.clip(_local(s, x) @ _axis(s), -s.half_length, s.half_length) * _axis(s))
         - s.radius
     ),
-    Cylinder: lambda s, x: max(abs(_local(s, x) @ _axis(s)) - s.half_length, _across(s, _local(s, x)) - s.radius),
-    Disc: lambda s, x: max(abs(_local(s, x) @ _axis(s)), _across(s, _local(s, x)) - s.radius),
+    Cylinder: lambda s, x: _off_feet(
+        s, x, max(abs(_local(s, x) @ _axis(s)) - s.half_length + s.foot_height, _across(s, _local(s, x)) - s.radius)
+    ),
+    Disc: lambda s, x: _off_feet(s, x, max(abs(_local(s, x) @ _axis(s)), _across(s, _local(s, x)) - s.radius)),
     Box: lambda s, x: np.max(np.abs(_local(s, x) @ _own_axes(s)) - np.array([s.half_x, s.half_y, s.half_z])),
     Ellipsoid: lambda s, x: (
         np.linalg.norm(_local(s, x) @ _own_axes(s) / np.array([s.semi_x, s.semi_y, s.semi_z])) - 1.0

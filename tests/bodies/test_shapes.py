@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Capsule, Cylinder, Disc, Ellipsoid
+from bodies import Box, Capsule, Compound, Cylinder, CylinderBody, Disc, DiscBody, Ellipsoid, Part
 from nonsmooth import InvalidInput
 
 CENTERS = [(0.0, 0.0, 0.0), (0.1, -0.2, 0.05), (0.0, 0.0, 0.3)]
@@ -59,6 +59,42 @@ def test_lengths_of_shapes_with_an_axis(center: Any) -> None:
     assert Capsule(0.3, 0.2, *center, **AXIS).length == pytest.approx(0.3 + farthest(caps))
 
 
+@pytest.mark.parametrize(
+    "axis", [(0.0, 0.0, 1.0), (0.48, -0.6, 0.64), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0), (-1.0, 0.0, 0.0)]
+)
+def test_feet_stand_on_both_faces(axis: Any) -> None:
+    """Three on either, a third of a turn apart, at two thirds of the radius; a cylinder is as long as without."""
+    direction = np.array(axis)
+    axes: dict[str, Any] = dict(zip(("axis_x", "axis_y", "axis_z"), axis, strict=True))
+    place: dict[str, Any] = {"x": 0.1, "y": -0.2, "z": 0.05, **axes}
+    center = np.array([0.1, -0.2, 0.05])
+    disc, cylinder = Disc(0.3, **place, foot_height=0.02), Cylinder(0.3, 0.2, **place, foot_height=0.02)
+    for shape, height in ((disc, 0.02), (cylinder, 0.2)):
+        feet = np.array(shape.feet) - center
+        np.testing.assert_allclose(feet @ direction, [-height] * 3 + [height] * 3, rtol=0, atol=1e-15)
+        for face in (feet[:3], feet[3:]):
+            across = face - np.outer(face @ direction, direction)
+            products = across @ across.T / 0.2**2
+            np.testing.assert_allclose(products, 1.5 * np.eye(3) - 0.5, rtol=0, atol=1e-14)
+    rims = np.array(cylinder.rims) - center
+    np.testing.assert_allclose(rims, [-0.18 * direction, 0.18 * direction], rtol=0, atol=1e-15)
+    plain = Cylinder(0.3, 0.2, **place)
+    assert plain.feet == ()
+    assert plain.rims == plain.caps == cylinder.caps
+
+
+def test_usual_feet() -> None:
+    """A ten-thousandth of the radius, less on a cylinder that is hardly longer than that, none on request."""
+    heights = [
+        shape.foot_height  # type: ignore[attr-defined]
+        for body in (DiscBody(0.5), CylinderBody(0.5, 0.1), CylinderBody(0.5, 1e-5), DiscBody(0.5, foot_height=0.0))
+        for shape in body.shapes
+    ]
+    assert heights == pytest.approx([5e-5, 5e-5, 1e-6, 0.0], rel=1e-12, abs=0.0)
+    (moved,) = Compound((Part(CylinderBody(0.5, 0.1), (1.0, 2.0, 3.0), (0.6, 0.8, 0.0, 0.0)),)).shapes
+    assert moved.foot_height == 5e-5  # type: ignore[attr-defined]
+
+
 @pytest.mark.parametrize("center", CENTERS)
 def test_length_of_a_box(center: Any) -> None:
     """Its farthest vertex."""
@@ -77,6 +113,14 @@ BAD: list[tuple[Any, dict[str, Any], tuple[str, ...]]] = [
     (Capsule, {"radius": 0.1, "half_length": 0.1, "axis_x": 1.0}, ("Capsule axis", "unit length", "1.41421")),
     (Cylinder, {"radius": 0.1, "half_length": 0.1, "axis_z": 0.0}, ("Cylinder axis", "unit length")),
     (Disc, {"radius": 0.1, "axis_y": 1.0}, ("Disc axis", "unit length")),
+    (Disc, {"radius": 0.1, "foot_height": -1e-5}, ("Disc.foot_height", ">= 0", "-1e-05")),
+    (Disc, {"radius": 0.1, "foot_height": 0.011}, ("Disc.foot_height", "at most a tenth of the radius, 0.01", "0.011")),
+    (DiscBody, {"radius": 0.1, "foot_height": 0.1}, ("DiscBody.foot_height", "at most a tenth", "a ten-thousandth")),
+    (
+        CylinderBody,
+        {"radius": 0.1, "half_length": 1e-3, "foot_height": 1e-3},
+        ("CylinderBody.foot_height", "less than half the length, 0.001", "0.001", "set back"),
+    ),
     (Ellipsoid, {"semi_x": 0.1, "semi_y": 0.1, "semi_z": 0.0}, ("Ellipsoid.semi_z", "> 0")),
     (
         Ellipsoid,

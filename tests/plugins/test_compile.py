@@ -22,9 +22,9 @@ def _compilations(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
     """List what is compiled inside: functions that get an address, and all that numba works on, whoever asks."""
     found: list[str] = []
 
-    def noted(shim: Callable[..., Any], form: str) -> int:
+    def noted(shim: Callable[..., Any], form: str, key: str) -> int:
         found.append(form)
-        return address_of(shim, form)
+        return address_of(shim, form, key)
 
     with monkeypatch.context() as patch, contextlib.ExitStack() as stack:
         patch.setattr(compiling, "address_of", noted)
@@ -95,8 +95,16 @@ def test_one_more_foot_compiles_nothing(monkeypatch: pytest.MonkeyPatch) -> None
     assert compiled == []
 
 
-def _steady(speed: float, level: float) -> float:
-    return level
+def _made(offset: float) -> Callable[..., float]:
+    """Return a closure: nothing of it is kept on disk, and it is new to every session."""
+
+    def steady(speed: float, level: float) -> float:
+        return offset + level
+
+    return steady
+
+
+_steady = _made(0.0)
 
 
 @final
@@ -133,5 +141,5 @@ def test_a_new_law_is_compiled_alone_and_once(monkeypatch: pytest.MonkeyPatch) -
         run()
     with _compilations(monkeypatch) as second:
         run()
-    assert first == (["scalar"] if PLAIN else ["scalar", "_steady", "shim"])
+    assert first == (["scalar"] if PLAIN else ["scalar", "_made.<locals>.steady", "shim"])
     assert second == []

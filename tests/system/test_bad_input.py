@@ -165,6 +165,34 @@ BAD: dict[str, tuple[Callable[[], Any], tuple[str, str, str, str]]] = {
         lambda: _contact(Plate(), RigidBody(1.0, (1, 1, 1))),
         ("System.contact", "bodies that carry shapes", "RigidBody(mass=1.0", "Without a shape"),
     ),
+    "shapes of no pair": (
+        lambda: _contact(Plate(), Dumbbell(), shapes=(0, 1)[:1]),
+        ("System.contact: shapes", "must be a pair", "(0,)", "((0, 1), None)"),
+    ),
+    "shapes as a number": (
+        lambda: _contact(Plate(), Dumbbell(), shapes=(None, 1)),
+        ("System.contact: shapes of Dumbbell", "None or a sequence of at least one number", "1", "all shapes"),
+    ),
+    "no shapes chosen": (
+        lambda: _contact(Plate(), Dumbbell(), shapes=(None, ())),
+        ("System.contact: shapes of Dumbbell", "at least one number", "()", "None stands for"),
+    ),
+    "a shape that is none": (
+        lambda: _contact(Plate(), Dumbbell(), shapes=(None, (0, 2))),
+        ("System.contact: shapes of Dumbbell", "whole numbers from 0, below 2", "2", "0: Sphere, 1: Sphere"),
+    ),
+    "a shape counted from the end": (
+        lambda: _contact(Plate(), Dumbbell(), shapes=((-1,), None)),
+        ("System.contact: shapes of Plate", "whole numbers from 0, below 1", "-1", "0: Plane"),
+    ),
+    "a shape by a truth value": (
+        lambda: _contact(Plate(), Dumbbell(), shapes=(None, (True,))),
+        ("System.contact: shapes of Dumbbell", "whole numbers", "True", "0: Sphere"),
+    ),
+    "a shape twice": (
+        lambda: _contact(Plate(), Dumbbell(), shapes=(None, (1, 1))),
+        ("System.contact: shapes of Dumbbell", "every shape once", "(1, 1)", "Take the double one out"),
+    ),
     "a contact twice": (_twice, ("System.contact", "no contact with each other yet", "'Ball'", "One call adds")),
     "no normal law": (lambda: _contact(Plate(), Ball(1), normal=None), ("System.contact", "NormalLaw", "None", "list")),
     "no friction law": (

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, BallJoint, Plate
+from bodies import Ball, BallJoint, Dumbbell, Plate
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 
 
@@ -74,6 +74,17 @@ def test_pairs_of_their_own() -> None:
     assert _friction(system, plates[0], balls[0]) == [own.friction]
     assert _friction(system, balls[0], balls[1]) == []
     assert _friction(system, balls[2], plates[1]) == []
+
+
+def test_a_pair_with_contacts_of_some_shapes_keeps_them() -> None:
+    """It gets no more, so that shapes left out stay left out."""
+    plate, bodies = Plate(), [Dumbbell(), Dumbbell()]
+    system = ns.System([plate, *bodies])
+    own = _laws(0.9)
+    chosen = (None, (1,))
+    system.contact(plate, bodies[0], normal=own.normal, friction=own.friction, impact=own.impact, shapes=chosen)
+    assert len(system.contact_all(ns.Materials(default=OTHER))) == 2 + 4
+    assert _friction(system, plate, bodies[0]) == [own.friction]
 
 
 def test_some_of_the_bodies() -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, Dumbbell, Harmonic, Plate
+from bodies import Ball, Coordinate, Dumbbell, GeneralisedBody, Harmonic, Plate, PointFrame, Sphere
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.parameters import parameter
@@ -87,6 +87,59 @@ def test_a_dumbbell_has_two_contacts_whatever_the_order(build: Any) -> None:
         contacts = system.contact(*pair, **build.laws())
         assert len(contacts) == 2
         assert all(contact.first is plate for contact in contacts)
+
+
+def test_shapes_of_a_body_get_contacts_and_laws_of_their_own(build: Any) -> None:
+    """Numbers count through all frames, in the order of the body; what has a contact already is refused again."""
+    plate, body, other = Plate(), Dumbbell(), Dumbbell()
+    system = ns.System([plate, body, other])
+    last = system.contact(body, plate, shapes=((1,), None), **build.laws(friction=0.1))
+    assert [contact.friction for contact in last] == [Coulomb(0.1)]
+    again = ("System.contact", "shapes of them, that have no contact", "named by `shapes`")
+    _raises(again, lambda: system.contact(plate, body, **build.laws()))
+    _raises(again, lambda: system.contact(plate, body, shapes=(None, (0, 1)), **build.laws()))
+    assert len(system.contacts) == 1
+    first = system.contact(plate, body, shapes=(None, (0,)), **build.laws(friction=0.3))
+    both = ns.System([plate, body]).contact(plate, body, **build.laws())
+    assert [c.kinematics for c in (*first, *last)] == [c.kinematics for c in both]
+    assert system.contacts == (*last, *first)
+    crossed = system.contact(body, other, shapes=((1, 0), (1,)), **build.laws())
+    all_four = ns.System([body, other]).contact(body, other, **build.laws())
+    assert [c.kinematics for c in crossed] == [all_four[i].kinematics for i in (1, 3)]
+
+
+def _height(q: Any, out: Any) -> None:
+    out[2] = q[0]
+
+
+def _unit(q: Any, out: Any) -> None:
+    out[2] = 1.0
+
+
+def _unit_mass(q: Any, out: Any) -> None:
+    out[0] = 1.0
+
+
+def _nothing(q: Any, u: Any, out: Any) -> None:
+    pass
+
+
+def _no_force(t: float, q: Any, u: Any, out: Any) -> None:
+    pass
+
+
+def _zero(q: Any) -> float:
+    return 0.0
+
+
+def test_shapes_are_counted_through_frames(build: Any) -> None:
+    """The frame of a contact is the one that carries its shape."""
+    frames = (PointFrame(_height, _unit, _nothing, (Sphere(r), Sphere(2.0 * r))) for r in (0.01, 0.03))
+    plate, body = Plate(), GeneralisedBody((Coordinate("z", 1.0),), _unit_mass, _no_force, _zero, tuple(frames))
+    system = ns.System([plate, body])
+    (contact,) = system.contact(plate, body, shapes=(None, (2,)), **build.laws())
+    assert contact.frames == (0, 1)
+    assert contact.kinematics.parameters()["radius"] == 0.03
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1e-6])
