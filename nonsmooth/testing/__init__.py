@@ -7,16 +7,16 @@ Each ``check_...`` returns a list of :class:`Property`; nothing runs before a pr
         prop()
 """
 
-#from nonsmooth.testing.body import check_body
-#from nonsmooth.testing.friction import check_friction_law
-#from nonsmooth.testing.impact import check_impact_law
-#from nonsmooth.testing.kinematics import check_contact_kinematics
-#from nonsmooth.testing.normal import check_normal_law
-#from nonsmooth.testing.property import NotChecked, Property, PropertyFailed
-#from nonsmooth.testing.scenario import check_scenario
+from nonsmooth.testing.body import check_body
+from nonsmooth.testing.friction import check_friction_law
+from nonsmooth.testing.impact import check_impact_law
+from nonsmooth.testing.kinematics import check_contact_kinematics
+from nonsmooth.testing.normal import check_normal_law
+from nonsmooth.testing.property import Departs, NotChecked, Property, PropertyFailed
+from nonsmooth.testing.scenario import check_scenario
 
-__all__: list[str] = []
-_later = [
+__all__ = [
+    "Departs",
     "NotChecked",
     "Property",
     "PropertyFailed",

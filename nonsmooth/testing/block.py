@@ -13,12 +13,10 @@ from nonsmooth.interfaces import Body
 from nonsmooth.model.layout import FRAME
 from nonsmooth.testing.callers import Caller, compiled_caller, plain_caller
 from nonsmooth.testing.draws import Case, Variable
+from nonsmooth.testing.functions import OLD, ROOM
 from nonsmooth.testing.rig import turned
 
 Array = NDArray[np.float64]
-ROOM = 4
-"""Numbers behind the block, which are not the body's."""
-OLD = 7.0e3
 WEIGHTLESS = {"gravity_x": 0.0, "gravity_y": 0.0, "gravity_z": 0.0}
 OBLIQUE = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
 """Gravity of the checks [m/s^2], which must hold with any."""
@@ -96,7 +94,9 @@ def compiled(body: Body, gravity: Mapping[str, float] = OBLIQUE) -> Caller:
 
 def written(body: Body, call: Callable[..., Any], t: float, q: Array, u: Array, old: Array | None = None) -> Array:
     """Return what an evaluator writes into a block, with some room behind it."""
-    out = np.zeros(size_of(body) + ROOM) if old is None else old.copy()
+    out = np.full(size_of(body) + ROOM, OLD) if old is None else old.copy()
+    if old is None:
+        out[:-ROOM] = 0.0
     call(t, np.array(q), np.array(u), out)
     return out
 

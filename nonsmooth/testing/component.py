@@ -47,17 +47,12 @@ def numbers_of(component: Any) -> dict[str, tuple[Any, Rule]]:
 def inside(value: float | None, rule: Rule) -> tuple[float, ...]:
     """Return values within the declared range: bounds that belong to it and something between."""
     low, high = max(rule.minimum, rule.above), rule.maximum
-    middle = value if value is not None else _some(low, high)
-    tried = [rule.minimum, rule.maximum, middle, middle / _FAR, middle * _FAR]
+    tried = [rule.minimum, rule.maximum]
+    if value is not None:
+        tried += [value, value / _FAR, value * _FAR]
     if low > -math.inf and high < math.inf:
         tried.append(0.5 * (low + high))
     return tuple(x for x in dict.fromkeys(tried) if math.isfinite(x) and low <= x <= high and x > rule.above)
-
-
-def _some(low: float, high: float) -> float:
-    if low > -math.inf and high < math.inf:
-        return 0.5 * (low + high)
-    return 1.0 if low < 1.0 < high else low + 1.0 if low > -math.inf else high - 1.0
 
 
 def outside(rule: Rule) -> tuple[float, ...]:
@@ -111,8 +106,23 @@ def _check_bounds(component: Any) -> None:
                 raise Broken(f"a value outside of its range ({rule.describe()}) is accepted", name, repr(value))
     for name, (value, rule) in numbers_of(component).items():
         for one in inside(value, rule):
-            if not any(accepted(component, **{name: one}, **others) is not None for others in _others(component, name)):
+            if not _acceptable(component, name, one, rule):
                 raise Broken(f"a value inside of its range ({rule.describe()}) is refused", name, repr(one))
+
+
+def _acceptable(component: Any, name: str, value: float, rule: Rule) -> bool:
+    """Return whether a value, rounded or, if it is a bound, next to it, is accepted with some others."""
+    low, high = max(rule.minimum, rule.above), rule.maximum
+    near = [value, float(round(value))]
+    if value in (low, high):
+        step = 0.01 * (high - low if math.isfinite(high - low) else 1.0 + abs(value))
+        near.append(value + step if value == low else value - step)
+    return any(
+        accepted(component, **{name: one}, **others) is not None
+        for one in near
+        if low <= one <= high
+        for others in _others(component, name)
+    )
 
 
 def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:

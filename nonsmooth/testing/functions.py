@@ -17,6 +17,10 @@ from nonsmooth.testing.budget import Call, OutOfTime, make_all, where
 from nonsmooth.testing.examine import described
 from nonsmooth.testing.property import Broken, NotChecked, Row
 
+ROOM = 4
+"""Numbers behind what a function is to write."""
+OLD = 7.0e3
+"""What stands there, and must stay."""
 _SAME = 1e-9
 
 
@@ -74,7 +78,7 @@ class Functions:
 
     @cached_property
     def _faults(self) -> dict[str, Broken]:
-        for name, look in (("known parameters", _names), ("time budget", _time), ("finite numbers", _finite)):
+        for name, look in _STAGES.items():
             for function in self.all:
                 try:
                     look(function)
@@ -90,7 +94,7 @@ class Functions:
 
     def sound(self, but: str = "") -> None:
         """Raise NotChecked if a function is not fit to be run."""
-        order = ("known parameters", "time budget", "finite numbers")
+        order = list(_STAGES)
         for name, fault in self._faults.items():
             if but not in order or order.index(name) < order.index(but):
                 raise NotChecked(f"not checked, as {name!r} does not hold: {fault.reason}") from fault
@@ -98,15 +102,15 @@ class Functions:
     def guarded(self, rows: list[Row]) -> list[Row]:
         """Return properties that are looked at only if the functions are fit to be run."""
 
-        def behind(check: Callable[[], None]) -> Callable[[], None]:
+        def behind(name: str, check: Callable[[], None]) -> Callable[[], None]:
             def run() -> None:
-                self.sound()
+                self.check(name)
                 room_addresses()
                 check()
 
             return run
 
-        return [(name, says, behind(check)) for name, says, check in rows]
+        return [(name, says, behind(name, check)) for name, says, check in rows]
 
     def rows(self) -> list[Row]:
         """Return the properties of the functions."""
@@ -140,6 +144,9 @@ class Functions:
 
     def _repeatable(self) -> None:
         for function in self.all:
+            one, other = (dict(function.owner.parameters()) for _ in range(2))
+            if one != other:
+                raise Broken(f"its parameters are {one} first and {other} later", "parameters()", other)
             first = [np.array(function.plain(value)) for _, value in function.inputs]
             for (words, value), once in reversed(list(zip(function.inputs, first, strict=True))):
                 again = np.asarray(function.plain(value))
@@ -189,10 +196,25 @@ def _finite(function: Function) -> None:
                 f"{title} raises {type(error).__name__}: {error}, in {where(function.function)}{line}",
                 *described(function.owner),
             ) from error
-        if not isinstance(result, np.ndarray) and not isinstance(result, (int, float)):
+        if isinstance(result, bool) or not isinstance(result, np.ndarray) and not isinstance(result, (int, float)):
             raise Broken(f"{title} returns {result!r}, in {where(function.function)}", *described(function.owner))
         if not np.all(np.isfinite(result)):
             raise Broken(f"{title} is {_short(result)}, in {where(function.function)}", *described(function.owner))
+
+
+def _inside(function: Function) -> None:
+    for words, value in function.inputs if function.form != "scalar" else ():
+        if np.any(np.asarray(function.plain(value))[-ROOM:] != OLD):
+            raise Broken(f"{function.title}({words}) writes beyond its block", *described(function.owner))
+
+
+_STAGES: dict[str, Callable[[Function], None]] = {
+    "known parameters": _names,
+    "time budget": _time,
+    "finite numbers": _finite,
+    "writes its block": _inside,
+}
+"""What is looked at first, in this order; the rest only if all of it holds."""
 
 
 def _raised_at(error: Exception) -> str:

@@ -18,6 +18,7 @@ from nonsmooth.testing.respond import respond
 _INDENTATION = Variable("indentation", 1e-6, 1e1, 1.0, log=True)
 _RATE = Variable("rate", 1e-6, 1e2, 1.0, log=True)
 _DRAWS = 6
+_GRID = tuple(np.geomspace(1e-9, 1e2, 23).tolist())
 
 
 def process_rows(law: ImpactProcess) -> list[Row]:
@@ -43,17 +44,21 @@ def _force(law: ImpactProcess, case: Case) -> str:
     x = case["indentation"]
     if force(0.0) != 0.0:
         return f"force(0) is {force(0.0):g}"
-    low, high = force(x), force(1.5 * x)
-    return "" if high > low > 0.0 else f"force({x:g}) is {low:g} and force({1.5 * x:g}) {high:g}"
+    for less in (x, *_GRID):
+        low, high = force(less), force(1.5 * less)
+        if not high > low > 0.0:
+            return f"force({less:g}) is {low:g} and force({1.5 * less:g}) {high:g}"
+    return ""
 
 
 def _efficiency(law: ImpactProcess, case: Case) -> str:
     efficiency = plain_caller(law.efficiency, "scalar", law.parameters())
-    rate = case["rate"]
-    for x in (0.0, -rate):
-        if efficiency(x) != 1.0:
-            return f"efficiency({x:g}) is {efficiency(x):g}"
-    return "" if 0.0 <= efficiency(rate) <= 1.0 else f"efficiency({rate:g}) is {efficiency(rate):g}"
+    for rate in (0.0, case["rate"], *_GRID):
+        if efficiency(-rate) != 1.0:
+            return f"efficiency({-rate:g}) is {efficiency(-rate):g}"
+        if not 0.0 <= efficiency(rate) <= 1.0:
+            return f"efficiency({rate:g}) is {efficiency(rate):g}"
+    return ""
 
 
 def _accepts(law: ImpactProcess, case: Case) -> str:

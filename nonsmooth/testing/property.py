@@ -45,7 +45,11 @@ class PropertyFailed(NonsmoothError, AssertionError):
 
 
 class NotChecked(NonsmoothError, unittest.SkipTest):
-    """A property that could not be looked at, or that the component is known not to have; pytest counts it as skipped."""
+    """A property that could not be looked at, with the reason; pytest counts it as skipped."""
+
+
+class Departs(NotChecked):
+    """A property that does not hold, as the class says in its ``departures``."""
 
 
 class Broken(Exception):
@@ -102,13 +106,15 @@ class Property:
         PropertyFailed
             If it does not, or does although the component says that it departs from it.
         NotChecked
-            If it could not be looked at, or the component departs from it as it says.
+            If it could not be looked at.
+        Departs
+            If it does not, and the component says so.
         """
         try:
             self._look()
         except PropertyFailed as failure:
             if self.departure:
-                raise NotChecked(f"{self}: known departure: {self.departure}. {failure}") from failure
+                raise Departs(f"{self}, as it says: {self.departure}. {failure}") from failure
             raise
         if self.departure:
             reason = f"it holds, although the class departs from it, as it says, because {self.departure}"

@@ -97,7 +97,7 @@ class _Look:
             given = getattr(self._scenario, name)
             if given is not None and found[name] != given:
                 raise Broken(f"`resolved` gives it the value {found[name]!r}", name, given)
-            if rule.unit != "" and (found[name] is None or not math.isfinite(found[name])):
+            if rule.unit != "" and found[name] is not None and not math.isfinite(found[name]):
                 raise Broken("`resolved` gives it no finite number", name, found[name])
 
     def twice(self) -> None:
