@@ -126,5 +126,3 @@ def stepped(body: Body, q: Array, rates: Array, dt: float) -> Array:
         at = slice(body.quaternion, body.quaternion + 4)
         moved[at] /= np.linalg.norm(moved[at])
     return np.asarray(moved)
-
-

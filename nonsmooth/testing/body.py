@@ -11,8 +11,8 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.testing import block
 from nonsmooth.testing.block import state, state_space, written
-from nonsmooth.testing.body_free import free_rows
 from nonsmooth.testing.body_frames import frame_rows
+from nonsmooth.testing.body_free import free_rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.draws import Case, draws
 from nonsmooth.testing.examine import examine

@@ -86,7 +86,9 @@ def _velocity(body: Body, case: Case) -> str:
         slope, noise = _slope(body, case, lambda b, i=i: b.frame(i)[:12])  # type: ignore[misc]
         frame = here.frame(i)
         spin = slope[3:].reshape(3, 3) @ frame[3:12].reshape(3, 3).T
-        found = np.append(slope[:3], 0.5 * np.array([spin[2, 1] - spin[1, 2], spin[0, 2] - spin[2, 0], spin[1, 0] - spin[0, 1]]))
+        found = np.append(
+            slope[:3], 0.5 * np.array([spin[2, 1] - spin[1, 2], spin[0, 2] - spin[2, 0], spin[1, 0] - spin[0, 1]])
+        )
         wrong = _compare(frame[12:18], found, ("velocity", "angular velocity"), i, noise)
         if wrong:
             return wrong

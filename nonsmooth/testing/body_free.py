@@ -66,10 +66,14 @@ def _kinetic(body: Body, case: Case) -> str:
     here = _look(body, t, q, u)
     expected = 0.5 * float(u @ np.linalg.solve(here.inverse, u))
     given = float(here.energy[0])
-    return f"it is {given:g} J, u . M u / 2 is {expected:g} J" if abs(given - expected) > 1e-8 * expected + 1e-300 else ""
+    return (
+        f"it is {given:g} J, u . M u / 2 is {expected:g} J" if abs(given - expected) > 1e-8 * expected + 1e-300 else ""
+    )
 
 
-def _along(body: Body, case: Case, gravity: Mapping[str, float], value: Callable[[Block, Array, Array], Array]) -> Array:
+def _along(
+    body: Body, case: Case, gravity: Mapping[str, float], value: Callable[[Block, Array, Array], Array]
+) -> Array:
     """Return the derivative in time of a value along the free motion, at fixed time of prescribed changes."""
     t, q, u = state(body, case)
     here = _look(body, t, q, u, gravity)
@@ -93,7 +97,9 @@ def _conserved(body: Body, case: Case) -> str:
     rates = _along(body, case, OBLIQUE, lambda b, q, u: b.energy)
     t, q, u = state(body, case)
     here = _look(body, t, q, u)
-    size = float(np.sum(np.abs(rates))) + float(np.abs(u) @ np.abs(here.force)) + 1e-9 * float(np.sum(np.abs(here.energy)))
+    size = (
+        float(np.sum(np.abs(rates))) + float(np.abs(u) @ np.abs(here.force)) + 1e-9 * float(np.sum(np.abs(here.energy)))
+    )
     if abs(float(np.sum(rates))) > _SAME * size:
         return f"the kinetic energy changes by {rates[0]:g} W, the potential by {rates[1]:g} W"
     return ""
@@ -138,5 +144,3 @@ def _check_flight(body: Body) -> None:
     residual = solution.energy.residual
     if not (math.isfinite(residual) and residual <= 1e-7):
         raise Broken(f"after {duration:g} s the account leaves {residual:g} of the energy unexplained")
-
-

@@ -154,7 +154,7 @@ def _check_round_trip(component: Any) -> None:
     words = {name: str(value) for name, value in declared.items() if value is not None}
     routes: dict[str, Callable[[], dict[str, Any]]] = {
         "JSON": lambda: dict(json.loads(json.dumps(declared))),
-        "words": lambda: {name: None for name in declared} | from_words(owner, words, owner.__name__),
+        "words": lambda: dict.fromkeys(declared) | from_words(owner, words, owner.__name__),
     }
     for route, read in routes.items():
         with warnings.catch_warnings():
@@ -162,7 +162,9 @@ def _check_round_trip(component: Any) -> None:
             again = owner(**read(), **rest)
         for name, value in declared.items():
             if getattr(again, name) != value:
-                raise Broken(f"made anew from {route}, it has another value", name, f"{value!r} -> {getattr(again, name)!r}")
+                raise Broken(
+                    f"made anew from {route}, it has another value", name, f"{value!r} -> {getattr(again, name)!r}"
+                )
         if again != component or dict(again.parameters()) != dict(component.parameters()):
             raise Broken(f"made anew from {route}, it is not equal", "parameters()", dict(again.parameters()))
 

@@ -56,10 +56,20 @@ class Variable:
         yield self.simplest
         if self.whole:
             return
-        for digits in (0, 1, 2):
-            rounded = round(value, digits) if not self.log else float(f"{value:.{digits}e}")
-            if rounded != value and self.low <= rounded <= self.high:
-                yield rounded
+        for share in (0.5, 0.8, 1.0):
+            between = self._between(value, share)
+            for digits in (0, 1):
+                rounded = float(f"{between:.{digits}e}")
+                nearer = abs(rounded - self.simplest) < abs(value - self.simplest)
+                shorter = share == 1.0 and rounded != value
+                if (nearer or shorter) and self.low <= rounded <= self.high:
+                    yield rounded
+
+    def _between(self, value: float, share: float) -> float:
+        """Return a number between the simplest and a value, at a share of the way."""
+        if self.log:
+            return float(self.simplest ** (1.0 - share) * value**share)
+        return self.simplest + share * (value - self.simplest)
 
 
 Space = Sequence[Variable]

@@ -120,8 +120,16 @@ class Functions:
                 "its functions ask for parameters that it offers",
                 lambda: self.check("known parameters"),
             ),
-            ("time budget", "its functions come back within a second, in plain Python", lambda: self.check("time budget")),
-            ("finite numbers", "its functions return finite numbers and raise nothing", lambda: self.check("finite numbers")),
+            (
+                "time budget",
+                "its functions come back within a second, in plain Python",
+                lambda: self.check("time budget"),
+            ),
+            (
+                "finite numbers",
+                "its functions return finite numbers and raise nothing",
+                lambda: self.check("finite numbers"),
+            ),
             *self.guarded(
                 [
                     ("compiled equals plain", "compiled, its functions return the same numbers", self._same_compiled),
@@ -196,7 +204,7 @@ def _finite(function: Function) -> None:
                 f"{title} raises {type(error).__name__}: {error}, in {where(function.function)}{line}",
                 *described(function.owner),
             ) from error
-        if isinstance(result, bool) or not isinstance(result, np.ndarray) and not isinstance(result, (int, float)):
+        if isinstance(result, bool) or (not isinstance(result, np.ndarray) and not isinstance(result, (int, float))):
             raise Broken(f"{title} returns {result!r}, in {where(function.function)}", *described(function.owner))
         if not np.all(np.isfinite(result)):
             raise Broken(f"{title} is {_short(result)}, in {where(function.function)}", *described(function.owner))

@@ -129,7 +129,9 @@ def _dissipates(law: ImpactLaw, case: Case) -> str:
 def _dissipates_rough(law: ImpactLaw, case: Case) -> str:
     # one contact alone too, with slip in and against the lean of the body
     one = {name: value for name, value in case.items() if not name.endswith("_2")}
-    return _dissipates(law, one) or _dissipates(law, one | {"velocity_x": -case["velocity_x"]}) or _dissipates(law, case)
+    return (
+        _dissipates(law, one) or _dissipates(law, one | {"velocity_x": -case["velocity_x"]}) or _dissipates(law, case)
+    )
 
 
 def _masses(law: ImpactLaw, case: Case) -> str:

@@ -146,7 +146,9 @@ class _Pair:
     def writes(self, law: ContactKinematics, case: Case) -> str:
         call = plain_caller(law.evaluator, "pair", law.parameters())
         clean = _written(call, _poses(case))
-        other = _written(call, _poses(case | {"turn_a_x": case["turn_a_x"] + 1.0, "place_y": case["place_y"] - self.reach}))
+        other = _written(
+            call, _poses(case | {"turn_a_x": case["turn_a_x"] + 1.0, "place_y": case["place_y"] - self.reach})
+        )
         again = other.copy()
         call(_frame(_poses(case)[0]), _frame(_poses(case)[1]), again)
         wrong = np.flatnonzero(again[:GEOMETRY] != clean[:GEOMETRY])

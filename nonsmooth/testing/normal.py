@@ -40,7 +40,11 @@ def check_normal_law(law: NormalLaw) -> list[Property]:
                 _accepts,
                 load,
             ),
-            row("no penetration", "a closed contact whose bodies accelerate into one another does not obey it", _refuses(-1, 0)),
+            row(
+                "no penetration",
+                "a closed contact whose bodies accelerate into one another does not obey it",
+                _refuses(-1, 0),
+            ),
             row("no tension", "a normal force that pulls does not obey it", _refuses(0, -1)),
             row("complementarity", "a force on a contact that opens does not obey it", _refuses(1, 1)),
             row("scaling", "other units, and tolerances with them, do not change its verdict", _scales, _SIZE, load),

@@ -61,7 +61,9 @@ def check_registered(group: str, name: str, words: Mapping[str, str]) -> list[Pr
 
 def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]) -> list[Property]:
     if words:
-        raise InvalidInput("--set", "must be left out", dict(words), f"The parameters of {name} follow from its shapes.")
+        raise InvalidInput(
+            "--set", "must be left out", dict(words), f"The parameters of {name} follow from its shapes."
+        )
     first, second = (make(shape, shape.__name__, {}) for shape in owner.pair)
     return check_contact_kinematics(owner.between(first, second)[0], first, second)
 
@@ -76,7 +78,7 @@ def make(owner: type, name: str, words: Mapping[str, str]) -> Any:
     """
     values = from_words(owner, words, name)
     for field in dataclasses.fields(owner):
-        if field.name in values or not field.init or not field.default is field.default_factory:
+        if field.name in values or not field.init or field.default is not field.default_factory:
             continue
         rule = rules(owner)[field.name][1] if field.name in rules(owner) else Rule("", "")
         if rule.unit == "" and not rule.choices:

@@ -121,9 +121,7 @@ class Rig:
         extents = (shapes[0].extent, shapes[1].extent)
         name = type(kinematics).__name__
         # not by System.contact, which looks for kinematics among those installed
-        system._contacts.append(
-            Contact(name, *self._bodies, (0, 0), kinematics, extents, _Any(), Constant(), Spring())
-        )
+        system._contacts.append(Contact(name, *self._bodies, (0, 0), kinematics, extents, _Any(), Constant(), Spring()))
         self._model = lay_out(system, Options())
 
     def put(self, poses: Sequence[Pose], u: Array) -> None:

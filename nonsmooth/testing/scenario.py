@@ -140,7 +140,9 @@ class _Look:
         found = self._scenario.coordinates(self.solution)
         for name, values in found.items():
             if np.shape(values) != (len(self.solution.t),):
-                raise Broken(f"it must have one value for each of {len(self.solution.t)} samples", name, np.shape(values))
+                raise Broken(
+                    f"it must have one value for each of {len(self.solution.t)} samples", name, np.shape(values)
+                )
 
     def final(self) -> None:
         found = dict(self._scenario.final(self.solution))
