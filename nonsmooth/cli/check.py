@@ -20,9 +20,10 @@ _HOLDS, _FAILS, _DEPARTS, _OPEN = "holds", "fails", "departs", "not checked"
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser(
-        "check", help="look whether a law, body, kinematics or scenario has the properties that it must have",
+        "check",
+        help="look whether a law, body, kinematics or scenario has the properties that it must have",
         allow_abbrev=False,
-    )  # fmt: skip
+    )
     command.add_argument("name", metavar="NAME", help="a law, body, kinematics or scenario of `nonsmooth list`")
     command.add_argument(
         "--set",

@@ -25,8 +25,8 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(
         prog="nonsmooth",
         description="Event-driven multibody dynamics with friction and energetic multiple impacts.",
-        epilog="Exit status: 0 done, 1 the run failed, a property does not hold, or was interrupted (what was computed is kept), "
-        "2 the request was wrong.",
+        epilog="Exit status: 0 done, 1 the run failed or was interrupted (what was computed is kept), or a property "
+        "does not hold, 2 the request was wrong.",
         allow_abbrev=False,
     )
     top.add_argument("--version", action="version", version=f"nonsmooth {version('nonsmooth')}")

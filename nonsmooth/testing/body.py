@@ -33,14 +33,18 @@ def check_body(body: Body) -> list[Property]:
     """
     functions = Functions(lambda: [_evaluator(body)])
     rows = [
-        ("start", "the start has the sizes that the body names, and unknown words are refused", lambda: _check_start(body)),
+        (
+            "start",
+            "the start has the sizes that the body names, and unknown words are refused",
+            lambda: _check_start(body),
+        ),
         (
             "writes its block",
             "it writes every number that can be non-zero, whatever stood there, and nothing beyond the block",
             lambda: examine("writes its block", [body], state_space(body), _writes, _DRAWS),
         ),
         *frame_rows(body),
-    ]  # fmt: skip
+    ]
     if body.n_u > 0:
         rows += free_rows(body)
     return properties(body, [*component_rows(body), *functions.rows(), *functions.guarded(rows)])

@@ -30,9 +30,13 @@ def frame_rows(body: Body) -> list[Row]:
 
     rows = [
         row("rotation", "the axes of every frame are a rotation matrix", _rotation),
-        row("velocity", "velocity and angular velocity of every frame are derivatives of its pose, by differences", _velocity),
-        row("acceleration", "the biases are the derivatives of the velocities while u' = 0, by differences", _acceleration),
-    ]  # fmt: skip
+        row("velocity", "velocity and angular velocity of every frame are derivatives of its pose", _velocity),
+        row(
+            "acceleration",
+            "the biases are the derivatives of the velocities while u' = 0, by differences",
+            _acceleration,
+        ),
+    ]
     if body.n_u > 0:
         rows.append(row("jacobian", "the Jacobian is the derivative of the velocities by u", _jacobian))
     return rows
@@ -53,7 +57,7 @@ def _rotation(body: Body, case: Case) -> str:
 
 def _time(body: Body, q: Array, u: Array) -> float:
     """Return a short time, in which neither a driven motion nor the body gets far."""
-    q_scale, u_scale = body.scales
+    q_scale, _ = body.scales
     rates = np.abs(_look(body, 0.0, q, u).rates) / q_scale if body.n_q else np.zeros(1)
     return _STEP / max(1.0 / body.time_scale, float(np.max(rates, initial=0.0)), 1e-3)
 

@@ -73,7 +73,8 @@ def compiled_map(function: Callable[..., Any], vectors: Mapping[str, Array], own
 
 def _native(address: int, form: str, numbers: Array) -> Caller:
     result = ctypes.c_double if form == "scalar" else None
-    first = {"scalar": [ctypes.c_double], "body": [ctypes.c_double], "map": [ctypes.c_int64], "pair": []}[form]
+    heads: dict[str, list[Any]] = {"scalar": [ctypes.c_double], "body": [ctypes.c_double], "map": [ctypes.c_int64]}
+    first = heads.get(form, [])
     native: Any = ctypes.CFUNCTYPE(result, *first, *[ctypes.c_void_p] * _POINTERS[form])(address)
 
     def call(*arguments: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -38,6 +39,10 @@ def attempt(trial: Trial, component: Any, case: Case) -> str:
         return f"it raises {type(error).__name__}: {error}"
 
 
+def _fails(trial: Trial, component: Any, case: Case) -> bool:
+    return attempt(trial, component, case) != ""
+
+
 def examine(name: str, components: Iterable[Any], space: Space, trial: Trial, count: int) -> None:
     """Try ``count`` inputs on each component.
 
@@ -50,5 +55,5 @@ def examine(name: str, components: Iterable[Any], space: Space, trial: Trial, co
     for component in components:
         for case in draws(space, count, name):
             if attempt(trial, component, case):
-                smallest = shrink(case, space, lambda c, one=component: bool(attempt(trial, one, c)))
+                smallest = shrink(case, space, functools.partial(_fails, trial, component))
                 raise Broken(attempt(trial, component, smallest), *described(component), smallest)

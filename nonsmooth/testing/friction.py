@@ -66,31 +66,46 @@ def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None =
         row(
             "certificate under slip",
             "a force on the edge of the disc against the slip obeys it, one along the slip or off the edge does not",
-            _certificate_slip, _SPEED, _HEADING, _FORCE,
+            _certificate_slip,
+            _SPEED,
+            _HEADING,
+            _FORCE,
         ),
         row(
             "certificate at rest",
             "a force within the static disc obeys it, one outside does not",
-            _certificate_rest, _HEADING, _FORCE, _SHARE,
+            _certificate_rest,
+            _HEADING,
+            _FORCE,
+            _SHARE,
         ),
         row(
             "sustained contact",
             "forces that the engine finds for contacts that stick, start to slide or slide obey it",
-            _sustained, _SPEED, _HEADING, _FORCE, Variable("push", 0.0, 3.0),
+            _sustained,
+            _SPEED,
+            _HEADING,
+            _FORCE,
+            Variable("push", 0.0, 3.0),
         ),
         row("dissipation", "friction takes energy out of impacts", _dissipates, *problem_space(2)),
         row(
             "force and impact level",
             "an impact too slight to change the slip has the direction and ratio of impulses that the force has",
-            _levels, _SPEED, _HEADING,
+            _levels,
+            _SPEED,
+            _HEADING,
         ),
         row(
             "frame invariance",
             "turning the tangents changes neither its verdicts nor an impact",
-            _turned, _SPEED, _HEADING, Variable("turn", -3.1, 3.1, 1.0),
+            _turned,
+            _SPEED,
+            _HEADING,
+            Variable("turn", -3.1, 3.1, 1.0),
         ),
         ("limit mu -> 0", f"with {', '.join(vanishing) or 'coefficients'} at zero nothing is left of friction", limit),
-    ]  # fmt: skip
+    ]
     return properties(law, [*component_rows(law), *functions.rows(), *functions.guarded(rows)])
 
 
@@ -144,7 +159,8 @@ def _certificate_rest(law: FrictionLaw, case: Case) -> str:
     for size, expected in ((case["share"] * bound, True), (1.01 * bound + 1e-3 * force, False)):
         t1, t2 = _along(size, heading)
         if bool(law.is_fulfilled((0.0, 0.0), force, (t1, t2), 1e-9 * force)) is not expected:
-            return f"is_fulfilled {'refuses' if expected else 'accepts'} {size:g} N at rest, where {bound:g} N is the bound"
+            word = "refuses" if expected else "accepts"
+            return f"is_fulfilled {word} {size:g} N at rest, where {bound:g} N is the bound"
     return ""
 
 

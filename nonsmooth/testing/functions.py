@@ -1,4 +1,4 @@
-"""What holds of every function that the engine calls: it comes back, with finite numbers, the same compiled and plain."""
+"""What holds of every function that the engine calls: it comes back, with finite numbers, compiled as plain."""
 
 from __future__ import annotations
 

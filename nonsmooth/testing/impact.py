@@ -24,6 +24,7 @@ _ONE, _TWO = problem_space(1), problem_space(2)
 _MU = Variable("friction", 0.02, 0.6, 0.2)
 _ROUGH = Variable("friction", 0.02, 1.2, 0.2)
 _DRAWS = 10
+_AFTER = "the velocities after are"
 _NEAR = 1e-6
 """Agreement of velocities after impacts that should be the same, relative to the largest."""
 _INDENTATIONS = (0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
@@ -57,29 +58,55 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
     speed = Variable("factor", 1e-2, 1e2, 2.0, log=True)
     rows = [
         row("no approach after", "after the impact no contact approaches", _parts, [*_TWO, _MU]),
-        row("cone", "normal impulses push, tangential ones lie in the cone of the friction coefficient", _cone, [*_TWO, _MU]),
+        row(
+            "cone",
+            "normal impulses push, tangential ones lie in the cone of the friction coefficient",
+            _cone,
+            [*_TWO, _MU],
+        ),
         row("dissipation", "without friction no impact of approaching contacts gains energy", _dissipates, _TWO),
         row("dissipation with friction", "nor does one with friction", _dissipates_rough, [*_TWO, _ROUGH]),
         row("scaling of masses", "masses times c: the same velocities, impulses times c", _masses, [*_ONE, _MU, speed]),
         row("scaling of velocities", "velocities times c before: times c after", _velocities, [*_TWO, _MU, speed]),
         row(
-            "frame invariance", "turning the tangents of the contacts changes no velocity",
-            _turned, [*_TWO, _MU, Variable("turn", -3.1, 3.1, 1.0)],
+            "frame invariance",
+            "turning the tangents of the contacts changes no velocity",
+            _turned,
+            [*_TWO, _MU, Variable("turn", -3.1, 3.1, 1.0)],
         ),
-        row("permutation", "the order of the contacts does not matter", _permuted, [*_TWO, _MU, Variable("other_friction", 0.02, 0.6, 0.4)]),
+        row(
+            "permutation",
+            "the order of the contacts does not matter",
+            _permuted,
+            [*_TWO, _MU, Variable("other_friction", 0.02, 0.6, 0.4)],
+        ),
         row("limit mu -> 0", "without friction no tangential impulse; with next to none, next to none", _smooth, _TWO),
-        row("force and impact level", "an impact too slight to end the slip rubs as sustained contact does", _levels, [_MU, Variable("heading", -3.1, 3.1)]),
+        row(
+            "force and impact level",
+            "an impact too slight to end the slip rubs as sustained contact does",
+            _levels,
+            [_MU, Variable("heading", -3.1, 3.1)],
+        ),
         ("contact time", "the contact time is a finite number >= 0", lambda: _contact_times(law)),
-        row("no gain accepted", "energy that comes back beyond what was stored does not obey it", _refuses_gain, [Variable("stored", 1e-3, 1e3, 1.0, log=True)]),
-    ]  # fmt: skip
+        row(
+            "no gain accepted",
+            "energy that comes back beyond what was stored does not obey it",
+            _refuses_gain,
+            [Variable("stored", 1e-3, 1e3, 1.0, log=True)],
+        ),
+    ]
     if isinstance(law, ImpactProcess):
         rows += process_rows(law)
     if isinstance(law, ImpactMap):
         rows += map_rows(law)
     rows += [
         ("limit e -> 0", "without restitution the bodies do not part", lambda: limit("limit e -> 0", 0.0, _plastic)),
-        ("limit e -> 1", "with full restitution a slow impact gives back all", lambda: limit("limit e -> 1", 1.0, _elastic)),
-    ]  # fmt: skip
+        (
+            "limit e -> 1",
+            "with full restitution a slow impact gives back all",
+            lambda: limit("limit e -> 1", 1.0, _elastic),
+        ),
+    ]
     return properties(law, [*component_rows(law), *functions.rows(), *functions.guarded(rows)])
 
 
@@ -139,7 +166,7 @@ def _masses(law: ImpactLaw, case: Case) -> str:
     heavy = Problem(c * p.mass, p.normal, p.tangential, p.velocity)
     one, other = (_respond(law, q, case["friction"]) for q in (p, heavy))
     if _apart(one.velocity, other.velocity, one.size):
-        return f"the velocities after are {_list(one.velocity)}, and {_list(other.velocity)} with {c:g} times the mass"
+        return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} with {c:g} times the mass"
     return "impulses are not proportional" if _apart(c * one.impulse, other.impulse, c * one.size) else ""
 
 
@@ -150,7 +177,9 @@ def _velocities(law: ImpactLaw, case: Case) -> str:
     fast = Problem(p.mass, p.normal, p.tangential, c * p.velocity)
     one, other = (_respond(law, q, case["friction"]) for q in (p, fast))
     if _apart(c * one.velocity, other.velocity, c * one.size):
-        return f"the velocities after are {_list(one.velocity)}, and {_list(other.velocity / c)} times {c:g} of {c:g} times those before"
+        return (
+            f"{_AFTER} {_list(one.velocity)}, and of {c:g} times those before {_list(other.velocity / c)} times {c:g}"
+        )
     return ""
 
 
@@ -170,7 +199,8 @@ def _turned(law: ImpactLaw, case: Case) -> str:
     one = _respond(law, p, case["friction"])
     other = _respond(law, Problem(p.mass, p.normal, turned, p.velocity), case["friction"])
     if _apart(one.velocity, other.velocity, one.size):
-        return f"the velocities after are {_list(one.velocity)}, and {_list(other.velocity)} in tangents turned by {case['turn']:g} rad"
+        turn = f"in tangents turned by {case['turn']:g} rad"
+        return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} {turn}"
     return ""
 
 
@@ -179,7 +209,7 @@ def _permuted(law: ImpactLaw, case: Case) -> str:
     swapped = Problem(p.mass, p.normal[:, ::-1].copy(), p.tangential[:, ::-1].copy(), p.velocity)
     one, other = respond([law] * 2, mu, p), respond([law] * 2, mu[::-1], swapped)
     if _apart(one.velocity, other.velocity, one.size):
-        return f"the velocities after are {_list(one.velocity)}, and {_list(other.velocity)} in the other order"
+        return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} in the other order"
     return ""
 
 

@@ -50,15 +50,27 @@ def check_contact_kinematics(
 
     rows = [
         ("pair", "`between` gives it, for shapes of the classes in `pair`", pair.check_between),
-        row("writes its block", "it writes every number that can be non-zero, and nothing beyond the block", pair.writes),
+        row(
+            "writes its block", "it writes every number that can be non-zero, and nothing beyond the block", pair.writes
+        ),
         row("axes", "normal and first tangent are unit vectors at right angles", pair.axes),
         row("witness points", "they are the gap apart, along the normal", pair.witness),
         row("feature", "the number of the feature is one of those named", pair.feature),
         row("gap rate", "the rate of the gap is its derivative in time, by differences", pair.gap_rate),
-        row("second-order terms", "those of gap and slip are the derivatives of their rates while u' = 0, by differences", pair.bias),
-        row("tangent follows the first body", "where both bodies turn together, so does the first tangent", pair.follows),
-        row("frame invariance", "where both bodies are moved together, the gap stays and the normal turns with them", pair.invariant),
-    ]  # fmt: skip
+        row(
+            "second-order terms",
+            "those of gap and slip are the derivatives of their rates while u' = 0, by differences",
+            pair.bias,
+        ),
+        row(
+            "tangent follows the first body", "where both bodies turn together, so does the first tangent", pair.follows
+        ),
+        row(
+            "frame invariance",
+            "where both bodies are moved together, the gap stays and the normal turns with them",
+            pair.invariant,
+        ),
+    ]
     return properties(kinematics, [*component_rows(kinematics), *functions.rows(), *functions.guarded(rows)])
 
 

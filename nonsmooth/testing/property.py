@@ -141,4 +141,11 @@ Row = tuple[str, str, Callable[[], None]]
 def properties(component: Any, rows: list[Row]) -> list[Property]:
     """Return the properties of a component; those that its class departs from are marked."""
     owner: type[Component] = type(component)
+    unknown = sorted(set(owner.departures) - {name for name, _, _ in rows})
+    if unknown:
+
+        def refuse() -> None:
+            raise Broken("there are no such properties", "departures", unknown)
+
+        rows = [*rows, ("departures", "they name properties", refuse)]
     return [Property(name, says, owner.__name__, check, owner.departures.get(name, "")) for name, says, check in rows]

@@ -88,7 +88,7 @@ class Problem:
     @property
     def n(self) -> int:
         """Number of contacts."""
-        return self.normal.shape[1]
+        return int(self.normal.shape[1])
 
     @property
     def columns(self) -> Array:

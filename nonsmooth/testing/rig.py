@@ -49,7 +49,7 @@ def turned(q: Any, vector: Any) -> Array:
         a * g - b * h + c * e + d * f,
         a * h + b * g - c * f + d * e,
     ]
-    return np.array(product) / np.linalg.norm(product)
+    return np.asarray(np.array(product) / np.linalg.norm(product))
 
 
 def _evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:

@@ -42,7 +42,7 @@ def check_scenario(scenario: Scenario, *, t_end: float | None = None) -> list[Pr
     rows: list[tuple[str, str, Callable[[], None]]] = [
         ("times", "end time and sample interval are positive and finite", look.times),
         ("resolved", "`resolved` gives every parameter the value that the run uses", look.resolved),
-        ("builds twice", "`build` returns a new system each time, with the same bodies, starts, contacts and ties", look.twice),
+        ("builds twice", "`build` returns a new system each time, with equal parts and starts", look.twice),
         ("runs", "it runs for a short time", look.runs),
         ("energy", "the energy account of the run closes", look.energy),
         ("repeatable", "a second run is the same to the last bit", look.repeatable),
@@ -52,7 +52,7 @@ def check_scenario(scenario: Scenario, *, t_end: float | None = None) -> list[Pr
         ("figures", "`figures` returns figures by file name, and they can be drawn", look.figures),
         ("results can be saved", "solution and coordinates can be written to files", look.files),
         ("only reads", "summary, coordinates and figures leave the solution as it is", look.only_reads),
-    ]  # fmt: skip
+    ]
     return properties(scenario, [*component_rows(scenario), *rows])
 
 

@@ -209,6 +209,13 @@ class Modest(Map):
     departures: ClassVar[Mapping[str, str]] = MappingProxyType({"cone": "it is modest"})
 
 
+@dataclass(frozen=True)
+class Misspelt(Map):
+    """One that departs from something that is no property."""
+
+    departures: ClassVar[Mapping[str, str]] = MappingProxyType({**Map.departures, "dissipaton": "a slip of the pen"})
+
+
 DUMMIES: list[tuple[str, ImpactLaw]] = [
     ("no approach after", Map(function=weak)),
     ("cone", Map(function=sticky)),

@@ -88,7 +88,20 @@ class Bounce(Scenario):
         return {}
 
 
-_NAMES = ("times", "resolved", "builds twice", "runs", "energy", "repeatable", "summary", "coordinates", "final state", "figures", "results can be saved", "only reads")  # fmt: skip
+_NAMES = (
+    "times",
+    "resolved",
+    "builds twice",
+    "runs",
+    "energy",
+    "repeatable",
+    "summary",
+    "coordinates",
+    "final state",
+    "figures",
+    "results can be saved",
+    "only reads",
+)
 DUMMIES: list[tuple[str, Scenario]] = [(name, Bounce(name)) for name in _NAMES]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import pytest
@@ -13,7 +14,7 @@ from tests.testing import friction_dummies, impact_dummies, normal_dummies
 from tests.testing.caught import assert_caught, failures
 
 
-def _cases(dummies: list[tuple[str, Any]]) -> Any:
+def _cases(dummies: Sequence[tuple[str, Any]]) -> pytest.MarkDecorator:
     titles = [f"{name}, {type(law).__name__} {i}" for i, (name, law) in enumerate(dummies)]
     return pytest.mark.parametrize(("name", "law"), dummies, ids=titles)
 
@@ -38,14 +39,15 @@ def test_normal(name: str, law: NormalLaw) -> None:
 def test_every_property_has_a_dummy() -> None:
     """No property of a law is there that no fault breaks; those of functions are shared by all kinds."""
     shared = {name for name, _ in friction_dummies.DUMMIES}
-    for module, check, example in (
+    kinds: list[tuple[Any, Any, Any]] = [
         (friction_dummies, check_friction_law, friction_dummies.Friction()),
         (impact_dummies, check_impact_law, impact_dummies.Process()),
         (impact_dummies, check_impact_law, impact_dummies.Map()),
         (normal_dummies, check_normal_law, normal_dummies.Normal()),
-    ):
+    ]
+    for module, check, example in kinds:
         broken = {name for name, _ in module.DUMMIES} | shared
-        assert {prop.name for prop in check(example)} <= broken  # type: ignore[operator]
+        assert {prop.name for prop in check(example)} <= broken
 
 
 @pytest.mark.parametrize(
@@ -105,3 +107,4 @@ def test_a_departure_must_be_one() -> None:
     prop = next(p for p in check_impact_law(impact_dummies.Modest()) if p.name == "cone")
     with pytest.raises(PropertyFailed, match="it holds, although"):
         prop()
+    assert "dissipaton" in str(assert_caught(check_impact_law(impact_dummies.Misspelt()), "departures"))

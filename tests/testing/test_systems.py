@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import pytest
@@ -13,7 +14,7 @@ from tests.testing.caught import assert_caught, failures
 from tests.testing.pair_dummies import FIRST, SECOND, Pair
 
 
-def _cases(dummies: list[tuple[str, Any]]) -> Any:
+def _cases(dummies: Sequence[tuple[str, Any]]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("name", "thing"), dummies, ids=[f"{n} {i}" for i, (n, _) in enumerate(dummies)])
 
 
