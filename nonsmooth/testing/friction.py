@@ -14,7 +14,7 @@ from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.testing.callers import plain_caller
 from nonsmooth.testing.component import component_rows, numbers_of, remade, variants
 from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.examine import Trial, examine
+from nonsmooth.testing.examine import FEWEST, Trial, examine
 from nonsmooth.testing.functions import Function, Functions, scalar_function
 from nonsmooth.testing.property import NotChecked, Property, Row, properties
 from nonsmooth.testing.reference import Spring, point, problem, problem_space
@@ -44,7 +44,7 @@ def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None =
     functions = Functions(lambda: [_coefficient(one) for one in variants(law)])
 
     def row(name: str, says: str, trial: Trial, *space: Variable) -> Row:
-        return name, says, lambda: examine(name, variants(law), space, trial, _DRAWS)
+        return name, says, lambda: examine(name, variants(law), space, trial, _DRAWS, fewest=FEWEST)
 
     def limit() -> None:
         if not vanishing:

@@ -12,7 +12,7 @@ from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
 from nonsmooth.testing.callers import plain_caller
 from nonsmooth.testing.component import accepted, component_rows, numbers_of, variants
 from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.examine import Trial, examine
+from nonsmooth.testing.examine import FEWEST, Trial, examine
 from nonsmooth.testing.functions import Function, Functions, scalar_function
 from nonsmooth.testing.impact_map import map_function, map_rows
 from nonsmooth.testing.impact_process import process_rows
@@ -45,7 +45,7 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
     functions = Functions(lambda: [f for one in variants(law) for f in _functions(one)])
 
     def row(name: str, says: str, trial: Trial, space: Sequence[Variable]) -> Row:
-        return name, says, lambda: examine(name, variants(law), space, trial, _DRAWS)
+        return name, says, lambda: examine(name, variants(law), space, trial, _DRAWS, fewest=FEWEST)
 
     def limit(name: str, value: float, trial: Trial) -> None:
         at = accepted(law, **{restitution: value}) if restitution in numbers_of(law) else None

@@ -10,7 +10,7 @@ from nonsmooth.interfaces import ImpactProcess
 from nonsmooth.testing.callers import plain_caller
 from nonsmooth.testing.component import variants
 from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.examine import Trial, examine
+from nonsmooth.testing.examine import FEWEST, Trial, examine
 from nonsmooth.testing.property import Row
 from nonsmooth.testing.reference import problem, problem_space
 from nonsmooth.testing.respond import respond
@@ -25,7 +25,7 @@ def process_rows(law: ImpactProcess) -> list[Row]:
     """Return the properties that only a process has."""
 
     def row(name: str, says: str, trial: Trial, space: Sequence[Variable]) -> Row:
-        return name, says, lambda: examine(name, variants(law), space, trial, _DRAWS)
+        return name, says, lambda: examine(name, variants(law), space, trial, _DRAWS, fewest=FEWEST)
 
     return [
         row("force", "zero at zero, and it rises with the indentation", _force, [_INDENTATION]),

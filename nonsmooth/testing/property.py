@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
+from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import Component
 
@@ -116,7 +117,7 @@ class Property:
             if self.departure:
                 raise Departs(f"{self}, as it says: {self.departure}. {failure}") from failure
             raise
-        if self.departure:
+        if self.departure and not PLAIN:  # fewer inputs are tried in plain mode
             reason = f"it holds, although the class departs from it, as it says, because {self.departure}"
             raise PropertyFailed(self.subject, self.name, reason, "departures", self.name, {})
 

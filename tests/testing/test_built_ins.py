@@ -32,6 +32,7 @@ from bodies import (
     TurningFrame,
 )
 from laws import Coulomb, EnergeticImpact, Frictionless, NewtonImpact, Stribeck, Unilateral
+from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw, NormalLaw, Shape
 from nonsmooth.plugins import registry
 from nonsmooth.testing import (
@@ -116,6 +117,7 @@ def _marked(prop: Property) -> Any:
     return pytest.param(prop, id=str(prop), marks=marks)
 
 
+@pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
 @pytest.mark.parametrize("prop", [_marked(prop) for prop in _all()])
 def test_built_in(prop: Property) -> None:
     """What the kit asks of a plug-in holds of ours."""

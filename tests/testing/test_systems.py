@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import Body, ContactKinematics, Scenario
 from nonsmooth.testing import check_body, check_contact_kinematics
 from tests.testing import body_dummies, friction_dummies, pair_dummies, scenario_dummies
@@ -28,6 +29,7 @@ def test_kinematics(name: str, thing: ContactKinematics) -> None:
     assert_caught(check_contact_kinematics(thing, FIRST, SECOND), name)
 
 
+@pytest.mark.skipif(PLAIN, reason="runs take minutes in plain mode")
 @_cases(scenario_dummies.DUMMIES)
 def test_scenario(name: str, thing: Scenario) -> None:
     assert_caught(scenario_dummies.checked(thing), name)
