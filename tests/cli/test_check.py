@@ -60,7 +60,7 @@ def test_every_kind_of_that_name(call: Call) -> None:
     ]
 
 
-@pytest.mark.parametrize("name", ["plane_sphere", "sphere_sphere", "box_sphere"])
+@pytest.mark.parametrize("name", ["plane_sphere", "capsule_capsule", "box_sphere"])
 def test_pairs(call: Call, name: str) -> None:
     """Shapes of some size are made for them."""
     assert call("check", name)[0] == 0
