@@ -10,6 +10,10 @@ from nonsmooth.types import Floats
 _SWEEPS = 100000
 _EXACT = 1e-15
 _SOLVED = 1e-9
+_ENDLESS = 1e100
+_PATIENCE = 500
+_PROGRESS = 0.999
+_LEAST_RELAXATION = 0.03
 
 
 @compiled
@@ -39,8 +43,14 @@ def solve_cone(
         Coefficients mu, length n.
     """
     width = 3 * n
-    change = size = 1.0
-    for _sweep in range(_SWEEPS):
+    change = size = relaxation = 1.0
+    before = math.inf
+    for sweep in range(1, _SWEEPS):
+        if sweep % _PATIENCE == 0:
+            # strong coupling of normal and slip, as in Painlevé's paradox, makes full steps go round in circles
+            if change > _PROGRESS * before:
+                relaxation = max(0.5 * relaxation, _LEAST_RELAXATION)
+            before = change
         change = size = 0.0
         for a in range(n):
             line = 3 * a
@@ -48,10 +58,10 @@ def solve_cone(
             for j in range(width):
                 after += delassus[line * width + j] * out[j]
             old = out[line]
-            out[line] = max(least[a], old - after / delassus[line * width + line])
+            out[line] = max(least[a], old - relaxation * after / delassus[line * width + line])
             change = max(change, abs(out[line] - old))
             # a step of the projected gradient on the disc, short enough for any 2 x 2 block
-            step = 1.0 / (delassus[(line + 1) * width + line + 1] + delassus[(line + 2) * width + line + 2])
+            step = relaxation / (delassus[(line + 1) * width + line + 1] + delassus[(line + 2) * width + line + 2])
             v1, v2 = rates[line + 1] + shift[line + 1], rates[line + 2] + shift[line + 2]
             for j in range(width):
                 v1 += delassus[(line + 1) * width + j] * out[j]
@@ -65,7 +75,9 @@ def solve_cone(
             change = max(change, abs(p1 - out[line + 1]), abs(p2 - out[line + 2]))
             out[line + 1], out[line + 2] = p1, p2
             size = max(size, out[line])
-        if change <= _EXACT * size:
+        if change <= _EXACT * relaxation * size:
             return
-    if not change <= _SOLVED * size:
+        if not size < _ENDLESS:
+            break
+    if not change <= _SOLVED * relaxation * size:
         out[0] = math.nan

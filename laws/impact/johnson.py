@@ -14,7 +14,7 @@ from nonsmooth.parameters import parameter
 
 def johnson_restitution(speed: float, elastic_speed: float) -> float:
     """Return e = (v_1 / v)^(1/4) at the approach speed v [m/s], 1 up to v_1 [m/s]."""
-    return 1.0 if speed <= elastic_speed else (elastic_speed / speed) ** 0.25
+    return 1.0 if speed <= elastic_speed else math.sqrt(math.sqrt(elastic_speed / speed))
 
 
 def johnson_speed(mass: float, radius: float, modulus: float, pressure: float) -> float:

@@ -42,10 +42,10 @@ class MoreauImpact(ImpactMap):
     Where friction is strong enough, slip comes back as v+ = -e_T v-, as with a ball of rubber.  With e_T = 0 it is
     Newton's law.  A contact that was separating counts with e_N = 0, so that nothing is left approaching.
 
-    It always loses energy if all contacts approach and have the same e_N = e_T <= 1, for then the work
+    It always loses energy if all contacts approach or rest and have the same e_N = e_T <= 1, for then the work
     P^T (z+ + z-) / 2 is P^T (z+ + e z-) / (1 + e), which is not positive, less (1 - e) / (1 + e) P^T G P / 2.
-    With e_N different from e_T it may gain energy where normal and slip are coupled (Kane's example, e_T = 0), and so
-    may contacts with different e_N.
+    With e_N different from e_T it may gain energy where normal and slip are coupled (Kane's example, e_T = 0).  So may
+    contacts with different e_N, even without friction.
 
     References
     ----------

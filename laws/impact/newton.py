@@ -36,8 +36,12 @@ def _impulses(
 class NewtonImpact(ImpactMap):
     """Newton's law g'+ = -e g'- on all contacts at once, complementary, with Coulomb friction (Moreau's form).
 
-    It knows no sequence of compressions: Newton's cradle and the dumbbell's drift come out wrong with it, and
-    with friction it may gain energy (Kane's example).  It is here for comparison.
+    It knows no sequence of compressions: Newton's cradle and the dumbbell's drift come out wrong with it.  It is here
+    for comparison.
+
+    It always loses energy without friction, if all contacts approach or rest and have the same e.  It may gain energy
+    with friction, even at one contact (Kane's example); and without, where contacts have different e or
+    one separates while another strikes, because a separating contact counts with e = 0.
 
     References
     ----------

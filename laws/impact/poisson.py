@@ -42,9 +42,9 @@ class PoissonImpact(ImpactMap):
     Either phase is one contact problem with Coulomb friction on the velocities at its end; in expansion a contact
     may get more than its share where the others would push it in.
 
-    Without friction and with one e_P for all contacts it always loses energy, (1 - e_P^2) P_c^T G P_c / 2 or more.
-    It may gain energy where contacts have different e_P, and with friction where normal and slip are
-    coupled, because friction is told by the slip at the end of a phase and not on the way.
+    With one e_P <= 1 for all contacts it always loses energy, (1 - e_P^2) P_c^T G P_c / 2 or more, and without friction
+    with any e_P <= 1: the expansion makes P^T G P / 2 + z_c^T P least, and P = P_c is open to it.  With friction and
+    different e_P it may gain energy.
 
     References
     ----------

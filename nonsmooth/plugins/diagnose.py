@@ -22,7 +22,7 @@ _REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can
 
 def culprit(model: Model, status: int) -> str:
     """Return a sentence that names the first function found to raise or to return a non-finite number."""
-    found = _in_the_blocks(model)
+    found = (_in_the_map(model) if status == NOT_FINITE else "") or _in_the_blocks(model)
     if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
         return found
     slips = model.memory.array("rate", 3 * int(model.memory.scalars["n_contacts"][0])).reshape(-1, 3)[:, 1:]
@@ -38,7 +38,7 @@ def culprit(model: Model, status: int) -> str:
             found = _probe(law, function, probes)
             if found:
                 return f"{found} ({contact.name})"
-    found = _in_the_map(model) or _guard_without_value(model)
+    found = _guard_without_value(model)
     if found:
         return found
     state = model.memory.array("y", model.n_y)
