@@ -36,7 +36,7 @@ def johnson_speed(mass: float, radius: float, modulus: float, pressure: float) -
     K. L. Johnson, *Contact Mechanics*, Cambridge University Press (1985), section 11.4.
     """
     factor = 0.3 * math.pi**1.25 * 4.0**0.75 * pressure / modulus
-    return factor**2 * math.sqrt(2.0 * pressure * radius**3 / mass)
+    return float(factor**2 * math.sqrt(2.0 * pressure * radius**3 / mass))
 
 
 def _efficiency(rate: float, elastic_speed: float) -> float:
