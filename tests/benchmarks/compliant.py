@@ -16,7 +16,7 @@ RADIUS, ASPECT_RATIO, RESTITUTION, FRICTION = 5e-3, 3.9, 0.6, 0.15
 GAMMA, FREQUENCY, GRAVITY, TILT = 0.9, 25.0, 9.81, math.radians(10.0)
 
 
-@numba.njit(cache=False)
+@numba.njit  # type: ignore[untyped-decorator]
 def drift(contact_time: float, steps_per_contact: int, t_end: float) -> tuple[float, float]:
     """Return the mean velocity along the rod [m/s] in the second half of the run, and the last tilt [rad]."""
     half = RADIUS * (ASPECT_RATIO - 1.0)

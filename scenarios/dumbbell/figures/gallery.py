@@ -64,7 +64,7 @@ def all_figures(kind: type[DumbbellScenario], progress: Progress | None) -> dict
     figures["fig11_paths"] = paths(across, _SPANS, sight)
     laws = {"energetic (compliant limit)": runs["energetic"], "Newton, in one step": runs["newton"]}
     figures["fig12_impact_laws"] = drift_by_law(laws, "The impact law decides even the direction of the drift")
-    title = "Laws that follow compression and expansion drift as springs do, laws in one step the other way"
+    title = "Laws that follow the slip through the impact drift as springs do, maps the other way"
     figures["fig13_all_impact_laws"] = drifts_of_all(scenarios["energetic"], title)
     return figures
 

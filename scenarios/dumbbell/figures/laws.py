@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -76,7 +76,11 @@ def drifts_of_all(scenario: DumbbellScenario, title: str) -> Figure:
         names.append(name if summary["attractor"] in ("drift", "rest") else f"{name} (not periodic)")
         speeds.append(1e3 * summary["drift_velocity"][1])
         moved = 1e3 * (motion.centre[:, 1] - motion.centre[0, 1])
-        look = {"linestyle": ("-", "--", ":")[number % 3], "marker": ("", "o", "s")[number // 3], "markevery": 0.1}
+        look: dict[str, Any] = {
+            "linestyle": ("-", "--", ":")[number % 3],
+            "marker": ("", "o", "s")[number // 3],
+            "markevery": 0.1,
+        }
         paths.plot(motion.t, moved, label=name, color=f"C{number}", markersize=4, linewidth=1.5, **look)
         bars.barh(number, speeds[-1], color=f"C{number}", height=0.6)
         left = speeds[-1] < 0.0
