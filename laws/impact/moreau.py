@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from types import MappingProxyType
+from typing import ClassVar, final
 
 import numpy as np
 
@@ -51,6 +52,10 @@ class MoreauImpact(ImpactMap):
     ----------
     J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988) 1-82.
     """
+
+    departures: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {"dissipation with friction": "with e_T other than e_N friction acts against a slip that never is"}
+    )
 
     restitution: float = parameter(doc="normal coefficient of restitution e_N", minimum=0.0, maximum=1.0)
     tangential_restitution: float = parameter(
