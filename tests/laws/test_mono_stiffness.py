@@ -141,8 +141,8 @@ def test_long_row_through_the_window() -> None:
     # three coordinates of every ball, so that there are tangents
     normal, tangential = np.zeros((n, 3, n - 1)), np.zeros((n, 3, n - 1, 2))
     for i in range(n - 1):
-        for ball, sign in ((i, -1.0), (i + 1, 1.0)):
-            normal[ball, 0, i] = tangential[ball, 1, i, 0] = tangential[ball, 2, i, 1] = sign
+        for one_of, sign in ((i, -1.0), (i + 1, 1.0)):
+            normal[one_of, 0, i] = tangential[one_of, 1, i, 0] = tangential[one_of, 2, i, 1] = sign
     alone = ns.solve_impact(
         np.eye(3 * n),
         normal.reshape(3 * n, -1),
