@@ -9,7 +9,7 @@ from nonsmooth.cli.messages import say
 from nonsmooth.cli.table import first_line, lines
 from nonsmooth.plugins import registry
 
-GROUPS = ("scenarios", "bodies", "joints", "loads", "laws")
+GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws")
 
 
 def add_to(commands: Any) -> None:
@@ -21,6 +21,7 @@ def add_to(commands: Any) -> None:
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Print name, source and first docstring line of every usable plug-in."""
+    registry.check_groups()
     wanted = (arguments.group,) if arguments.group else GROUPS
     say("\n\n".join(_section(group) for group in wanted))
     return True

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-GROUPS = ("scenarios", "bodies", "joints", "loads", "laws")
+GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws")
 Call = Callable[..., tuple[int, str, str]]
 
 
