@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from nonsmooth.cli.law import ROLES
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.table import first_line, lines
 from nonsmooth.plugins import registry
@@ -20,7 +21,7 @@ def add_to(commands: Any) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> bool:
-    """Print name, source and first docstring line of every usable plug-in."""
+    """Print name, kind of a law, source and first docstring line of every usable plug-in."""
     registry.check_groups()
     wanted = (arguments.group,) if arguments.group else GROUPS
     say("\n\n".join(_section(group) for group in wanted))
@@ -28,5 +29,11 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 
 def _section(group: str) -> str:
-    rows = [(name, registry.source(group, name), first_line(owner)) for name, owner in registry.load_all(group).items()]
+    loaded = registry.load_all(group).items()
+    rows = [(name, *_kind(group, owner), registry.source(group, name), first_line(owner)) for name, owner in loaded]
     return "\n".join([f"{group}:", *(lines(rows) or ["  none"])])
+
+
+def _kind(group: str, owner: type) -> tuple[str, ...]:
+    """Return what a law is for, in a column of its own; nothing for groups of one kind."""
+    return tuple(role for role, base in ROLES.items() if issubclass(owner, base)) if group == "laws" else ()

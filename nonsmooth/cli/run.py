@@ -72,7 +72,7 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
         outcome["summary"] = dict(scenario.summarise(solution))
     if arguments.out is not None:
         results.save_text(report.as_json(outcome), arguments.out / "summary.json", troubles)
-        _save_figures(scenario, solution, arguments.out, troubles)
+        _save_figures(job, solution, arguments.out, troubles)
         if not troubles:
             tell(f"results are in {arguments.out}")
     return outcome
@@ -120,10 +120,14 @@ def _save_solution(scenario: Scenario, solution: Solution, folder: Path, trouble
         files.save(solution, folder, coordinates)
 
 
-def _save_figures(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
+def _save_figures(job: request.Job, solution: Solution, folder: Path, troubles: list[str]) -> None:
     results.without_display()
     if len(solution.events) > 0:
         with results.noting(troubles, "drawing the transitions"):
             results.save_figures({"transitions": draw(solution.transition_graph())}, folder, troubles)
-    with results.noting(troubles, f"{type(scenario).__name__}.figures"):
-        results.save_figures(scenario.figures(solution), folder, troubles)
+    with results.noting(troubles, f"{type(job.scenario).__name__}.figures"):
+        figures = job.scenario.figures(solution)
+        for figure in figures.values():
+            if job.laws:  # its titles may speak of the laws that were replaced
+                figure.text(0.005, 0.005, f"instead: {', '.join(map(repr, job.laws.values()))}", fontsize=7)
+        results.save_figures(figures, folder, troubles)

@@ -51,7 +51,9 @@ def system(tables: Table, path: Path) -> System:
     if "materials" in tables:
         reader.materials(made_system, tables["materials"], made_of, f"{path}: materials")
     elif made_of:
-        raise InvalidInput(f"{path}: materials", "must be given where bodies have one", sorted(made_of), "Add the table.")
+        raise InvalidInput(
+            f"{path}: materials", "must be given where bodies have one", sorted(made_of), "Add the table."
+        )
     for i, table in enumerate(tables_in(f"{path}: loads", tables.get("loads", []))):
         reader.tie(made_system.load, table, f"{path}: loads[{i}]", Load)
     for i, table in enumerate(tables_in(f"{path}: guards", tables.get("guards", []))):
@@ -136,9 +138,7 @@ class _Reader:
             shapes = [None if one == "all" else one for one in shapes]
         laws = self.three(table, thing)
         with naming(thing):
-            made.contact(
-                first, second, normal=laws.normal, friction=laws.friction, impact=laws.impact, shapes=shapes
-            )
+            made.contact(first, second, normal=laws.normal, friction=laws.friction, impact=laws.impact, shapes=shapes)
 
     def materials(self, made: System, table: Table, of: dict[str, list[Body]], thing: str) -> None:
         check_keys(thing, table, ("pairs", "default", "exclude"))

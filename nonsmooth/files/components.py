@@ -137,7 +137,9 @@ def _made(thing: str, owner: Any, table: Table, folder: Path) -> Any:
         try:
             return owner(**values)
         except (TypeError, AttributeError) as error:
-            raise InvalidInput(owner.__name__, "must be made of values of the right kinds", table, f"{error}.") from error
+            raise InvalidInput(
+                owner.__name__, "must be made of values of the right kinds", table, f"{error}."
+            ) from error
 
 
 def _value(thing: str, value: Any, hint: Any, folder: Path) -> Any:

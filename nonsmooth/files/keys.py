@@ -24,7 +24,9 @@ def check_keys(thing: str, table: Any, known: Collection[str], required: Sequenc
 def tables_in(thing: str, value: Any) -> list[dict[str, Any]]:
     """Return an array of tables; raise InvalidInput if it is none."""
     if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
-        raise InvalidInput(thing, "must be an array of tables", value, f"Write [[{thing.rpartition(' ')[2]}]] above each.")
+        raise InvalidInput(
+            thing, "must be an array of tables", value, f"Write [[{thing.rpartition(' ')[2]}]] above each."
+        )
     return value
 
 

@@ -28,7 +28,9 @@ def parse(path: Path) -> Table:
     try:
         return loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise InvalidInput("scenario file", "must be a file that can be read", str(path), f"{error.strerror}.") from error
+        raise InvalidInput(
+            "scenario file", "must be a file that can be read", str(path), f"{error.strerror}."
+        ) from error
     except (TOMLDecodeError, UnicodeDecodeError) as error:
         raise InvalidInput(f"{path}", "must be TOML text", str(error), "Correct the place it names.") from error
 
@@ -48,22 +50,23 @@ def changed(tables: Table, changes: Mapping[str, str], path: Path) -> Table:
         for step in way:
             place = _inside(place, step, key, path)
         if isinstance(place, dict):
-            place[last] = _value(text)
+            place[last] = value(text)
         else:
             _inside(place, last, key, path)
-            place[int(last)] = _value(text)
+            place[int(last)] = value(text)
     return dict(made)
 
 
 def _inside(place: Any, step: str, key: str, path: Path) -> Any:
-    known = place if isinstance(place, dict) else {str(i): one for i, one in enumerate(place)} if isinstance(place, list) else {}
+    items = enumerate(place) if isinstance(place, list) else place.items() if isinstance(place, dict) else ()
+    known = {str(name): one for name, one in items}
     if step not in known:
         listing = ", ".join(known) or "nothing"
         raise InvalidInput(f"--set {key}", f"must be a key of {path}", step, f"Known there: {listing}.")
     return known[step]
 
 
-def _value(text: str) -> Any:
+def value(text: str) -> Any:
     """Return what a text means as a TOML value, itself where it means none."""
     try:
         return loads(f"value = {text}")["value"]

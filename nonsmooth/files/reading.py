@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, final
+from typing import final
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import assembling
@@ -110,10 +110,10 @@ def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
     title = tables.get("title", "")
     if not isinstance(title, str):
         raise InvalidInput(f"{path}: title", "must be a text", title, "Put it in quotation marks.")
-    times = [
+    t_end, interval = (
         number(f"{path}: {key}", tables[key], "s", positive=True) if key in tables else None
         for key in ("t_end", "sample_interval")
-    ]
+    )
     options = component(f"{path}: options", tables.get("options", {}), Options, path.parent)
     made = assembling.system(tables, path)
-    return Setup(path, title, *times, options, made, tuple(tables["bodies"]), dict(changes), tables)
+    return Setup(path, title, t_end, interval, options, made, tuple(tables["bodies"]), dict(changes), tables)

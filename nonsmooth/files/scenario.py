@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.files.parsing import value
 from nonsmooth.files.reading import Setup
 from nonsmooth.interfaces import Scenario
 from nonsmooth.solution.solution import Solution
@@ -47,7 +48,7 @@ class FileScenario(Scenario):
     def resolved(self) -> Mapping[str, Any]:
         """Return title, times, and what was set on the command line."""
         said = {"title": self.setup.title, "t_end": self.t_end, "sample_interval": self.sample_interval}
-        return said | dict(self.setup.changes)
+        return {key: value(text) for key, text in self.setup.changes.items()} | said
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return nothing: q and u are in the results as they are."""

@@ -107,10 +107,10 @@ class _Reader:
             return self._array()
         if self._take("{"):
             return self._table()
-        word = self._match(_NUMBER)
-        if word is None:
+        digits = self._match(_NUMBER)
+        if digits is None:
             raise self._error("a value is missing, or of a kind that is not read here")
-        plain = word.replace("_", "")
+        plain = digits.replace("_", "")
         return int(plain) if re.fullmatch(r"[+-]?\d+", plain) else float(plain)
 
     def _array(self) -> list[Any]:

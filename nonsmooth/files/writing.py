@@ -109,9 +109,7 @@ def _names(bodies: Sequence[Body], given: Sequence[str]) -> list[str]:
             )
         return list(given)
     kinds = [registry.name_of(type(body)) or type(body).__name__ for body in bodies]
-    return [
-        kind if kinds.count(kind) == 1 else f"{kind}_{kinds[: i + 1].count(kind)}" for i, kind in enumerate(kinds)
-    ]
+    return [kind if kinds.count(kind) == 1 else f"{kind}_{kinds[: i + 1].count(kind)}" for i, kind in enumerate(kinds)]
 
 
 def _body(system: System, body: Body, thing: str) -> Table:

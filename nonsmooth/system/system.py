@@ -247,8 +247,9 @@ class System:
         for one, other in itertools.product(*sides):
             added += self._pair(one, other, len(added), normal, friction, impact)
         self._contacts += added
-        one, two = (None if chosen is None else tuple(chosen) for chosen in shapes)
-        self._declared.append(Declaration(first, second, (one, two), ContactLaws(normal, friction, impact)))
+        chosen = tuple(None if numbers is None else tuple(numbers) for numbers in shapes)
+        laws = ContactLaws(normal, friction, impact)
+        self._declared.append(Declaration(first, second, (chosen[0], chosen[1]), laws))
         self._paired |= pairs
         return tuple(added)
 

@@ -95,5 +95,8 @@ def test_a_broken_plug_in_is_named_with_its_mistake(
 
 def test_two_claims_to_a_name_are_told(install: Install) -> None:
     install("plug_rival", "coulomb = plug_rival:Good", plug_rival=_GOOD)
-    with pytest.warns(registry.BrokenPlugin, match="claimed by laws:Coulomb and by plug_rival:Good; the first is used"):
+    with pytest.warns(
+        registry.BrokenPlugin,
+        match=r"'coulomb' is claimed by nonsmooth .* \(laws:Coulomb\) and by plug_rival 1.2 \(plug_rival:Good\)",
+    ):
         assert registry.load("laws", "coulomb").__name__ == "Coulomb"
