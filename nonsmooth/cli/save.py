@@ -28,8 +28,14 @@ def execute(arguments: argparse.Namespace) -> bool:
     if arguments.file.suffix != SUFFIX:
         raise InvalidInput("save", f"needs a file name that ends in {SUFFIX}", str(arguments.file), "Rename it.")
     job = request.job(arguments.scenario, arguments.set, arguments.law)
-    times = {"t_end": job.scenario.t_end, "sample_interval": job.scenario.sample_interval}
-    title = str(job.scenario.resolved().get("title", type(job.scenario).title))
-    save_system(job.build(), arguments.file, **times, options=job.options, title=title)
+    scenario = job.scenario
+    save_system(
+        job.build(),
+        arguments.file,
+        t_end=scenario.t_end,
+        sample_interval=scenario.sample_interval,
+        options=job.options,
+        title=str(scenario.resolved().get("title", type(scenario).title)),
+    )
     tell(f"the system is in {arguments.file}")
     return True

@@ -134,7 +134,7 @@ def _varied() -> ns.System:
     system.contact(planar, floor, **LAWS | {"friction": Coulomb(0.2)})
     for i, joint in enumerate((BallJoint(), Hinge((third, 0.0, 0.0)), Fixed(), Distance(length=third), Slider())):
         system.joint(joint, bodies[i % 2], bodies[2 + i % 4])
-    for load in (Spring(1.0, third), TorsionSpring(third), Bushing((third,) * 3)):
+    for load in (Spring(1.0, third), TorsionSpring(third), Bushing(third)):
         system.load(load, wall, compound)
     system.place(rigid, position=(0.0, 0.1, third), orientation=turn, angular_velocity=(third, 0.0, 0.0))
     return system

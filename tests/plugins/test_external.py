@@ -37,7 +37,7 @@ impact = "softening"
 
 @pytest.fixture(scope="module")
 def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Environment]:
-    """An environment with the package installed; what it does without is asked before and after."""
+    """Install the package into an environment; ask before and after what there is without it."""
     folder = tmp_path_factory.mktemp("external")
     made = Environment(folder / "environment")
     before, errors = made.nonsmooth("list", folder=folder)
