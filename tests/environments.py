@@ -19,7 +19,8 @@ class Environment:
     """
 
     def __init__(self, folder: Path) -> None:
-        assert importlib.util.find_spec("setuptools"), "pip install '.[test]': these tests build packages"
+        for package in ("pip", "setuptools"):
+            assert importlib.util.find_spec(package), f"{package} is missing: pip install '.[test]'"
         self._folder = folder
         venv.create(folder, with_pip=False, symlinks=os.name != "nt")
         scripts = folder / ("Scripts" if os.name == "nt" else "bin")

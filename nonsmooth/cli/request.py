@@ -14,7 +14,7 @@ from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Scenario
 from nonsmooth.model.options import Options
 from nonsmooth.parameters import from_all_words, rules
-from nonsmooth.plugins import registry
+from nonsmooth.plugins import file, registry
 from nonsmooth.system.replacing import with_laws
 from nonsmooth.system.system import System
 
@@ -73,7 +73,7 @@ class Job:
 
 
 def job(name: str, words: Iterable[str], laws: Iterable[str] = ()) -> Job:
-    """Return what is to be run: a scenario by its name or a file, with parameters and laws set.
+    """Return what is to be run, with parameters and laws set: a scenario by its name, of a Python file, or a file.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def job(name: str, words: Iterable[str], laws: Iterable[str] = ()) -> Job:
     if name.endswith(SUFFIX):
         setup = read(Path(name), values)
         return Job(FileScenario(setup), setup.options, replaced)
-    owner = registry.load("scenarios", name)
+    owner = file.load("run", (Scenario,), name) if file.is_file(name) else registry.load("scenarios", name)
     law.check_not_ignored(owner, values, replaced)
     made: Scenario = from_all_words(owner, values, name, "--set {name}=VALUE")
     return Job(made, Options(), replaced)

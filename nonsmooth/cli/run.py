@@ -24,7 +24,9 @@ from nonsmooth.system.system import System
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("run", help="run a scenario", allow_abbrev=False)
-    command.add_argument("scenario", metavar="SCENARIO", help="a name of `nonsmooth list scenarios`, or a FILE.toml")
+    command.add_argument(
+        "scenario", metavar="SCENARIO", help="a name of `nonsmooth list scenarios`, a FILE.toml, or FILE.py:CLASS"
+    )
     command.add_argument(
         "--set",
         action="append",

@@ -41,6 +41,10 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
     """
     owner = type(component)
     table: Table = {}
+    if TYPE in {field.name for field in dataclasses.fields(owner)}:
+        raise InvalidInput(
+            f"{thing}.{TYPE}", "must not be a parameter", owner.__name__, "Files use this key for the class: rename it."
+        )
     if declared is not owner:
         name = registry.name_of(owner)
         if name is None:

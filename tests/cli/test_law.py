@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -144,9 +145,12 @@ def test_a_figure_says_that_laws_were_replaced(call: Call, law: str, monkeypatch
 
     written: list[str] = []
     text = Figure.text
-    monkeypatch.setattr(
-        Figure, "text", lambda self, x, y, s, **more: (written.append(s), text(self, x, y, s, **more))[1]
-    )
+
+    def noted(self: Figure, x: float, y: float, words: str, **more: Any) -> Any:
+        written.append(words)
+        return text(self, x, y, words, **more)
+
+    monkeypatch.setattr(Figure, "text", noted)
     assert call("run", "tiny", "--law", f"friction={law}", "--out", "results")[0] == 0
     assert written.count("instead: Flat(friction=0.2, unused=1.0)") == 1
 
@@ -164,6 +168,16 @@ def test_a_saved_scenario_is_the_same_run(call: Call, law: str) -> None:
     three = json.loads(call("run", "one.toml", "--set", "laws.coulomb.friction=0.1", "--json")[1])
     assert three["parameters"]["laws.coulomb.friction"] == 0.1
     assert three["n_steps"] != two["n_steps"]
+
+
+def test_a_scenario_of_a_file_runs(call: Call, law: str) -> None:
+    Path("mine.py").write_text("from tiny_scenario import Tiny\n\n\nclass Mine(Tiny): pass\n")
+    status, _, errors = call("run", "mine.py:Mine")
+    assert status == 1
+    assert "must be a dataclass" in errors
+    Path("mine.py").write_text("from tiny_scenario import Tiny\n\nMine = Tiny\n")
+    reports = [json.loads(call("run", name, "--set", "radius=0.004", "--json")[1]) for name in ("mine.py:Mine", "tiny")]
+    assert reports[0]["final"] == reports[1]["final"]
 
 
 def test_what_cannot_be_saved_is_told(call: Call, law: str) -> None:

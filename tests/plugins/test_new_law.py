@@ -1,4 +1,4 @@
-"""A law that nobody has seen before: what is compiled for it, how long that takes, and that it costs what a built-in does."""
+"""A law that nobody has seen before: what is compiled for it, how long that takes, and that it moves as a built-in."""
 
 from __future__ import annotations
 
