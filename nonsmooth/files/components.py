@@ -41,10 +41,6 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
     """
     owner = type(component)
     table: Table = {}
-    if TYPE in {field.name for field in dataclasses.fields(owner)}:
-        raise InvalidInput(
-            f"{thing}.{TYPE}", "must not be a parameter", owner.__name__, "Files use this key for the class: rename it."
-        )
     if declared is not owner:
         name = registry.name_of(owner)
         if name is None:
@@ -55,6 +51,10 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
                 "Give it an entry point in a package, as a plug-in has.",
             )
         table[TYPE] = name
+    if TYPE in {field.name for field in dataclasses.fields(owner)}:
+        raise InvalidInput(
+            f"{thing}.{TYPE}", "must not be a parameter", owner.__name__, "Files use this key for the class: rename it."
+        )
     hints = typing.get_type_hints(owner)
     for field in dataclasses.fields(owner):
         value = getattr(component, field.name)
