@@ -128,8 +128,6 @@ def _save_figures(job: request.Job, solution: Solution, folder: Path, troubles: 
         with results.noting(troubles, "drawing the transitions"):
             results.save_figures({"transitions": draw(solution.transition_graph())}, folder, troubles)
     with results.noting(troubles, f"{type(job.scenario).__name__}.figures"):
-        figures = job.scenario.figures(solution)
-        for figure in figures.values():
-            if job.laws:  # its titles may speak of the laws that were replaced
-                figure.text(0.005, 0.005, f"instead: {', '.join(map(repr, job.laws.values()))}", fontsize=7)
-        results.save_figures(figures, folder, troubles)
+        # titles and captions may speak of the laws that were replaced
+        note = f"In place of the scenario's own:\n{chr(10).join(map(repr, job.laws.values()))}" if job.laws else ""
+        results.save_figures(job.scenario.figures(solution), folder, troubles, note)

@@ -152,7 +152,7 @@ def test_a_figure_says_that_laws_were_replaced(call: Call, law: str, monkeypatch
 
     monkeypatch.setattr(Figure, "text", noted)
     assert call("run", "tiny", "--law", f"friction={law}", "--out", "results")[0] == 0
-    assert written.count("instead: Flat(friction=0.2, unused=1.0)") == 1
+    assert written.count("In place of the scenario's own:\nFlat(friction=0.2, unused=1.0)") == 1
 
 
 def test_a_saved_scenario_is_the_same_run(call: Call, law: str) -> None:
