@@ -22,6 +22,8 @@ from nonsmooth.solution.solution import Counters, Solution
 from nonsmooth.system.system import System
 
 _STEPS_AT_ONCE = 2000
+_SECONDS_AT_ONCE = 0.2
+"""Longer than this the engine shall not keep from progress and interruption."""
 _DEFAULT_SAMPLES = 2000
 Progress = Callable[[float, float], None]
 _Chunks: TypeAlias = dict[tuple[int, int], tuple[np.ndarray, np.ndarray, np.ndarray]]
@@ -77,10 +79,13 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     start = model.energy()
     chunks: _Chunks = {}
     began = time.perf_counter()
-    status, word = PAUSED, "done"
+    status, word, steps = PAUSED, "done", _STEPS_AT_ONCE
     try:
         while status == PAUSED:
-            status = int(call_room("advance", model.memory, _STEPS_AT_ONCE))
+            called = time.perf_counter()
+            status = int(call_room("advance", model.memory, steps))
+            slow = time.perf_counter() - called > _SECONDS_AT_ONCE
+            steps = max(1, steps // 4) if slow else min(2 * steps, _STEPS_AT_ONCE)
             _drain(model, chunks)
             if progress is not None:
                 progress(float(scalars["t"][0]), float(scalars["t_end"][0]))

@@ -9,7 +9,7 @@ from nonsmooth.engine.contact_trial import hold_tried
 from nonsmooth.engine.delassus import add_product
 from nonsmooth.engine.forces import eliminate_reduced
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.linear import band_row, band_width, minimum_norm
+from nonsmooth.engine.linear import SINGULAR, band_row, band_width, minimum_norm
 from nonsmooth.engine.modes import SLIDE
 from nonsmooth.engine.null_band import solve_shifted
 
@@ -110,7 +110,7 @@ def _turn(S: Scalars, w: Floats, k: Integers, i: int) -> None:
 @kernel("void(S, F, i8)")
 def _solve(S: Scalars, w: Floats, n: int) -> None:
     """Solve Newton's system; where it is singular, for least norm, or a little off where its band is narrow."""
-    if eliminate_reduced(S, w, n) == 1:
+    if eliminate_reduced(S, w, n, SINGULAR) == 1:
         return
     if band_width(n, S.half_band) < n:
         for i in range(n):
@@ -119,7 +119,7 @@ def _solve(S: Scalars, w: Floats, n: int) -> None:
         return
     for i in range(n * n):
         w[S.matrix + i] = w[S.reduced + i]
-    minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
+    minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, n)
 
 
 @room("i8(S, F, I)")

@@ -94,6 +94,7 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     return ``mode_tried``, ``f`` and ``d`` describe the solution.
     """
     S.painleve = 0
+    S.effort = 0.0
     past = 1
     for a in range(S.n_active):
         if k[S.at_rest + a] == 0 and k[S.mode_tried + a] == STICK:

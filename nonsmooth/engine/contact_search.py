@@ -21,6 +21,8 @@ from nonsmooth.engine.solver_newton import search_by_newton
 from nonsmooth.model.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
 
 _ROUNDS = 4
+_MOST_EFFORT = 3e8
+"""What the trials of one problem may cost, each counting as the cube of its unknowns: about a second."""
 _EQUAL = 1e3
 """Accelerations that tell modes may be so many times those that count as zero."""
 _SAME = 1e-6
@@ -114,7 +116,7 @@ def _accept(S: Scalars, w: Floats, k: Integers) -> int:
         return 1
     if S.deficient == 0:
         return 0
-    while _open_pulling(S, w, k) > 0:
+    while S.effort < _MOST_EFFORT and _open_pulling(S, w, k) > 0:
         polish(S, w, k)
         if verify(S, w, k) == 1:
             return 1
@@ -200,6 +202,8 @@ def _search_round(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     for i in range(3 * S.n_active):
         w[S.f_raw + i] = 0.0
     for stage in range(stages):
+        if S.effort >= _MOST_EFFORT:
+            return 0
         for i in range(3 * S.n_active):
             w[S.f + i] = w[S.f_raw + i]
         _lay_cones(S, w, k)

@@ -6,10 +6,11 @@ import math
 
 from nonsmooth.engine.band_cholesky import factorise_band, substitute_band
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.linear import band_row, eliminate
+from nonsmooth.engine.linear import SINGULAR, band_row, eliminate
 from nonsmooth.engine.null_band import copy_shifted, largest_diagonal, project_on_null
 
 _STEPS = 60
+_NO_GAIN = 1e-9
 _FLOOR = 1e-9
 """Added to the Hessian, whose largest eigenvalue is 1, so that it can be inverted;"""
 _FLOOR_IN_BAND = 1e-3
@@ -84,10 +85,12 @@ def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: in
 def _multiply(w: Floats, left: int, right: int, out: int, n: int) -> None:
     for i in range(n):
         for j in range(n):
-            total = 0.0
-            for c in range(n):
-                total += w[left + i * n + c] * w[right + c * n + j]
-            w[out + i * n + j] = total
+            w[out + i * n + j] = 0.0
+        for c in range(n):
+            factor = w[left + i * n + c]
+            if factor != 0.0:
+                for j in range(n):
+                    w[out + i * n + j] += factor * w[right + c * n + j]
 
 
 @kernel("i8(S, F, I, i8, f8)")
@@ -104,7 +107,7 @@ def _step(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> int:
             w[S.x + i] -= w[S.null + i * n + j] * w[S.right + j]
             w[S.matrix + i * n + j] = w[S.basis + i * n + j]
         w[S.matrix + i * n + i] += _FLOOR
-    if eliminate(w, S.matrix, n, n, S.x) == 0:
+    if eliminate(w, S.matrix, n, n, S.x, SINGULAR) == 0:
         return 0
     # the elimination leaks out of the null space by round-off over the floor
     for i in range(n):
@@ -152,7 +155,8 @@ def spread(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> 
         for i in range(n):
             slope += w[S.right + i] * w[S.x + i]
             w[S.sigma + i] = w[S.f + k[S.column + i]]
-        if not slope < 0.0:
+        # where the distance has its smallest value, and it is not zero, there are no such forces
+        if not slope < -_NO_GAIN * square:
             return 0
         share, moved = 1.0, 0
         for _halving in range(30):

@@ -27,6 +27,7 @@ def hold_tried(S: Scalars, w: Floats, k: Integers) -> None:
         if mode == OPEN:
             w[S.f + 3 * a] = 0.0
     resolve(S, w, k)
+    S.effort += float(S.n_unknown) ** 3
 
 
 @kernel("void(S, F, I)")

@@ -12,9 +12,11 @@ import math
 from nonsmooth.engine.band import open_band
 from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.linear import band_row, band_width, eliminate, minimum_norm
+from nonsmooth.engine.linear import SINGULAR, band_row, band_width, eliminate, minimum_norm, rank_of_semidefinite
 from nonsmooth.engine.null_band import least_norm_in_band
 
+_DOUBTFUL = 1e-5
+"""A pivot below this part of the largest entry may be that of contacts of which one is redundant."""
 _COUPLED = 1e-7
 """Null-space entries above this tie a contact to the group whose forces are not unique."""
 
@@ -28,7 +30,11 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
             _lay_row(S, w, k, a, i, n)
-    solve_unknowns(S, w, k, n)
+    if solve_unknowns(S, w, k, n) == 0:
+        for a in range(S.n_active):
+            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+                _lay_held_row(S, w, k, a, i, n)
+        solve_doubtful(S, w, k, n)
     for i in range(n):
         w[S.f + k[S.column + i]] = w[S.x + i]
     for a in range(S.n_active):
@@ -57,37 +63,67 @@ def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None
             w[out], w[out + 1] = w[g + 1], w[g + 2]
 
 
-@kernel("void(S, F, I, i8)")
-def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> None:
-    """Solve ``reduced . x = right`` of the unknowns in ``column``, for least norm if singular.
+@kernel("void(S, F, I, i8, i8, i8)")
+def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write row ``i`` of what the unknowns would do without the friction of sliding contacts to ``matrix``."""
+    r = k[S.column + i] - 3 * a
+    line = band_row(S.matrix, i, n, S.half_band)
+    row = S.block_start + S.first_grouped + a
+    for block in range(k[row], k[row + 1]):
+        d = k[S.block_column + block]
+        for j in range(k[S.first_unknown + d], k[S.first_unknown + d + 1]):
+            w[line + j] = w[S.delassus + 9 * block + 3 * r + k[S.column + j] - 3 * d]
 
-    It stays in its band then, or is treated in full where the band fills it.
+
+@kernel("i8(S, F, I, i8)")
+def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+    """Solve ``reduced . x = right`` of the unknowns in ``column``; return 0 if the matrix is doubtfully regular.
+
+    Then zeros are written over the band of ``matrix``, for :func:`solve_doubtful`.
     """
     S.n_unknown = n
     S.deficient = S.null_banded = 0
     if n == 1 and w[S.reduced] != 0.0:
         w[S.x] = w[S.right] / w[S.reduced]
-        return
-    if eliminate_reduced(S, w, n) == 1:
+        return 1
+    if eliminate_reduced(S, w, n, _DOUBTFUL) == 1:
+        return 1
+    for i in range(n * band_width(n, S.half_band)):
+        w[S.matrix + i] = 0.0
+    return 0
+
+
+@kernel("void(S, F, I, i8)")
+def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+    """Solve ``reduced . x = right`` for least norm if singular.
+
+    In ``matrix`` stands what the unknowns would do if nothing slid with friction.  Its rank is that of the contacts'
+    geometry, and not to be judged by the reduced matrix: next to a position in which contacts become redundant
+    friction gives that a small pivot of its own.  Least norm stays in the band, or is treated in full where the band
+    fills it.
+    """
+    full = band_width(n, S.half_band) == n
+    rank = rank_of_semidefinite(w, S.matrix, n) if full else n
+    if rank == n and eliminate_reduced(S, w, n, SINGULAR) == 1:
         return
     S.deficient = 1
-    if band_width(n, S.half_band) < n:
+    if not full:
         S.null_banded = 1
         least_norm_in_band(S, w, n)
     else:
-        _least_norm(S, w, n)
+        _least_norm(S, w, n, rank)
     for i in range(n):
         a = k[S.column + i] // 3
         if null_entry(S, w, i, i) > _COUPLED:
             k[S.redundant + a] = 1
 
 
-@kernel("void(S, F, i8)")
-def _least_norm(S: Scalars, w: Floats, n: int) -> None:
+@kernel("void(S, F, i8, i8)")
+def _least_norm(S: Scalars, w: Floats, n: int, most: int) -> None:
     """Solve the singular system, stored in full, for least norm; keep the projector on its null space."""
     for i in range(n * n):
         w[S.matrix + i] = w[S.reduced + i]
-    rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma)
+    rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, most)
     for i in range(n):
         for j in range(n):
             total = 1.0 if i == j else 0.0
@@ -96,14 +132,14 @@ def _least_norm(S: Scalars, w: Floats, n: int) -> None:
             w[S.null + i * n + j] = total
 
 
-@kernel("i8(S, F, i8)")
-def eliminate_reduced(S: Scalars, w: Floats, n: int) -> int:
+@kernel("i8(S, F, i8, f8)")
+def eliminate_reduced(S: Scalars, w: Floats, n: int, least: float) -> int:
     """Solve ``reduced . x = right`` by elimination; return 0 if singular."""
     for i in range(n):
         w[S.x + i] = w[S.right + i]
     for i in range(n * band_width(n, S.half_band)):
         w[S.matrix + i] = w[S.reduced + i]
-    return eliminate(w, S.matrix, n, S.half_band, S.x)
+    return eliminate(w, S.matrix, n, S.half_band, S.x, least)
 
 
 @kernel("f8(S, F, i8, i8)")

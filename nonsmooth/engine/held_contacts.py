@@ -8,7 +8,7 @@ times columns is the reduced matrix whose unknowns are the forces; no more of G 
 from __future__ import annotations
 
 from nonsmooth.engine.band import open_band
-from nonsmooth.engine.forces import friction_of_slip, solve_unknowns
+from nonsmooth.engine.forces import friction_of_slip, solve_doubtful, solve_unknowns
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.kinematics import evaluate_row, evaluate_row_response, row
 from nonsmooth.engine.linear import band_row
@@ -89,6 +89,19 @@ def _reduce(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
         S.singular = c
 
 
+@kernel("void(S, F, I, i8, i8, i8)")
+def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write row ``i`` of what the unknowns would do without friction to ``matrix``, response 1 of slips being that."""
+    c, r = k[S.active + a], i - k[S.first_unknown + a]
+    line = band_row(S.matrix, i, n, S.half_band)
+    blocks = S.block_start + S.first_grouped + a
+    for block in range(k[blocks], k[blocks + 1]):
+        other = k[S.block_column + block]
+        first, sticks = k[S.first_unknown + other], k[S.tangent_held + other]
+        for s in range(1 + 2 * sticks):
+            w[line + first + s] = _coupling(S, w, k, c, r, k[S.active + other], s + 1 - sticks)
+
+
 @kernel("void(S, F, I)")
 def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the forces ``f`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
@@ -101,7 +114,14 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
             _reduce(S, w, k, a, i, n)
-    solve_unknowns(S, w, k, n)
+    if solve_unknowns(S, w, k, n) == 0:
+        for a in range(S.n_active):
+            if k[S.tangent_held + a] == 0:
+                evaluate_row_response(S, w, k, k[S.active + a], 0, 1)
+        for a in range(S.n_active):
+            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+                _lay_held_row(S, w, k, a, i, n)
+        solve_doubtful(S, w, k, n)
     if S.deficient == 1:
         if S.choosing == 1 and choose_share(S, w, k) == 0:
             S.shares_hold = 0

@@ -23,11 +23,12 @@ def band_row(a: int, i: int, n: int, half: int) -> int:
     return a + i * width - min(max(0, i - half), n - width)
 
 
-@kernel("i8(F, i8, i8, i8, i8)")
-def eliminate(w: Floats, a: int, n: int, half: int, x: int) -> int:
+@kernel("i8(F, i8, i8, i8, i8, f8)")
+def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> int:
     """Solve the banded system at ``a`` with right-hand side at ``x``, both overwritten; return 1, or 0 if singular.
 
-    Entries farther than ``half`` off the diagonal are zero; exchanges of rows fill some of them.
+    Entries farther than ``half`` off the diagonal are zero; exchanges of rows fill some of them.  A pivot below
+    ``least``, relative to the largest entry, counts as zero.
     """
     width = band_width(n, half)
     largest = 0.0
@@ -41,7 +42,7 @@ def eliminate(w: Floats, a: int, n: int, half: int, x: int) -> int:
             row = band_row(a, i, n, half)
             if abs(w[row + j]) > abs(w[best + j]):
                 pivot, best = i, row
-        if not abs(w[best + j]) > SINGULAR * largest:
+        if not abs(w[best + j]) > least * largest:
             return 0
         if pivot != j:
             for c in range(j, right):
@@ -62,6 +63,31 @@ def eliminate(w: Floats, a: int, n: int, half: int, x: int) -> int:
     return 1
 
 
+@kernel("i8(F, i8, i8)")
+def rank_of_semidefinite(w: Floats, a: int, n: int) -> int:
+    """Return the rank of the positive semidefinite matrix at ``a``, which is overwritten; largest pivots come first."""
+    largest = 0.0
+    for rank in range(n):
+        best = rank
+        for i in range(rank + 1, n):
+            if w[a + i * n + i] > w[a + best * n + best]:
+                best = i
+        pivot = w[a + best * n + best]
+        largest = max(largest, pivot)
+        if not pivot > SINGULAR * largest:
+            return rank
+        for c in range(n):
+            w[a + rank * n + c], w[a + best * n + c] = w[a + best * n + c], w[a + rank * n + c]
+        for i in range(n):
+            w[a + i * n + rank], w[a + i * n + best] = w[a + i * n + best], w[a + i * n + rank]
+        for i in range(rank + 1, n):
+            factor = w[a + i * n + rank] / pivot
+            if factor != 0.0:
+                for c in range(rank + 1, n):
+                    w[a + i * n + c] -= factor * w[a + rank * n + c]
+    return n
+
+
 @kernel("f8(F, i8, i8, i8, i8)")
 def _dot(w: Floats, one: int, two: int, n: int, stride: int) -> float:
     total = 0.0
@@ -70,9 +96,9 @@ def _dot(w: Floats, one: int, two: int, n: int, stride: int) -> float:
     return total
 
 
-@kernel("i8(F, i8, i8, i8, i8, i8)")
-def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int) -> int:
-    """Write A = Q R with the largest remaining column first; return the rank.
+@kernel("i8(F, i8, i8, i8, i8, i8, i8)")
+def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
+    """Write A = Q R with the largest remaining column first; return the rank, ``most`` at most.
 
     The columns of ``a`` lose what the columns chosen so far explain of them, and so does ``b``; rows of R go to
     ``r``, and behind the n-th entry of ``marks`` the components Q^T b.
@@ -80,7 +106,7 @@ def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int) -> int:
     for j in range(n):
         w[marks + j] = 0.0
     largest = 0.0
-    for rank in range(n):
+    for rank in range(most):
         best, size = -1, 0.0
         for j in range(n):
             if w[marks + j] == 0.0:
@@ -110,17 +136,17 @@ def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int) -> int:
         w[marks + n + rank] = total
         for i in range(n):
             w[b + i] -= total * w[a + i * n + best]
-    return n
+    return most
 
 
-@kernel("i8(F, i8, i8, i8, i8, i8, i8)")
-def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, work: int) -> int:
-    """Least-squares solution of least norm, by orthogonal decompositions; return the rank.
+@kernel("i8(F, i8, i8, i8, i8, i8, i8, i8)")
+def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, work: int, most: int) -> int:
+    """Least-squares solution of least norm, by orthogonal decompositions; return the rank, ``most`` at most.
 
     ``a`` and ``b`` are overwritten; ``v`` receives an orthonormal basis of the row space in its first rows, ``x`` the
     solution; ``work`` holds 2 n floats.
     """
-    rank = _triangulate(w, a, n, b, v, work)
+    rank = _triangulate(w, a, n, b, v, work, most)
     for i in range(n):
         w[x + i] = 0.0
     # rows R = L V: forward substitution goes along with the orthogonalisation of the rows

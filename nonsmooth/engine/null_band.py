@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.band_cholesky import factorise_band, invert_in_band, substitute_band
 from nonsmooth.engine.kernel import Floats, Scalars, kernel
-from nonsmooth.engine.linear import band_row, band_width, eliminate
+from nonsmooth.engine.linear import SINGULAR, band_row, band_width, eliminate
 from nonsmooth.model.layout import MOST_ENTRIES
 
 _SHIFT = 1e-8
@@ -46,7 +46,7 @@ def solve_shifted(S: Scalars, w: Floats, n: int) -> int:
     """Solve ``reduced . x = x`` in place, a little added to the diagonal; return 0 if singular all the same."""
     shift = _SHIFT * largest_diagonal(w, S.reduced, n, S.half_band)
     copy_shifted(w, S.reduced, n, S.half_band, S.matrix, shift)
-    return eliminate(w, S.matrix, n, S.half_band, S.x)
+    return eliminate(w, S.matrix, n, S.half_band, S.x, SINGULAR)
 
 
 @kernel("void(S, F, i8, i8)")

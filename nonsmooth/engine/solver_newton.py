@@ -15,7 +15,7 @@ from nonsmooth.engine.band import open_band
 from nonsmooth.engine.contact_trial import slope_of_slip
 from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.linear import band_row, eliminate
+from nonsmooth.engine.linear import SINGULAR, band_row, eliminate
 from nonsmooth.engine.solver_gauss_seidel import sweep
 
 STAGES = 4
@@ -143,7 +143,7 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
             return 0
         for i in range(width):
             w[S.x + i] = -w[S.right + i]
-        if eliminate(w, S.matrix, width, S.half_band, S.x) == 0:
+        if eliminate(w, S.matrix, width, S.half_band, S.x, SINGULAR) == 0:
             return 0
         for i in range(width):
             w[S.f_kept + i] = w[S.f + i]

@@ -208,6 +208,7 @@ FLOAT_SCALARS = (
     "h_first",
     "h_closed",
     "chosen_t",
+    "effort",
     "rtol",
     "impact_rtol",
     "time_tolerance",
