@@ -8,7 +8,6 @@ from typing import Any, final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import FreeBody, Rest
@@ -101,12 +100,6 @@ class Stand(Body):
     def state(self, **start: Any) -> tuple[Array, Array]:
         """Return nothing."""
         return np.zeros(0), np.zeros(0)
-
-
-def turned(q: Any, omega: Any, dt: float = 1.0) -> Array:
-    """Return the quaternion (scalar first) after turning at constant body rate."""
-    moved = Rotation.from_quat(np.roll(q, -1)) * Rotation.from_rotvec(np.asarray(omega) * dt)
-    return np.asarray(np.roll(moved.as_quat(), 1))
 
 
 class Rig:

@@ -64,17 +64,16 @@ def test_newton_without_friction_dissipates(seed: int, e: float) -> None:
     np.testing.assert_array_equal(impulse[:, 1:], 0.0)
 
 
-def _energetic(seed: int, e: Any, mu: Any, order: Any = (0, 1), n_u: int = 6) -> Any:
+def _energetic(seed: int, e: Any, mu: Any, n_u: int = 6) -> Any:
     random = np.random.default_rng(seed)
     mass = np.diag(random.uniform(0.5, 2.0, n_u))
     normal, tangential = random.normal(size=(n_u, 2)), random.normal(size=(n_u, 2, 2))
     u = random.normal(size=n_u)
     if np.all(normal.T @ u >= 0.0):
         u = -u
-    order = list(order)
-    impact = [EnergeticImpact(e[i]) for i in order]
-    friction = [Coulomb(mu[i]) for i in order]
-    return mass, u, ns.solve_impact(mass, normal[:, order], tangential[:, order], u, impact, friction, tolerance=1e-10)
+    impact = [EnergeticImpact(one) for one in e]
+    friction = [Coulomb(one) for one in mu]
+    return mass, u, ns.solve_impact(mass, normal, tangential, u, impact, friction, tolerance=1e-10)
 
 
 coefficients = st.tuples(st.floats(0.02, 0.6), st.floats(0.02, 0.6))
@@ -95,16 +94,6 @@ def test_energetic_impact_dissipates(seed: int, e: Any, mu: Any) -> None:
     assert np.all(friction <= np.array(mu) * result.normal_impulse * (1 + 1e-9) + 1e-12)
     for i in range(2):
         assert EnergeticImpact(e[i]).is_fulfilled(result.stored[i], result.returned[i], 1e-8)
-
-
-@settings(max_examples=30)
-@given(seed=RNG, e=restitutions, mu=coefficients)
-def test_permutation_of_the_contacts(seed: int, e: Any, mu: Any) -> None:
-    """The order in which contacts are listed does not matter."""
-    _, _, one = _energetic(seed, e, mu)
-    _, _, other = _energetic(seed, e, mu, (1, 0))
-    np.testing.assert_allclose(other.velocity, one.velocity, rtol=0, atol=1e-7)
-    np.testing.assert_allclose(other.normal_impulse[::-1], one.normal_impulse, rtol=0, atol=1e-7)
 
 
 def test_certificates_refuse() -> None:
