@@ -7,7 +7,8 @@ import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias, get_type_hints
+from types import MappingProxyType
+from typing import Any, ClassVar, TypeAlias, get_type_hints
 
 from nonsmooth.errors import InvalidInput, UnknownName
 
@@ -96,7 +97,13 @@ Value: TypeAlias = float | tuple[float, ...]
 
 
 class Component:
-    """Base of everything that has parameters: checks them when it is made."""
+    """Base of everything that has parameters: checks them when it is made.
+
+    ``departures`` names properties of the conformance kit (:mod:`nonsmooth.testing`) that a class is known not to have,
+    each with the reason.
+    """
+
+    departures: ClassVar[Mapping[str, str]] = MappingProxyType({})
 
     def __post_init__(self) -> None:
         for name, (field, rule) in rules(type(self)).items():

@@ -5,6 +5,9 @@ from __future__ import annotations
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+_ROUND_OFF = 1e-26
+"""Square of what turning a normal into the axes of a body and back may leave of a zero."""
+
 
 @compiled
 def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
@@ -18,7 +21,8 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
         return 1.0 - x * x / (1.0 + z), -x * y / (1.0 + z), -x
     # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits where the normal points down
     square = x * x + y * y
-    if square == 0.0:
+    if square < _ROUND_OFF:
+        # a face whose normal is (0, 0, -1) keeps its tangent however the body turns
         return 1.0, 0.0, 0.0
     grow = (1.0 - z) / square
     return 1.0 - grow * x * x, -grow * x * y, -x

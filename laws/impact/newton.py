@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from types import MappingProxyType
+from typing import ClassVar, final
 
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
@@ -65,6 +66,10 @@ class NewtonImpact(ImpactMap):
     ----------
     J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988) 1-82.
     """
+
+    departures: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {"dissipation with friction": "restitution and friction are applied apart, as Kane's example shows"}
+    )
 
     restitution: float = parameter(doc="kinematic coefficient of restitution e", minimum=0.0, maximum=1.0)
     duration: float = parameter(

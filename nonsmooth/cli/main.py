@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from nonsmooth.cli import figures, list, new, run, save, show
+from nonsmooth.cli import check, figures, list, new, run, save, show
 from nonsmooth.cli.extras import MissingPackagesError
 from nonsmooth.cli.messages import complain, warn_plainly
 from nonsmooth.errors import InvalidInput, NonsmoothError
@@ -17,7 +17,7 @@ from nonsmooth.plugins.registry import BrokenPlugin
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 """Exit statuses."""
 
-_COMMANDS = (list, show, run, save, figures, new)
+_COMMANDS = (list, show, check, run, save, figures, new)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -25,7 +25,7 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(
         prog="nonsmooth",
         description="Event-driven multibody dynamics with friction and energetic multiple impacts.",
-        epilog="Exit status: 0 done, 1 the run failed or was interrupted (what was computed is kept), "
+        epilog="Exit status: 0 done, 1 the run failed, a property does not hold, or was interrupted (what was computed is kept), "
         "2 the request was wrong.",
         allow_abbrev=False,
     )

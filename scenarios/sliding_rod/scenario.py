@@ -45,7 +45,13 @@ class SlidingRod(Scenario):
     friction: float = parameter(
         1.4, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 10.0), law="friction"
     )
-    tilt: float = parameter(math.atan(2.0), doc="angle phi of the rod from the ground at the start", unit="rad")
+    tilt: float = parameter(
+        math.atan(2.0),
+        doc="angle phi of the rod from the ground at the start",
+        unit="rad",
+        above=0.0,
+        maximum=math.pi / 2.0,
+    )
     speed: float = parameter(1.0, doc="slip speed of the lower end at the start", unit="m/s", usual=(-10.0, 10.0))
     rate: float = parameter(0.0, doc="rate of phi at the start, positive when it gets steeper", unit="rad/s")
     half_length: float = parameter(0.1, doc="half of the length, s", unit="m", above=0.0, usual=(1e-3, 10.0))
@@ -57,9 +63,9 @@ class SlidingRod(Scenario):
     t_end: float = parameter(0.2, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
     def _check(self) -> None:
-        if not 0.0 < self.tilt < math.pi / 2.0:
+        if not self.tilt < math.pi / 2.0:
             raise InvalidInput(
-                "SlidingRod.tilt", "must be between 0 and pi/2", self.tilt, "Give the angle from the ground in [rad]."
+                "SlidingRod.tilt", "must be below pi/2", self.tilt, "Give the angle from the ground in [rad]."
             )
 
     def resolved(self) -> Mapping[str, Any]:

@@ -1,0 +1,29 @@
+"""The conformance kit: what must hold of a law, a body, a contact's kinematics or a scenario, as named properties.
+
+Each ``check_...`` returns a list of :class:`Property`; nothing runs before a property is called::
+
+    @pytest.mark.parametrize("prop", check_friction_law(MyLaw(0.3)), ids=str)
+    def test_my_law(prop):
+        prop()
+"""
+
+from nonsmooth.testing.body import check_body
+from nonsmooth.testing.friction import check_friction_law
+from nonsmooth.testing.impact import check_impact_law
+from nonsmooth.testing.kinematics import check_contact_kinematics
+from nonsmooth.testing.normal import check_normal_law
+from nonsmooth.testing.property import Departs, NotChecked, Property, PropertyFailed
+from nonsmooth.testing.scenario import check_scenario
+
+__all__ = [
+    "Departs",
+    "NotChecked",
+    "Property",
+    "PropertyFailed",
+    "check_body",
+    "check_contact_kinematics",
+    "check_friction_law",
+    "check_impact_law",
+    "check_normal_law",
+    "check_scenario",
+]

@@ -1,0 +1,182 @@
+"""What holds of everything that has parameters: bounds, round trip, immutability; and values to try."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import warnings
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
+from nonsmooth.testing.property import Broken, NotChecked, Row
+
+_FAR = 3.0
+_JUST = 1e-9
+
+
+def remade(component: Any, **values: Any) -> Any:
+    """Return the component with other parameters, without a question about the order of magnitude.
+
+    Raises
+    ------
+    InvalidInput
+        If it refuses them.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnusualValue)
+        return dataclasses.replace(component, **values)
+
+
+def accepted(component: Any, **values: Any) -> Any:
+    """Return the component with other parameters, None if it refuses them."""
+    try:
+        return remade(component, **values)
+    except InvalidInput:
+        return None
+
+
+def numbers_of(component: Any) -> dict[str, tuple[Any, Rule]]:
+    """Return the parameters that are numbers: name -> value and rule."""
+    found = {name: (getattr(component, name), rule) for name, (field, rule) in rules(type(component)).items()}
+    return {name: (value, rule) for name, (value, rule) in found.items() if rule.unit != ""}
+
+
+def inside(value: float | None, rule: Rule) -> tuple[float, ...]:
+    """Return values within the declared range: bounds that belong to it and something between."""
+    low, high = max(rule.minimum, rule.above), rule.maximum
+    tried = [rule.minimum, rule.maximum]
+    if value is not None:
+        tried += [value, value / _FAR, value * _FAR]
+    if low > -math.inf and high < math.inf:
+        tried.append(0.5 * (low + high))
+    return tuple(x for x in dict.fromkeys(tried) if math.isfinite(x) and low <= x <= high and x > rule.above)
+
+
+def outside(rule: Rule) -> tuple[float, ...]:
+    """Return values outside of the declared range, and what is no finite number."""
+    found = [math.nan, math.inf, -math.inf]
+    for bound, sign in ((rule.minimum, -1.0), (rule.maximum, 1.0)):
+        if math.isfinite(bound):
+            found += [bound + sign * (_JUST + _JUST * abs(bound)), bound + sign * (1.0 + abs(bound))]
+    if math.isfinite(rule.above):
+        found += [rule.above, rule.above - 1.0]
+    return tuple(found)
+
+
+def variants(component: Any) -> list[Any]:
+    """Return the component as given and with every single parameter at other values of its range."""
+    found = [component]
+    for name, (value, rule) in numbers_of(component).items():
+        for other in inside(value, rule):
+            made = accepted(component, **{name: other}) if value is not None and other != value else None
+            if made is not None:
+                found.append(made)
+    return found
+
+
+def component_rows(component: Any) -> list[Row]:
+    """Return the properties that every component has."""
+    return [
+        (
+            "declared bounds",
+            "a parameter outside of its declared range, or not a finite number, raises InvalidInput; "
+            "one inside is accepted, if need be with other values of the others",
+            lambda: _check_bounds(component),
+        ),
+        (
+            "round trip",
+            "written as words and as JSON and made anew from them, it is equal and offers the same parameters",
+            lambda: _check_round_trip(component),
+        ),
+        ("immutable", "no parameter can be set after it is made", lambda: _check_immutable(component)),
+    ]
+
+
+def _check_bounds(component: Any) -> None:
+    owner = type(component)
+    for name, (field, rule) in rules(owner).items():
+        wrong: tuple[Any, ...] = outside(rule) if rule.unit != "" else ()
+        if rule.choices:
+            wrong += ("no such word",)
+        for value in wrong:
+            if field.init and accepted(component, **{name: value}) is not None:
+                raise Broken(f"a value outside of its range ({rule.describe()}) is accepted", name, repr(value))
+    for name, (value, rule) in numbers_of(component).items():
+        for one in inside(value, rule):
+            if not _acceptable(component, name, one, rule):
+                raise Broken(f"a value inside of its range ({rule.describe()}) is refused", name, repr(one))
+
+
+def _acceptable(component: Any, name: str, value: float, rule: Rule) -> bool:
+    """Return whether a value, rounded or, if it is a bound, next to it, is accepted with some others."""
+    low, high = max(rule.minimum, rule.above), rule.maximum
+    near = [value, float(round(value))]
+    if value in (low, high):
+        step = 0.01 * (high - low if math.isfinite(high - low) else 1.0 + abs(value))
+        near.append(value + step if value == low else value - step)
+    return any(
+        accepted(component, **{name: one}, **others) is not None
+        for one in near
+        if low <= one <= high
+        for others in _others(component, name)
+    )
+
+
+def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
+    """Yield values of the other parameters: as they are, one at a time left out or elsewhere, all low, all high."""
+    yield {}
+    for other, (field, _) in rules(type(component)).items():
+        if field.default is None and other != name:
+            yield {other: None}
+    ranges = {
+        other: inside(value, rule) + ((rule.usual[1],) if math.isfinite(rule.usual[1]) else ())
+        for other, (value, rule) in numbers_of(component).items()
+        if other != name
+    }
+    for other, values in ranges.items():
+        for value in values:
+            yield {other: value}
+    for pick in (min, max):
+        yield {other: pick(values) for other, values in ranges.items() if values}
+
+
+def _check_round_trip(component: Any) -> None:
+    owner = type(component)
+    declared = {name: getattr(component, name) for name, (field, _) in rules(owner).items() if field.init}
+    rest = {
+        field.name: getattr(component, field.name)
+        for field in dataclasses.fields(component)
+        if field.init and field.name not in declared
+    }
+    words = {name: str(value) for name, value in declared.items() if value is not None}
+    routes: dict[str, Callable[[], dict[str, Any]]] = {
+        "JSON": lambda: dict(json.loads(json.dumps(declared))),
+        "words": lambda: dict.fromkeys(declared) | from_words(owner, words, owner.__name__),
+    }
+    for route, read in routes.items():
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UnusualValue)
+            again = owner(**read(), **rest)
+        for name, value in declared.items():
+            if getattr(again, name) != value:
+                raise Broken(
+                    f"made anew from {route}, it has another value", name, f"{value!r} -> {getattr(again, name)!r}"
+                )
+        if again != component or dict(again.parameters()) != dict(component.parameters()):
+            raise Broken(f"made anew from {route}, it is not equal", "parameters()", dict(again.parameters()))
+
+
+def _check_immutable(component: Any) -> None:
+    fields = dataclasses.fields(component)
+    if not fields:
+        raise NotChecked(f"{type(component).__name__}: it has no parameters")
+    for field in fields:
+        value = getattr(component, field.name)
+        try:
+            setattr(component, field.name, value)
+        except dataclasses.FrozenInstanceError:
+            continue
+        raise Broken("it can be set: write @dataclass(frozen=True) above the class", field.name, repr(value))

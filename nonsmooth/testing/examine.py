@@ -1,0 +1,54 @@
+"""A trial over drawn inputs and over parameters of the component."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.errors import NonsmoothError
+from nonsmooth.parameters import UnusualValue, rules
+from nonsmooth.testing.draws import Case, Space, draws, shrink
+from nonsmooth.testing.property import Broken, NotChecked
+
+Trial = Callable[[Any, Case], str]
+"""Looks at a component and an input; returns what is wrong, nothing where all is well."""
+_IN_PLAIN_MODE = 3
+
+
+def described(component: Any) -> tuple[str, Any]:
+    """Return names and values of the parameters that are given."""
+    given = {name: getattr(component, name) for name in rules(type(component))}
+    given = {name: value for name, value in given.items() if value is not None}
+    if len(given) == 1:
+        return next(iter(given.items()))
+    return ("parameters", given) if given else ("", "")
+
+
+def attempt(trial: Trial, component: Any, case: Case) -> str:
+    """Return what is wrong, an exception included."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UnusualValue)
+            return trial(component, case)
+    except NotChecked:
+        raise
+    except (NonsmoothError, ArithmeticError, LookupError, TypeError, ValueError) as error:
+        return f"it raises {type(error).__name__}: {error}"
+
+
+def examine(name: str, components: Iterable[Any], space: Space, trial: Trial, count: int) -> None:
+    """Try ``count`` inputs on each component.
+
+    Raises
+    ------
+    Broken
+        If one fails, with the smallest input that does.
+    """
+    count = min(count, _IN_PLAIN_MODE) if PLAIN else count
+    for component in components:
+        for case in draws(space, count, name):
+            if attempt(trial, component, case):
+                smallest = shrink(case, space, lambda c, one=component: bool(attempt(trial, one, c)))
+                raise Broken(attempt(trial, component, smallest), *described(component), smallest)

@@ -1,0 +1,77 @@
+"""Properties of impact laws that map rates to impulses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.interfaces import ImpactMap
+from nonsmooth.plugins.compile import parameter_names
+from nonsmooth.testing.callers import compiled_map
+from nonsmooth.testing.component import variants
+from nonsmooth.testing.draws import Case, Variable, draws
+from nonsmooth.testing.examine import examine
+from nonsmooth.testing.functions import OLD, ROOM, Function
+from nonsmooth.testing.property import Row
+from nonsmooth.testing.reference import Problem, problem, problem_space
+from nonsmooth.testing.respond import vectors_of
+
+Array = NDArray[np.float64]
+_MU = 0.3
+
+
+def map_function(law: ImpactMap) -> Function:
+    """Return the function of a map with problems of one and two contacts to try."""
+    inputs: list[tuple[str, Problem]] = []
+    for n in (1, 2):
+        for case in draws(problem_space(n), 3, "map"):
+            inputs.append((f"{n} contact{'s' * (n > 1)}", problem(case, n)))
+    offered = {"friction": _MU, **law.numbers()}
+
+    def plain(p: Problem) -> Array:
+        vectors = vectors_of([law] * p.n, [_MU] * p.n)
+        own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
+        return _written(p, lambda *given: law.impulses(*given, **own))
+
+    def compiled() -> Callable[[Problem], Array]:
+        def call(p: Problem) -> Array:
+            vectors = vectors_of([law] * p.n, [_MU] * p.n)
+            own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
+            return _written(p, compiled_map(law.impulses, own, type(law).__name__))
+
+        return call
+
+    return Function(law, "impulses", law.impulses, "map", offered, plain, compiled, inputs)
+
+
+def _written(p: Problem, call: Callable[..., Any], old: float = 0.0) -> Array:
+    """Return what a map writes, and what stands behind it, which is not its own."""
+    columns = p.columns
+    delassus = columns.T @ np.linalg.solve(p.mass, columns)
+    out = np.full(3 * p.n + ROOM, OLD)
+    out[: 3 * p.n] = old
+    call(p.n, np.ascontiguousarray(delassus).ravel(), columns.T @ p.velocity, out)
+    return out
+
+
+def map_rows(law: ImpactMap) -> list[Row]:
+    """Return the properties that only a map has."""
+    space = [*problem_space(2), Variable("friction", 0.0, 0.6)]
+    return [
+        (
+            "writes its block",
+            "it writes every impulse, whatever stood there, and nothing beyond",
+            lambda: examine("writes its block", variants(law), space, _writes, 4),
+        )
+    ]
+
+
+def _writes(law: ImpactMap, case: Case) -> str:
+    p = problem(case, 2)
+    vectors = vectors_of([law] * 2, [case["friction"]] * 2)
+    own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
+    clean, used = (_written(p, lambda *given: law.impulses(*given, **own), old) for old in (0.0, OLD))
+    return "" if np.allclose(clean[:6], used[:6], rtol=1e-9, atol=1e-12) else "numbers that stood there before are left"

@@ -1,0 +1,103 @@
+"""The properties of what is installed under a name."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, NormalLaw, Scenario
+from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
+from nonsmooth.plugins import registry
+from nonsmooth.testing.body import check_body
+from nonsmooth.testing.friction import check_friction_law
+from nonsmooth.testing.impact import check_impact_law
+from nonsmooth.testing.kinematics import check_contact_kinematics
+from nonsmooth.testing.normal import check_normal_law
+from nonsmooth.testing.property import Property
+from nonsmooth.testing.scenario import check_scenario
+
+GROUPS = ("laws", "bodies", "kinematics", "scenarios")
+"""Groups of the registry whose members the kit looks at."""
+
+
+def check_registered(group: str, name: str, words: Mapping[str, str]) -> list[Property]:
+    """Return the properties of the component of that name in a group, of each kind that it is.
+
+    Parameters
+    ----------
+    group, name : str
+        Where it is installed.
+    words : mapping of str to str
+        Parameters; those that are required and not given take a value inside of their range.
+
+    Raises
+    ------
+    InvalidInput
+        If a value is wrong, or it cannot be made from numbers and words alone.
+    PluginError
+        If it cannot be loaded.
+    """
+    owner = registry.load(group, name)
+    if issubclass(owner, ContactKinematics):
+        return _of_pair(owner, name, words)
+    component = make(owner, name, words)
+    found: list[Property] = []
+    if isinstance(component, NormalLaw):
+        found += check_normal_law(component)
+    if isinstance(component, FrictionLaw):
+        found += check_friction_law(component)
+    if isinstance(component, ImpactLaw):
+        found += check_impact_law(component)
+    if isinstance(component, Body):
+        found += check_body(component)
+    if isinstance(component, Scenario):
+        found += check_scenario(component)
+    return found
+
+
+def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]) -> list[Property]:
+    if words:
+        raise InvalidInput(
+            "--set", "must be left out", dict(words), f"The parameters of {name} follow from its shapes."
+        )
+    first, second = (make(shape, shape.__name__, {}) for shape in owner.pair)
+    return check_contact_kinematics(owner.between(first, second)[0], first, second)
+
+
+def make(owner: type, name: str, words: Mapping[str, str]) -> Any:
+    """Return a component with the parameters given, and with some value for others that have no default.
+
+    Raises
+    ------
+    InvalidInput
+        If a value is wrong or a field without default is no declared number.
+    """
+    values = from_words(owner, words, name)
+    for field in dataclasses.fields(owner):
+        if field.name in values or not field.init or field.default is not field.default_factory:
+            continue
+        rule = rules(owner)[field.name][1] if field.name in rules(owner) else Rule("", "")
+        if rule.unit == "" and not rule.choices:
+            raise InvalidInput(
+                f"{name}.{field.name}",
+                "must be given from Python",
+                None,
+                f"Make a {owner.__name__} and pass it to the function of nonsmooth.testing for its kind.",
+            )
+        values[field.name] = rule.choices[0] if rule.choices else _typical(rule)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnusualValue)
+        return owner(**values)
+
+
+def _typical(rule: Rule) -> float:
+    low, high = max(rule.minimum, rule.above), rule.maximum
+    if math.isfinite(low) and math.isfinite(high):
+        return 0.5 * (low + high)
+    if rule.usual[0] > 0.0 and math.isfinite(rule.usual[1]):
+        return math.sqrt(rule.usual[0] * rule.usual[1])
+    return low + 1.0 if math.isfinite(low) else high - 1.0 if math.isfinite(high) else 1.0

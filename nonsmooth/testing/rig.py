@@ -1,0 +1,154 @@
+"""Two free bodies that can be put anywhere, and what the engine makes of a contact between them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.kernel import call_room
+from nonsmooth.interfaces import Body, ContactKinematics, NormalLaw, Shape
+from nonsmooth.model.assembly import lay_out
+from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.options import Options
+from nonsmooth.system.contact import Contact
+from nonsmooth.system.system import System
+from nonsmooth.testing.reference import Constant, Spring
+from nonsmooth.types import Floats
+
+Array = NDArray[np.float64]
+Pose = tuple[Array, Array]
+"""Position [m] and unit quaternion, scalar first."""
+
+
+def rotation(q: Any) -> Array:
+    """Return the rotation matrix of a unit quaternion (scalar first)."""
+    a, b, c, d = (float(x) for x in q)
+    return np.array(
+        [
+            [a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)],
+            [2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)],
+            [2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d],
+        ]
+    )
+
+
+def turned(q: Any, vector: Any) -> Array:
+    """Return a quaternion after a turn by a rotation vector in world axes."""
+    angle = float(np.linalg.norm(vector))
+    s = 0.5 if angle == 0.0 else math.sin(0.5 * angle) / angle
+    a, (b, c, d) = math.cos(0.5 * angle), s * np.asarray(vector, dtype=float)
+    e, f, g, h = (float(x) for x in q)
+    product = [
+        a * e - b * f - c * g - d * h,
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        a * h + b * g - c * f + d * e,
+    ]
+    return np.array(product) / np.linalg.norm(product)
+
+
+def _evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
+    a, b, c, d = q[3], q[4], q[5], q[6]
+    out[3], out[4], out[5] = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
+    out[6], out[7], out[8] = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
+    out[9], out[10], out[11] = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
+    for i in range(3):
+        out[i] = q[i]
+        out[12 + i], out[15 + i] = u[i], u[3 + i]
+    for i in range(6):
+        out[24 + 7 * i] = 1.0
+        # behind Jacobian 36, coordinate rates 7 and force 6
+        out[73 + 7 * i] = 1.0
+
+
+@final
+@dataclass(frozen=True)
+class _Carrier(Body):
+    """A body of unit mass and moments; velocities in world axes, and no coordinate rates: it stays where it is put."""
+
+    shape: Shape
+
+    @property
+    def frames(self) -> tuple[tuple[Shape, ...], ...]:
+        return ((self.shape,),)
+
+    @property
+    def n_q(self) -> int:
+        return 7
+
+    @property
+    def n_u(self) -> int:
+        return 6
+
+    @property
+    def quaternion(self) -> int:
+        return 3
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        return _evaluate
+
+    @property
+    def scales(self) -> tuple[Array, Array]:
+        return np.ones(7), np.ones(6)
+
+    @property
+    def time_scale(self) -> float:
+        return math.inf
+
+    def state(self, **start: Any) -> tuple[Array, Array]:
+        return np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]), np.zeros(6)
+
+
+@final
+@dataclass(frozen=True)
+class _Any(NormalLaw):
+    def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
+        return True
+
+
+class Rig:
+    """Two bodies with a shape each and one contact."""
+
+    def __init__(self, kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -> None:
+        self._bodies = _Carrier(shapes[0]), _Carrier(shapes[1])
+        system = System(self._bodies)
+        extents = (shapes[0].extent, shapes[1].extent)
+        name = type(kinematics).__name__
+        # not by System.contact, which looks for kinematics among those installed
+        system._contacts.append(Contact(name, *self._bodies, (0, 0), kinematics, extents, _Any(), Constant(), Spring()))
+        self._model = lay_out(system, Options())
+
+    def put(self, poses: Sequence[Pose], u: Array) -> None:
+        """Put the bodies somewhere, with velocities and angular velocities in world axes, shape [12]."""
+        q = np.concatenate([np.concatenate(pose) for pose in poses])
+        self._model.memory.array("y", 26)[:] = np.concatenate([q, u])
+        call_room("evaluate_at", self._model.memory)
+
+    def _row(self, name: str, width: int) -> Array:
+        return self._model.memory.array(name, width).copy()
+
+    @property
+    def geometry(self) -> Array:
+        """The geometry block, shape [30]."""
+        return self._row("geometry", GEOMETRY)
+
+    @property
+    def axes(self) -> Array:
+        """Normal and tangents, shape [3, 3]."""
+        return self._row("axes", 9).reshape(3, 3)
+
+    @property
+    def rate(self) -> Array:
+        """Gap rate and slip velocity [m/s], shape [3]."""
+        return self._row("rate", 3)
+
+    @property
+    def bias(self) -> Array:
+        """Their derivatives while u' = 0, shape [3]."""
+        return self._row("bias", 3)

@@ -1,0 +1,211 @@
+"""Properties of scenarios."""
+
+from __future__ import annotations
+
+import copy
+import importlib.util
+import json
+import math
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import rules
+from nonsmooth.simulate import simulate
+from nonsmooth.solution import files
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.property import Broken, NotChecked, Property, properties
+
+_RESIDUAL = 1e-6
+_SAMPLES = 20
+
+
+def check_scenario(scenario: Scenario, *, t_end: float | None = None) -> list[Property]:
+    """Return the properties of a scenario.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        The scenario, with parameters.
+    t_end : float, optional
+        How long to run it [s]; by default twenty samples, or to its end if that comes sooner.
+    """
+    look = _Look(scenario, t_end)
+    rows: list[tuple[str, str, Callable[[], None]]] = [
+        ("times", "end time and sample interval are positive and finite", look.times),
+        ("resolved", "`resolved` gives every parameter the value that the run uses", look.resolved),
+        ("builds twice", "`build` returns a new system each time, with the same bodies, starts, contacts and ties", look.twice),
+        ("runs", "it runs for a short time", look.runs),
+        ("energy", "the energy account of the run closes", look.energy),
+        ("repeatable", "a second run is the same to the last bit", look.repeatable),
+        ("summary", "`summarise` returns numbers and words by name, the same each time", look.summary),
+        ("coordinates", "`coordinates` returns an array over the samples for each name", look.coordinates),
+        ("final state", "`final` returns finite lists q and u", look.final),
+        ("figures", "`figures` returns figures by file name, and they can be drawn", look.figures),
+        ("results can be saved", "solution and coordinates can be written to files", look.files),
+        ("only reads", "summary, coordinates and figures leave the solution as it is", look.only_reads),
+    ]  # fmt: skip
+    return properties(scenario, [*component_rows(scenario), *rows])
+
+
+class _Look:
+    def __init__(self, scenario: Scenario, t_end: float | None) -> None:
+        self._scenario = scenario
+        self._given = t_end
+
+    @cached_property
+    def _end(self) -> float:
+        return self._given or min(self._scenario.t_end, _SAMPLES * self._scenario.sample_interval)
+
+    def _run(self) -> Solution:
+        interval = min(self._scenario.sample_interval, self._end)
+        return simulate(self._scenario.build(), self._end, sample_interval=interval)
+
+    @cached_property
+    def _solution(self) -> Solution | Exception:
+        try:
+            return self._run()
+        except Exception as error:
+            return error
+
+    @property
+    def solution(self) -> Solution:
+        """The short run."""
+        if isinstance(self._solution, Exception):
+            raise NotChecked(f"not checked, as it does not run: {self._solution}") from self._solution
+        return self._solution
+
+    def times(self) -> None:
+        for name in ("t_end", "sample_interval"):
+            value = float(getattr(self._scenario, name))
+            if not (math.isfinite(value) and value > 0.0):
+                raise Broken("it must be positive and finite [s]", name, value)
+
+    def resolved(self) -> None:
+        found = self._scenario.resolved()
+        for name, (_, rule) in rules(type(self._scenario)).items():
+            if name not in found:
+                raise Broken("`resolved` leaves it out", name, None)
+            given = getattr(self._scenario, name)
+            if given is not None and found[name] != given:
+                raise Broken(f"`resolved` gives it the value {found[name]!r}", name, given)
+            if rule.unit != "" and found[name] is not None and not math.isfinite(found[name]):
+                raise Broken("`resolved` gives it no finite number", name, found[name])
+
+    def twice(self) -> None:
+        one, other = self._scenario.build(), self._scenario.build()
+        if one is other or any(a is b for a, b in zip(one.bodies, other.bodies, strict=False)):
+            raise Broken("`build` returns objects of the build before")
+        for name, a, b in zip(_PARTS, _parts(one), _parts(other), strict=True):
+            if a != b:
+                raise Broken("two builds differ", name, f"{a} and {b}")
+
+    def runs(self) -> None:
+        if isinstance(self._solution, Exception):
+            raise Broken(f"until {self._end:g} s: {self._solution}") from self._solution
+        if self.solution.status != "done" or not np.all(np.isfinite(self.solution.q_end)):
+            raise Broken(f"it ends with {self.solution.status}: {self.solution.message}")
+
+    def energy(self) -> None:
+        residual = self.solution.energy.residual
+        if not residual <= _RESIDUAL:
+            raise Broken(f"{residual:g} of the energy is not explained", "residual", residual)
+
+    def repeatable(self) -> None:
+        again = self._run()
+        for name in ("t", "q", "u", "q_end", "u_end"):
+            if not np.array_equal(getattr(self.solution, name), getattr(again, name), equal_nan=True):
+                raise Broken("two runs differ", name, "")
+
+    def summary(self) -> None:
+        one, other = (self._summary() for _ in range(2))
+        if one != other:
+            raise Broken("a second call gives another one", "summarise", other)
+
+    def _summary(self) -> str:
+        found = self._scenario.summarise(self.solution)
+        if not isinstance(found, Mapping) or not found or not all(isinstance(name, str) for name in found):
+            raise Broken("it must be a mapping with names, at least one", "summarise", found)
+        return json.dumps(dict(found), default=lambda value: np.asarray(value).tolist(), sort_keys=True)
+
+    def coordinates(self) -> None:
+        found = self._scenario.coordinates(self.solution)
+        for name, values in found.items():
+            if np.shape(values) != (len(self.solution.t),):
+                raise Broken(
+                    f"it must have one value for each of {len(self.solution.t)} samples", name, np.shape(values)
+                )
+
+    def final(self) -> None:
+        found = dict(self._scenario.final(self.solution))
+        for name in ("q", "u"):
+            values = found.get(name)
+            if not isinstance(values, list) or not values or not np.all(np.isfinite(values)):
+                raise Broken("it must be a list of finite numbers", name, values)
+
+    def figures(self) -> None:
+        if importlib.util.find_spec("matplotlib") is None:
+            raise NotChecked("not checked, as matplotlib is not installed")
+        from matplotlib.figure import Figure
+
+        with _without_display():
+            found = self._scenario.figures(self.solution)
+            if not found:
+                raise Broken("there are none", "figures", {})
+            for name, figure in found.items():
+                if not isinstance(name, str) or not isinstance(figure, Figure) or not figure.axes:
+                    raise Broken("it must be a matplotlib figure with axes", str(name), figure)
+
+    def files(self) -> None:
+        if any(importlib.util.find_spec(name) is None for name in ("xarray", "h5netcdf", "h5py")):
+            raise NotChecked("not checked, as xarray, h5netcdf or h5py is not installed")
+        with tempfile.TemporaryDirectory() as folder:
+            files.save(self.solution, Path(folder), self._scenario.coordinates(self.solution))
+
+    def only_reads(self) -> None:
+        before = copy.deepcopy((self.solution.t, self.solution.q, self.solution.u))
+        self._scenario.summarise(self.solution)
+        self._scenario.coordinates(self.solution)
+        self._scenario.final(self.solution)
+        for name, then, now in zip("tqu", before, (self.solution.t, self.solution.q, self.solution.u), strict=True):
+            if not np.array_equal(then, now, equal_nan=True):
+                raise Broken("the solution is changed", name, "")
+
+
+_PARTS = ("bodies", "starts", "contacts", "joints", "loads", "guards", "gravity")
+
+
+def _parts(system: System) -> tuple[Any, ...]:
+    """Return what a system is made of, comparable."""
+    number = {id(body): i for i, body in enumerate(system.bodies)}
+    contacts = [
+        (number[id(c.first)], number[id(c.second)], c.frames, repr((c.kinematics, c.normal, c.friction, c.impact)))
+        for c in system.contacts
+    ]
+    joints, loads = (
+        [(number[id(t.first)], number[id(t.second)], t.frames, repr(t.component)) for t in ties]
+        for ties in (system.joints, system.loads)
+    )
+    starts = [[x.tolist() for x in system.start(body)] for body in system.bodies]
+    guards = [repr(guard) for guard in system.guards]
+    return [repr(body) for body in system.bodies], starts, contacts, joints, loads, guards, system.gravity
+
+
+@contextmanager
+def _without_display() -> Iterator[None]:
+    import matplotlib
+
+    backend = matplotlib.get_backend()
+    matplotlib.use("Agg")
+    try:
+        yield
+    finally:
+        matplotlib.use(backend)

@@ -1,0 +1,83 @@
+"""``nonsmooth check``."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+
+import pytest
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+def test_a_law_that_conforms(call: Call) -> None:
+    """One line per property, with what it says, and a count."""
+    status, output, _ = call("check", "stribeck", "--set", "static_friction=0.3", "--set", "decay=2")
+    assert status == 0
+    lines = output.splitlines()
+    assert lines[0].startswith("stribeck: law of nonsmooth")
+    assert any(line.split()[:3] == ["holds", "declared", "bounds"] for line in lines)
+    assert lines[-1].split()[1:4] == ["hold,", "0", "fail,"]
+
+
+def test_a_known_departure_is_no_failure(call: Call) -> None:
+    """It is told, with the reason."""
+    status, output, _ = call("check", "newton")
+    assert status == 0
+    assert "  departs  dissipation with friction" in output
+    assert "Kane's example" in output
+
+
+def test_failures_are_told_and_status_is_1(call: Call) -> None:
+    """A scenario whose summary fails: which property, and what was raised."""
+    status, output, errors = call("check", "tiny", "--set", "mode=bad summary", "--json")
+    assert status == 1
+    assert "a plug-in that prints" in errors
+    found = json.loads(output)
+    assert (found["name"], found["status"]) == ("tiny", "fails")
+    (part,) = found["components"]
+    assert (part["kind"], part["source"]) == ("scenario", "tiny 0.1")
+    failed = {row["property"]: row for row in part["properties"] if row["outcome"] == "fails"}
+    assert set(failed) == {"summary", "only reads"}
+    assert "ZeroDivisionError: a summary that fails" in failed["summary"]["message"]
+
+
+def test_a_law_that_is_no_number(call: Call) -> None:
+    """The run stops, and what follows from it is not looked at."""
+    status, output, _ = call("check", "tiny", "--set", "mode=nan law", "--set", "radius=1e-3")
+    assert status == 1
+    assert "  fails        runs" in output
+    assert "  not checked  energy" in output
+    assert "NotANumber: _nan in" in output
+
+
+def test_every_kind_of_that_name(call: Call) -> None:
+    """A body and a scenario share a name."""
+    status, output, _ = call("check", "dumbbell")
+    assert status == 0
+    assert [line for line in output.splitlines() if line.startswith("dumbbell: ")] == [
+        f"dumbbell: {kind} of nonsmooth 0.1.0" for kind in ("body", "scenario")
+    ]
+
+
+@pytest.mark.parametrize("name", ["plane_sphere", "sphere_sphere", "box_sphere"])
+def test_pairs(call: Call, name: str) -> None:
+    """Shapes of some size are made for them."""
+    assert call("check", name)[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("coulmb",), "Did you mean 'coulomb'"),
+        (("coulomb", "--set", "frction=0.2"), "Did you mean 'friction'"),
+        (("coulomb", "--set", "friction=-1"), "must be >= 0"),
+        (("rigid_body",), "rigid_body.tensor must be given from Python"),
+        (("plane_sphere", "--set", "radius_b=1"), "must be left out"),
+    ],
+)
+def test_wrong_requests(call: Call, words: tuple[str, ...], told: str) -> None:
+    """Status 2, and what would be right."""
+    status, output, errors = call("check", *words)
+    assert (status, output) == (2, "")
+    assert told in errors

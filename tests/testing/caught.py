@@ -1,0 +1,31 @@
+"""Which properties of a dummy do not hold."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from nonsmooth.testing import NotChecked, Property, PropertyFailed
+
+MOST = 4
+"""How many properties a single fault may break, the one made for it included."""
+
+
+def failures(properties: Sequence[Property]) -> dict[str, PropertyFailed]:
+    """Return what is raised, by name of the property."""
+    found = {}
+    for prop in properties:
+        try:
+            prop()
+        except NotChecked:
+            continue
+        except PropertyFailed as failure:
+            found[prop.name] = failure
+    return found
+
+
+def assert_caught(properties: Sequence[Property], name: str) -> PropertyFailed:
+    """Assert that a property catches the fault and few others do; return its failure."""
+    found = failures(properties)
+    assert name in found, f"not caught by {name!r}, but by {sorted(found)}"
+    assert len(found) <= MOST, sorted(found)
+    return found[name]

@@ -1,0 +1,94 @@
+"""Kinematics of two spheres with one fault each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from bodies import Sphere, SphereSphere
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.types import Floats
+
+FIRST, SECOND = Sphere(0.2, x=0.1), Sphere(0.3, y=-0.05)
+_sound: Any = compiled(SphereSphere.between(FIRST, SECOND)[0].evaluator)
+FAULTS = {
+    "writes its block": 1.0,
+    "axes": 2.0,
+    "witness points": 3.0,
+    "feature": 4.0,
+    "gap rate": 5.0,
+    "second-order terms": 6.0,
+    "tangent follows the first body": 7.0,
+    "frame invariance": 8.0,
+}
+"""Faults by the property made for them."""
+
+
+def evaluate(a: Floats, b: Floats, out: Floats, fault: float) -> None:
+    _sound(a, b, out, 0.2, 0.1, 0.0, 0.0, 0.3, 0.0, -0.05, 0.0)
+    if fault != 1.0 or out[0] > 0.0:
+        out[14] = out[15] = 0.0
+    if fault == 1.0 and out[0] <= 0.0:
+        out[14] = out[14] + 1e-9
+    if fault == 2.0:
+        for i in range(3):
+            out[4 + i] = 1.0001 * out[4 + i]
+    if fault == 3.0:
+        out[10] = out[10] + 1e-8
+    if fault == 4.0:
+        out[29] = 1.0
+    if fault == 5.0:
+        out[0] = 1.1 * out[0]
+    if fault == 6.0:
+        out[25] = 2.0 * out[25]
+    if fault == 7.0:
+        # a tangent next to the x axis of the world
+        x, y, z = 1.0 - out[1] * out[1], -out[1] * out[2], -out[1] * out[3]
+        length = math.sqrt(x * x + y * y + z * z)
+        out[4], out[5], out[6] = x / length, y / length, z / length
+    if fault == 8.0:
+        shift = 3e-9 * a[0]
+        out[0] = out[0] + shift
+        for i in range(3):
+            out[10 + i] = out[10 + i] + shift * out[1 + i]
+
+
+@dataclass(frozen=True)
+class Pair(ContactKinematics):
+    """Two spheres, 0 for no fault."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Sphere, Sphere)
+    fault: float = 0.0
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        return tuple(cls(fault) for fault in (0.0, *FAULTS.values()))
+
+    def parameters(self) -> dict[str, Any]:
+        return {"fault": self.fault}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        return evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        return ("sphere-sphere",)
+
+
+@dataclass(frozen=True)
+class Single(Pair):
+    """One whose `between` gives others."""
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        return ()
+
+
+DUMMIES: list[tuple[str, ContactKinematics]] = [
+    *((name, Pair(fault)) for name, fault in FAULTS.items()),
+    ("pair", Single()),
+]
