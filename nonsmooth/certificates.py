@@ -33,4 +33,5 @@ def opposes_slip(law: FrictionLaw, slip: Pair, normal_force: float, tangential_f
     bound = law.coefficient(0.0 if rests else speed, **{name: offered[name] for name in names}) * normal_force
     if rests:
         return math.hypot(*tangential_force) <= bound + tolerance
-    return all(abs(t + bound * v / speed) <= tolerance for t, v in zip(tangential_force, slip, strict=True))
+    # a distance, so that the verdict is the same in any axes
+    return math.dist(tangential_force, [-bound * v / speed for v in slip]) <= tolerance
