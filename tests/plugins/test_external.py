@@ -68,6 +68,13 @@ def test_it_is_listed_with_its_source_and_shown_with_units(environment: Environm
     assert "growth_speed  0.1      m/s   > 0      speed of half the growth" in shown
 
 
+@pytest.mark.parametrize("name", _NAMES)
+def test_it_passes_the_checks(environment: Environment, tmp_path: Path, name: str) -> None:
+    checked, errors = environment.nonsmooth("check", name, folder=tmp_path)
+    assert errors == ""
+    assert " 0 fail" in checked
+
+
 def test_the_dumbbell_runs_with_its_laws_as_with_those_of_the_file(environment: Environment, tmp_path: Path) -> None:
     words = ("dumbbell", "--set", "t_end=0.3", "--law", "impact=softening,restitution=0.7")
     installed = _report(environment, tmp_path, *words, "--law", "friction=rubber,slow=0.3")
