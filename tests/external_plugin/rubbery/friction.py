@@ -20,7 +20,7 @@ def _coefficient(speed: float, slow: float, fast: float, growth_speed: float) ->
 class Rubber(FrictionLaw):
     """A coefficient that grows from slow to fast slip."""
 
-    slow: float = parameter(0.2, doc="coefficient at rest", minimum=0.0, usual=(0.01, 3.0))
+    slow: float = parameter(0.2, doc="coefficient at rest", above=0.0, usual=(0.01, 3.0))
     fast: float = parameter(0.5, doc="coefficient of fast slip", minimum=0.0, usual=(0.01, 3.0))
     growth_speed: float = parameter(0.1, doc="speed of half the growth", unit="m/s", above=0.0)
 

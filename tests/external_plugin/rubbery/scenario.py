@@ -11,7 +11,7 @@ import numpy as np
 
 from bodies import Plate, Rest
 from laws import EnergeticImpact, Unilateral
-from nonsmooth import Solution, System, touching
+from nonsmooth import Solution, System, simulate, touching
 from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import parameter, rules
 
@@ -27,7 +27,7 @@ class HollowBallOnSlope(Scenario):
     title: ClassVar[str] = "Hollow ball on a slope"
 
     slope: float = parameter(0.3, doc="angle of the slope", unit="rad", above=0.0, maximum=1.5)
-    friction: float = parameter(0.2, doc="coefficient at any speed", minimum=0.0, law="friction")
+    friction: float = parameter(0.2, doc="coefficient at any speed", above=0.0, law="friction")
     t_end: float = parameter(0.5, doc="end time", unit="s", above=0.0)
 
     @property
@@ -62,10 +62,19 @@ class HollowBallOnSlope(Scenario):
         return {"acceleration": float(speed / self.t_end / 9.81)}
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """Return none."""
-        return {}
+        """Return the speed over time."""
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(5.0, 3.0), layout="constrained")
+        axes = figure.add_subplot(xlabel="time [s]", ylabel="speed downhill [m/s]", title=self.title)
+        axes.plot(solution.t, self.coordinates(solution)["speed"])
+        return {"speed": figure}
 
     @classmethod
     def gallery(cls, progress: Any) -> Mapping[str, Any]:
-        """Return none."""
-        return {}
+        """Return the speed of a ball that rolls and of one that slides."""
+        drawn = {}
+        for slope in (0.4, 0.6):
+            one = cls(slope=slope)
+            drawn[f"speed_{slope:g}"] = one.figures(simulate(one.build(), one.t_end, progress=progress))["speed"]
+        return drawn
