@@ -44,7 +44,8 @@ from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, record_event, record_
 from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
 
-_EVENTS_AT_ONCE = 1000
+_EVENTS_AT_ONCE = 100
+"""Besides one for every contact."""
 _DRIFT = 0.3
 _ROOM = 64
 """Free rows that an instant may need in the event buffer."""
@@ -155,7 +156,7 @@ def _settle_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) 
         S.repeated = 0
     S.repeated += 1
     S.last_event_t = S.t
-    if S.repeated > _EVENTS_AT_ONCE:
+    if S.repeated > _EVENTS_AT_ONCE + S.n_contacts:
         return EVENTS_ENDLESS
     return settle(S, w, k, cause, contact)
 

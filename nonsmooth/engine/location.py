@@ -26,6 +26,8 @@ _NEGLIGIBLE = 0.01
 """A step whose error is below this part of the tolerance is interpolated within it."""
 _TRUSTED = 2.0
 """The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
+_MOST_ROOTS = 30
+"""So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -270,7 +272,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
 def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 
-    The step is negative where its error shows that the motion is not as smooth as it seemed.
+    The step is negative where its error, or a crowd of guards, shows that the motion is not as smooth as it seemed.
     Where the tolerance limits the step, the root on the interpolant is corrected on the step itself, whose order is
     higher.
     """
@@ -278,9 +280,11 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     first = first_fired(S, w, k, 1, -1)
     theta = high
     S.trigger = max(0, first)
-    for _other in range(2 * S.n_contacts + S.n_own_guards):
+    for other in range(2 * S.n_contacts + S.n_own_guards):
         if first < 0:
             break
+        if closed == 1 and other == _MOST_ROOTS:
+            return -1.0
         S.trigger = first
         theta = _root(S, w, k, h, theta, first, closed)
         first = first_fired(S, w, k, closed, S.trigger)
