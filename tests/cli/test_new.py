@@ -30,7 +30,7 @@ def test_its_own_tests_are_green_and_find_a_mistake(call: Call, tmp_path: Path) 
     law.write_text(law.read_text().replace("return kinetic +", "return -kinetic +"))
     done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
     assert done.returncode == 1
-    assert "assert value >= 0.0" in done.stdout
+    assert "not negative" in done.stdout
 
 
 @pytest.mark.parametrize("name", ["Sand", "1sand", "wet-sand", "class", "math", "laws", "coulomb", "sand_"])

@@ -70,6 +70,15 @@ def test_it_is_listed_with_its_source_and_shown_with_units(environment: Environm
     assert "growth_speed  0.1      m/s   > 0      speed of half the growth" in shown
 
 
+def test_it_passes_the_checks(environment: Environment, tmp_path: Path) -> None:
+    # one process for all: each would load the engine
+    code = "import sys; from nonsmooth.cli.main import main; print(*(main(['check', n]) for n in sys.argv[1:]))"
+    checked, errors = environment.run([str(environment.python), "-c", code, *_NAMES], tmp_path)
+    assert errors == ""
+    assert checked.count(" 0 fail") == len(_NAMES)
+    assert checked.splitlines()[-1] == "0 0 0 0"
+
+
 def test_the_dumbbell_runs_with_its_laws_as_with_those_of_the_file(environment: Environment, tmp_path: Path) -> None:
     words = ("dumbbell", "--set", "t_end=0.3", "--law", "impact=softening,restitution=0.7")
     installed = _report(environment, tmp_path, *words, "--law", "friction=rubber,slow=0.3")
