@@ -13,7 +13,6 @@ from nonsmooth.testing import PropertyFailed, check_friction_law, check_impact_l
 from tests.testing import friction_dummies, impact_dummies, normal_dummies
 from tests.testing.caught import assert_caught, failures
 
-
 _slow = pytest.mark.skipif(PLAIN, reason="impacts take minutes in plain mode")
 
 
