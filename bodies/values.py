@@ -15,6 +15,7 @@ Word = tuple[int, Any, str]
 """Size (0 for a single number), default and unit of a word of a start."""
 
 _UNIT_TOLERANCE = 1e-9
+_ROUND_OFF = 1e-15
 
 
 def vector(thing: str, value: Any, size: int, unit: str) -> Vector:
@@ -49,7 +50,8 @@ def unit_quaternion(thing: str, value: Any) -> Vector:
             array.tolist(),
             f"Divide it by its length {norm:.6g}.",
         )
-    return array / norm
+    # one that was normalised before stays the same to the last bit
+    return array if abs(norm - 1.0) <= _ROUND_OFF else array / norm
 
 
 def rotation(quaternion: Any) -> Vector:

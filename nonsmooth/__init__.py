@@ -3,12 +3,15 @@
 from nonsmooth.contact import solve_contact
 from nonsmooth.contact_result import ContactResult
 from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFailed, UnknownName
+from nonsmooth.files.reading import Setup, load_system
+from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.model.options import Options
 from nonsmooth.placing import at_height, resting, touching
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.materials import ContactLaws, Materials
+from nonsmooth.system.replacing import with_laws
 from nonsmooth.system.system import System
 
 __all__ = [
@@ -21,13 +24,17 @@ __all__ = [
     "Options",
     "PluginError",
     "RunFailed",
+    "Setup",
     "Solution",
     "System",
     "UnknownName",
     "at_height",
+    "load_system",
     "resting",
+    "save_system",
     "simulate",
     "solve_contact",
     "solve_impact",
     "touching",
+    "with_laws",
 ]

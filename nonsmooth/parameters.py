@@ -37,6 +37,9 @@ class Rule:
         Allowed words.
     assumed : bool
         True where the source does not give the value and we chose it.
+    law : str
+        "normal", "friction" or "impact" where a scenario's parameter is nothing but one of that law, so that it would
+        be ignored where a user puts another law in its place.
     """
 
     doc: str
@@ -47,6 +50,7 @@ class Rule:
     usual: tuple[float, float] = (0.0, math.inf)
     choices: tuple[str, ...] = ()
     assumed: bool = False
+    law: str = ""
 
     def describe(self) -> str:
         """Return the allowed range in words."""
@@ -156,3 +160,22 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
                 f"{kind}.{name}", "must be a number", word, f"Give it in [{rule.unit}], for example {name}=1.0."
             ) from None
     return values
+
+
+def from_all_words(owner: type, words: Mapping[str, str], kind: str, option: str) -> Any:
+    """Return an object of ``owner`` out of ``name=value`` words, which must cover what has no default.
+
+    ``option`` is how a missing one can be given, with {name}, for messages.
+
+    Raises
+    ------
+    UnknownName, InvalidInput
+        As :func:`from_words`, or if a value is missing or breaks a rule of the class.
+    """
+    values = from_words(owner, words, kind)
+    for field in dataclasses.fields(owner):
+        if field.init and field.default is field.default_factory and field.name not in values:  # both MISSING
+            rule = field.metadata.get("rule")
+            remedy = f"Add {option.format(name=field.name)}, in [{rule.unit}]." if rule else "Only Python can give it."
+            raise InvalidInput(f"{kind}.{field.name}", "must be given", None, remedy)
+    return owner(**values)

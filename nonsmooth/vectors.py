@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from nonsmooth.errors import InvalidInput
 
 _UNIT = 1e-9
+_ROUND_OFF = 1e-15
 
 
 def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[float, ...]:
@@ -39,7 +40,8 @@ def unit_vector(thing: str, value: Sequence[float], size: int = 3) -> tuple[floa
     norm = math.sqrt(sum(x * x for x in numbers))
     if abs(norm - 1.0) > _UNIT:
         raise InvalidInput(thing, "must have unit length", list(numbers), f"Divide it by its length {norm:.6g}.")
-    return tuple(x / norm for x in numbers)
+    # one that was normalised before stays the same to the last bit
+    return numbers if abs(norm - 1.0) <= _ROUND_OFF else tuple(x / norm for x in numbers)
 
 
 def perpendiculars(axis: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:

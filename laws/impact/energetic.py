@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
+from laws.impact.power import power_force
 from nonsmooth.interfaces import ImpactProcess
 from nonsmooth.parameters import parameter
-
-
-def _force(indentation: float, stiffness: float, exponent: float) -> float:
-    if exponent == 1.5:
-        # Hertz, where a square root is cheaper than a power
-        return stiffness * indentation * math.sqrt(indentation)
-    return float(stiffness * indentation**exponent)
 
 
 def _efficiency(rate: float, restitution: float) -> float:
@@ -47,7 +40,7 @@ class EnergeticImpact(ImpactProcess):
     @property
     def force(self) -> Callable[..., float]:
         """K x^eta, Eq. (20)."""
-        return _force
+        return power_force
 
     @property
     def efficiency(self) -> Callable[..., float]:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from nonsmooth.cli.law import ROLES
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.table import first_line, lines
 from nonsmooth.plugins import registry
 
-GROUPS = ("scenarios", "bodies", "joints", "loads", "laws")
+GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws")
 
 
 def add_to(commands: Any) -> None:
@@ -20,12 +21,19 @@ def add_to(commands: Any) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> bool:
-    """Print name, source and first docstring line of every usable plug-in."""
+    """Print name, kind of a law, source and first docstring line of every usable plug-in."""
+    registry.check_groups()
     wanted = (arguments.group,) if arguments.group else GROUPS
     say("\n\n".join(_section(group) for group in wanted))
     return True
 
 
 def _section(group: str) -> str:
-    rows = [(name, registry.source(group, name), first_line(owner)) for name, owner in registry.load_all(group).items()]
+    loaded = registry.load_all(group).items()
+    rows = [(name, *_kind(group, owner), registry.source(group, name), first_line(owner)) for name, owner in loaded]
     return "\n".join([f"{group}:", *(lines(rows) or ["  none"])])
+
+
+def _kind(group: str, owner: type) -> tuple[str, ...]:
+    """Return what a law is for, in a column of its own; nothing for groups of one kind."""
+    return tuple(role for role, base in ROLES.items() if issubclass(owner, base)) if group == "laws" else ()

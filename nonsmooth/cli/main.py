@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from nonsmooth.cli import check, figures, list, run, show
+from nonsmooth.cli import check, figures, list, new, run, save, show
 from nonsmooth.cli.extras import MissingPackagesError
 from nonsmooth.cli.messages import complain, warn_plainly
 from nonsmooth.errors import InvalidInput, NonsmoothError
@@ -17,7 +17,7 @@ from nonsmooth.plugins.registry import BrokenPlugin
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 """Exit statuses."""
 
-_COMMANDS = (list, show, check, run, figures)
+_COMMANDS = (list, show, check, run, save, figures, new)
 
 
 def parser() -> argparse.ArgumentParser:

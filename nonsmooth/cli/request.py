@@ -1,13 +1,22 @@
-"""From the words of a request to a scenario."""
+"""From the words of a request to what is to be run."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
+from nonsmooth.cli import law
 from nonsmooth.errors import InvalidInput
+from nonsmooth.files.reading import SUFFIX, read
+from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Scenario
-from nonsmooth.parameters import from_words, rules
-from nonsmooth.plugins import registry
+from nonsmooth.model.options import Options
+from nonsmooth.parameters import from_all_words, rules
+from nonsmooth.plugins import file, registry
+from nonsmooth.system.replacing import with_laws
+from nonsmooth.system.system import System
 
 
 def assignments(words: Iterable[str]) -> dict[str, str]:
@@ -29,22 +38,56 @@ def assignments(words: Iterable[str]) -> dict[str, str]:
     return values
 
 
-def scenario(name: str, words: Iterable[str]) -> Scenario:
-    """Return the scenario of that name with the parameters set.
+@dataclass(frozen=True)
+class Job:
+    """What a request asks to run.
+
+    Attributes
+    ----------
+    scenario : Scenario
+        The scenario.
+    options : Options
+        How to run it.
+    laws : dict
+        Laws by role that replace those of the scenario.
+    """
+
+    scenario: Scenario
+    options: Options
+    laws: dict[str, Any]
+
+    def build(self) -> System:
+        """Return the system, with the laws that were asked for."""
+        system = self.scenario.build()
+        return with_laws(system, **self.laws) if self.laws else system
+
+    def head(self) -> dict[str, Any]:
+        """Return parameters and laws for the report, without the parameters of laws that are replaced."""
+        declared = rules(type(self.scenario))
+        resolved = {
+            name: value
+            for name, value in self.scenario.resolved().items()
+            if name not in declared or declared[name][1].law not in self.laws
+        }
+        return {"parameters": resolved, "laws": {role: law.described(made) for role, made in self.laws.items()}}
+
+
+def job(name: str, words: Iterable[str], laws: Iterable[str] = ()) -> Job:
+    """Return what is to be run, with parameters and laws set: a scenario by its name, of a Python file, or a file.
 
     Raises
     ------
     InvalidInput
         If a name or a value is wrong, or a value is missing.
     PluginError
-        If the scenario cannot be loaded.
+        If the scenario or a law cannot be loaded.
     """
-    owner = registry.load("scenarios", name)
-    values = from_words(owner, assignments(words), name)
-    for parameter, (field, rule) in rules(owner).items():
-        if field.default is field.default_factory and parameter not in values:  # both MISSING
-            raise InvalidInput(
-                f"{name}.{parameter}", "must be given", None, f"Add --set {parameter}=VALUE, in [{rule.unit}]."
-            )
-    made: Scenario = owner(**values)
-    return made
+    values = assignments(words)
+    replaced = law.laws(laws)
+    if name.endswith(SUFFIX):
+        setup = read(Path(name), values)
+        return Job(FileScenario(setup), setup.options, replaced)
+    owner = file.load("run", (Scenario,), name) if file.is_file(name) else registry.load("scenarios", name)
+    law.check_not_ignored(owner, values, replaced)
+    made: Scenario = from_all_words(owner, values, name, "--set {name}=VALUE")
+    return Job(made, Options(), replaced)

@@ -36,14 +36,16 @@ def without_display() -> None:
     matplotlib.use("Agg")
 
 
-def save_figures(figures: Mapping[str, Any], folder: Path, troubles: list[str]) -> list[Path]:
-    """Save matplotlib figures as PNG by name; return the paths of those that were written."""
-    paths = []
+def save_figures(figures: Mapping[str, Any], folder: Path, troubles: list[str], note: str = "") -> list[Path]:
+    """Save matplotlib figures as PNG by name, with a note below each; return the paths of those that were written."""
+    paths: list[Path] = []
+    frame = "tight" if note else None
     for name, figure in figures.items():
         path = folder / f"{name.removesuffix('.png')}.png"
         with noting(troubles, f"figure {name}"):
             with replacing(path) as part:
-                figure.savefig(part, dpi=_DPI, format="png")
+                figure.text(0.01, -0.01, note, va="top", fontsize=8, color="tab:red")
+                figure.savefig(part, dpi=_DPI, format="png", bbox_inches=frame)
             paths.append(path)
     return paths
 

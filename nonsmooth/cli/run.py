@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any, cast
 
-from nonsmooth.cli import extras, report, request, results
+from nonsmooth.cli import extras, law, report, request, results
 from nonsmooth.cli.interrupt import Interrupt
 from nonsmooth.cli.messages import complain, say, tell
 from nonsmooth.cli.progress import on_standard_error
@@ -24,7 +24,9 @@ from nonsmooth.system.system import System
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("run", help="run a scenario", allow_abbrev=False)
-    command.add_argument("scenario", metavar="SCENARIO", help="see `nonsmooth list scenarios`")
+    command.add_argument(
+        "scenario", metavar="SCENARIO", help="a name of `nonsmooth list scenarios`, a FILE.toml, or FILE.py:CLASS"
+    )
     command.add_argument(
         "--set",
         action="append",
@@ -32,6 +34,7 @@ def add_to(commands: Any) -> None:
         metavar="NAME=VALUE",
         help="a parameter of `nonsmooth show SCENARIO`, in SI units; may come often",
     )
+    command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--out", type=Path, metavar="DIR", help="save results and figures there")
     command.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
     command.set_defaults(execute=execute)
@@ -47,9 +50,10 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 
 def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Report:
-    scenario = request.scenario(arguments.scenario, arguments.set)
-    head = {"scenario": arguments.scenario, "parameters": dict(scenario.resolved())}
-    system = scenario.build()
+    job = request.job(arguments.scenario, arguments.set, arguments.law)
+    scenario = job.scenario
+    head = {"scenario": arguments.scenario, **job.head()}
+    system = job.build()
     if arguments.out is not None:
         extras.require(extras.RESULTS)
         with results.noting(troubles, "--out"):
@@ -57,7 +61,7 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
     if troubles:
         solution, status, message = None, "failed", troubles[0]
     else:
-        solution, status, message = _compute(scenario, system)
+        solution, status, message = _compute(job, system)
     outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
     outcome |= {"final": None, "summary": None}
     if solution is None:
@@ -70,13 +74,13 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
         outcome["summary"] = dict(scenario.summarise(solution))
     if arguments.out is not None:
         results.save_text(report.as_json(outcome), arguments.out / "summary.json", troubles)
-        _save_figures(scenario, solution, arguments.out, troubles)
+        _save_figures(job, solution, arguments.out, troubles)
         if not troubles:
             tell(f"results are in {arguments.out}")
     return outcome
 
 
-def _compute(scenario: Scenario, system: System) -> tuple[Solution | None, str, str]:
+def _compute(job: request.Job, system: System) -> tuple[Solution | None, str, str]:
     """Return the solution, as far as there is one, the status and why the run stopped."""
     progress = on_standard_error()
 
@@ -87,7 +91,13 @@ def _compute(scenario: Scenario, system: System) -> tuple[Solution | None, str, 
 
     try:
         with Interrupt() as interrupt:
-            solution = simulate(system, scenario.t_end, sample_interval=scenario.sample_interval, progress=after_steps)
+            solution = simulate(
+                system,
+                job.scenario.t_end,
+                sample_interval=job.scenario.sample_interval,
+                options=job.options,
+                progress=after_steps,
+            )
     except RunFailed as error:
         kept = cast("Solution | None", error.solution)
         message = kept.message if kept else str(error)
@@ -112,10 +122,12 @@ def _save_solution(scenario: Scenario, solution: Solution, folder: Path, trouble
         files.save(solution, folder, coordinates)
 
 
-def _save_figures(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
+def _save_figures(job: request.Job, solution: Solution, folder: Path, troubles: list[str]) -> None:
     results.without_display()
     if len(solution.events) > 0:
         with results.noting(troubles, "drawing the transitions"):
             results.save_figures({"transitions": draw(solution.transition_graph())}, folder, troubles)
-    with results.noting(troubles, f"{type(scenario).__name__}.figures"):
-        results.save_figures(scenario.figures(solution), folder, troubles)
+    with results.noting(troubles, f"{type(job.scenario).__name__}.figures"):
+        # titles and captions may speak of the laws that were replaced
+        note = f"In place of the scenario's own:\n{chr(10).join(map(repr, job.laws.values()))}" if job.laws else ""
+        results.save_figures(job.scenario.figures(solution), folder, troubles, note)

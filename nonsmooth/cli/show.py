@@ -11,9 +11,10 @@ from nonsmooth.cli.messages import say
 from nonsmooth.cli.table import first_line, lines
 from nonsmooth.errors import UnknownName
 from nonsmooth.parameters import Rule
-from nonsmooth.plugins import registry
+from nonsmooth.plugins import file, registry
 
 _HEAD = ("parameter", "default", "unit", "allowed", "")
+_INTERFACES = tuple(base for bases in registry.GROUPS.values() for base in bases)
 _LEGEND = "  * assumed: the source does not give this value, we chose it"
 
 
@@ -22,33 +23,44 @@ def add_to(commands: Any) -> None:
     command = commands.add_parser(
         "show", help="parameters with units, defaults, ranges, and what is assumed", allow_abbrev=False
     )
-    command.add_argument("name", metavar="NAME", help="anything of `nonsmooth list`")
+    command.add_argument("name", metavar="NAME", help="anything of `nonsmooth list`, or FILE.py:CLASS")
     command.set_defaults(execute=execute)
 
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Print everything of that name: a scenario and a body may share one."""
+    if file.is_file(arguments.name):
+        owner = file.load("show", _INTERFACES, arguments.name)
+        say(_describe(owner, f"{owner.__name__}: {_kind(owner)} of {arguments.name.rpartition(':')[0]}"))
+        return True
     groups = [group for group in GROUPS if arguments.name in registry.names(group)]
     if not groups:
         known = {name for group in GROUPS for name in registry.names(group)}
         raise UnknownName("component", arguments.name, known)
-    say("\n\n".join(_describe(group, arguments.name) for group in groups))
+    say("\n\n".join(_installed(group, arguments.name) for group in groups))
     return True
 
 
-def _describe(group: str, name: str) -> str:
-    owner = registry.load(group, name)
+def _installed(group: str, name: str) -> str:
+    title = f"{name}: {registry.KINDS[group]} of {registry.source(group, name)}"
+    return _describe(registry.load(group, name), title)
+
+
+def _kind(owner: type) -> str:
+    return next(registry.KINDS[group] for group, bases in registry.GROUPS.items() if issubclass(owner, bases))
+
+
+def _describe(owner: Any, title: str) -> str:
     rows = [_row(field) for field in dataclasses.fields(owner) if field.init]
     table = lines([_HEAD, *rows]) if rows else ["  no parameters"]
     legend = [_LEGEND] if any(row[1].endswith("*") for row in rows) else []
-    title = f"{name}: {registry.KINDS[group]} of {registry.source(group, name)}"
     return "\n".join([title, f"  {first_line(owner)}", "", *table, *legend])
 
 
 def _row(field: dataclasses.Field[Any]) -> tuple[str, str, str, str, str]:
     rule = field.metadata.get("rule")
     if rule is None:
-        return field.name, _default(field), "", f"a {field.type}", "given from Python only"
+        return field.name, _default(field), "", f"a {field.type}", "from Python or a scenario file"
     return field.name, _default(field) + " *" * rule.assumed, rule.unit, _allowed(rule), rule.doc
 
 

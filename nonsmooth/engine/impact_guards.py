@@ -68,9 +68,10 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
             behind = phase == IDLE and S.faint > 0.0 and k[S.waves + c] > 0
             w[guard] = (S.faint if behind else NOISE) + rate
         if phase == EXPANSION:
+            lost = w[y + STRIDE * a + 7]
             w[guard + 1] = w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
-            if a == S.lone:
-                w[guard + 1] = w[y + STRIDE * a + 6] / w[S.impact_energy_scale + a]
+            if a == S.lone or lost > 0.0:
+                w[guard + 1] = (w[y + STRIDE * a + 6] - lost) / w[S.impact_energy_scale + a]
         if phase == IDLE:
             w[guard + 2] = 1.0
         elif k[S.tangent_held + a] == 1:
@@ -222,7 +223,8 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             shortest, S.aimed = root, 3 * a
     if k[S.phase + a] == EXPANSION and growth > 0.0:
         # E + E' s + E'' s^2 / 2 = 0, with E' = -rate / efficiency
-        energy, first = w[S.impact_y + STRIDE * a + 6], w[S.impact_slopes + STRIDE * a + 6]
+        state = S.impact_y + STRIDE * a
+        energy, first = w[state + 6] - w[state + 7], w[S.impact_slopes + STRIDE * a + 6]
         square = first * first + 2.0 * growth / efficiency(S, w, k, a, max(w[rates], 1e-300)) * energy
         speed = math.sqrt(max(0.0, square)) - first
         if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:

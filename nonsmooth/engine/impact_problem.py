@@ -127,7 +127,9 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
             account(S, w, k, a)
             k[S.waves + k[S.active + a]] += 1
             k[S.phase + a] = IDLE
-            w[S.impact_y + STRIDE * a + 3] = w[S.impact_y + STRIDE * a + 6] = 0.0
+            # a contact that opens under load leaves the others with forces that they did not have
+            friction += 1 if w[S.impact_y + STRIDE * a + 7] > 0.0 else 0
+            _empty(S, w, a)
             k[S.tangent_held + a] = 0
             S.phases += 1
         elif S.trigger == 3 * a or w[guard] < TOGETHER:
@@ -151,17 +153,26 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     prepare_guards(S, w, k)
 
 
+@kernel("void(S, F, i8)")
+def _empty(S: Scalars, w: Floats, a: int) -> None:
+    """Take the energy that is left of the active contact ``a``."""
+    state = S.impact_y + STRIDE * a
+    w[state + 3] = w[state + 6] = w[state + 7] = 0.0
+
+
 @kernel("i8(S, F, I, i8)")
 def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     """Change the normal phase of the active contact ``a``; return 1 if friction must be chosen anew."""
     phase = k[S.phase + a]
     if phase == COMPRESSION:
         account(S, w, k, a)
-        if efficiency(S, w, k, a, 1e-300) > _NO_RETURN:
+        share = efficiency(S, w, k, a, 0.0)
+        if min(share, efficiency(S, w, k, a, 1e-300)) > _NO_RETURN:
             k[S.phase + a] = EXPANSION
+            w[S.impact_y + STRIDE * a + 7] = (1.0 - share) * w[S.impact_y + STRIDE * a + 6]
             return 0
         # without restitution the stored energy is lost at once and the contact stays closed
-        w[S.impact_y + STRIDE * a + 3] = w[S.impact_y + STRIDE * a + 6] = 0.0
+        _empty(S, w, a)
         k[S.phase + a] = HELD
         evaluate_impact_forces(S, w, k, S.impact_y)
         if w[S.f + 3 * a] < 0.0:
@@ -279,7 +290,7 @@ def _fade(S: Scalars, w: Floats, k: Integers) -> None:
     They start again at twice the rate, so that the two do not chase each other.
     """
     for a in range(S.n_active):
-        x, energy = S.impact_y + STRIDE * a + 3, S.impact_y + STRIDE * a + 6
+        x = S.impact_y + STRIDE * a + 3
         passed = k[S.phase + a] == EXPANSION or (k[S.phase + a] == COMPRESSION and k[S.waves + k[S.active + a]] > 0)
         # the energy is known to the tolerance only, the deformation better
         weak = w[S.f + 3 * a] * w[x] <= S.faint * S.faint * w[S.impact_energy_scale + a]
@@ -288,7 +299,7 @@ def _fade(S: Scalars, w: Floats, k: Integers) -> None:
             k[S.waves + k[S.active + a]] += 1
             k[S.phase + a] = IDLE
             k[S.tangent_held + a] = 0
-            w[x] = w[energy] = 0.0
+            _empty(S, w, a)
             S.phases += 1
     prepare_guards(S, w, k)
 

@@ -1,8 +1,9 @@
 """Rates of the multiple impact in pseudo-time: forces, impulses, deformation, energies.
 
-For every active contact the state holds (P_N, P_1, P_2, x, W, D, E): impulses, deformation, work of the
-normal force, work lost to friction, stored energy.  With F_i = f_i(x_i), Eqs. (23)-(28) divided by a common
-clock s read  dP_i/ds = (F_i, T_i),  dx_i/ds = -g'_i / efficiency(g'_i),  z = z_0 + G P.
+For every active contact the state holds (P_N, P_1, P_2, x, W, D, E, L): impulses, deformation, work of the
+normal force, work lost to friction, stored energy, and the part of it that is lost when the contact opens.
+With F_i = f_i(x_i), Eqs. (23)-(28) divided by a common clock s read
+dP_i/ds = (F_i, T_i),  dx_i/ds = -g'_i / efficiency(g'_i),  z = z_0 + G P.
 A lone contact needs no deformation, only its energy: with F = 1 the clock is its impulse, and every phase is
 a polynomial that the integrator follows exactly.
 """
@@ -22,7 +23,7 @@ IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
 
 STRIDE = 8
-"""Floats of one contact in the state of an impact; one more than it has, to fill vector registers."""
+"""Floats of one contact in the state of an impact."""
 
 NOISE = 1e-12
 """Rates below this, relative to the impact speed, do not switch a phase."""

@@ -22,6 +22,7 @@ from nonsmooth.engine.impact_problem import (
 from nonsmooth.engine.impact_rates import COMPRESSION, EXPANSION, IDLE, NOISE, STRIDE
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import row
+from nonsmooth.model.layout import TOTALS
 
 LARGE = 16
 """Impacts with more contacts than this are looked at through a window."""
@@ -46,8 +47,8 @@ def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
         k[S.phase_kept + c] = IDLE
         k[S.held_kept + c] = 0
         k[S.waves + c] = 0
-        for j in range(8):
-            w[S.impact_total + 8 * c + j] = 0.0
+        for j in range(TOTALS):
+            w[S.impact_total + TOTALS * c + j] = 0.0
         for side in range(2):
             linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
             k[S.chain + 2 * c + side] = k[S.linkage_head + linkage]
@@ -99,8 +100,9 @@ def _load(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.impact_z0 + 3 * a + r] = w[S.prescribed_rate + 3 * c + r] + row(S, w, k, c, r, S.u_impact)
         for i in range(STRIDE):
             w[S.impact_y + STRIDE * a + i] = 0.0
-        w[S.impact_y + STRIDE * a + 3] = w[S.impact_total + 8 * c + 6]
-        w[S.impact_y + STRIDE * a + 6] = w[S.impact_total + 8 * c + 7]
+        w[S.impact_y + STRIDE * a + 3] = w[S.impact_total + TOTALS * c + 6]
+        w[S.impact_y + STRIDE * a + 6] = w[S.impact_total + TOTALS * c + 7]
+        w[S.impact_y + STRIDE * a + 7] = w[S.impact_total + TOTALS * c + 8]
         w[S.stored + a] = w[S.returned + a] = w[S.impact_mark + a] = 0.0
         k[S.phase + a] = k[S.phase_kept + c]
         k[S.tangent_held + a] = k[S.held_kept + c]
@@ -113,7 +115,7 @@ def _store(S: Scalars, w: Floats, k: Integers) -> None:
         c = k[S.active + a]
         if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
             account(S, w, k, a)
-        total = S.impact_total + 8 * c
+        total = S.impact_total + TOTALS * c
         for r in range(3):
             w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + r]
             w[total + r] += w[S.impulse + 3 * a + r]
@@ -121,6 +123,7 @@ def _store(S: Scalars, w: Floats, k: Integers) -> None:
         w[total + 4] += w[S.returned + a]
         w[total + 5] += w[S.impact_y + STRIDE * a + 5]
         w[total + 6], w[total + 7] = w[S.impact_y + STRIDE * a + 3], w[S.impact_y + STRIDE * a + 6]
+        w[total + 8] = w[S.impact_y + STRIDE * a + 7]
         k[S.phase_kept + c], k[S.held_kept + c] = k[S.phase + a], k[S.tangent_held + a]
     add_response(S, w, k, S.impulse, S.u_impact)
 
@@ -160,7 +163,7 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         c = k[S.colliding + a]
         k[S.active + a] = c
-        total = S.impact_total + 8 * c
+        total = S.impact_total + TOTALS * c
         for r in range(3):
             w[S.impulse + 3 * a + r] = w[total + r]
         w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = w[total + 3], w[total + 4], w[total + 5]

@@ -124,7 +124,8 @@ def least_norm_in_band(S: Scalars, w: Floats, n: int) -> None:
         S.crowded = 1
         return
     _lay_square(S, w, n)
-    S.null_shift = _FAINT * largest_diagonal(w, S.basis, n, S.null_half)
+    largest = largest_diagonal(w, S.basis, n, S.null_half)
+    S.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
     copy_shifted(w, S.basis, n, S.null_half, S.null, S.null_shift)
     factorise_band(w, S.null, n, S.null_half, 0.1 * S.null_shift)
     # the answer so far grows in sigma, the correction in x

@@ -31,7 +31,8 @@ class ImpactProcess(ImpactLaw, ABC):
 
     1. ``force(indentation, ...)``: normal force, zero at zero, increasing, Eq. (20);
     2. ``efficiency(rate, ...)``: share of the stored energy that the gap rate [m/s] gives back, Eq. (28);
-       1 for rates up to zero, between 0 and 1 above.
+       1 for rates below zero, between 0 and 1 above.  At rate 0 it is the share that the contact gives back before it
+       opens: 1 where it opens without a force, less where it opens under load and what is left is lost.
     """
 
     @property

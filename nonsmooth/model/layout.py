@@ -85,6 +85,8 @@ MOST_ENTRIES = 2**26
 """Entries of a matrix of the contacts' unknowns, of which there is room for all up to so many."""
 N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair."""
+TOTALS = 9
+"""Floats of a contact that go from one window of a large impact to the next."""
 
 ROOMS = (
     "resolve",
@@ -339,7 +341,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "u_before": _per(1, "n_u"),
     "u_own": _per(1, "n_u"),
     "u_impact": _per(1, "n_u"),
-    "impact_total": _per(8, "n_slots"),
+    "impact_total": _per(TOTALS, "n_slots"),
     # output
     "events": _per(1, "event_floats"),
     "samples": lambda n: n["sample_capacity"] * (n["n_y"] + 1),

@@ -10,7 +10,7 @@ import numpy as np
 
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.modes import NOT_FINITE, STEP_TOO_SMALL
-from nonsmooth.interfaces import ImpactProcess
+from nonsmooth.interfaces import ImpactMap, ImpactProcess
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.layout import FRAME, GEOMETRY, LOAD
 from nonsmooth.model.model import Model
@@ -22,7 +22,7 @@ _REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can
 
 def culprit(model: Model, status: int) -> str:
     """Return a sentence that names the first function found to raise or to return a non-finite number."""
-    found = _in_the_blocks(model)
+    found = (_in_the_map(model) if status == NOT_FINITE else "") or _in_the_blocks(model)
     if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
         return found
     slips = model.memory.array("rate", 3 * int(model.memory.scalars["n_contacts"][0])).reshape(-1, 3)[:, 1:]
@@ -81,6 +81,25 @@ def _blocks(model: Model) -> Iterator[tuple[str, np.ndarray]]:
 def _source(function: Callable[..., Any]) -> str:
     code = function.__code__
     return f"{function.__qualname__} in {code.co_filename}, line {code.co_firstlineno},"
+
+
+def _in_the_map(model: Model) -> str:
+    """Run the impact map, as plain Python, on the set that collided last."""
+    memory = model.memory
+    n = int(memory.scalars["n_active"][0])
+    law = model.system.contacts[0].impact if model.system.contacts else None
+    if n == 0 or not isinstance(law, ImpactMap) or np.all(np.isfinite(memory.array("impulse", 3 * n))):
+        return ""
+    names = parameter_names(law.impulses, "map")
+    given = memory.array("map_block", n * len(names)).reshape(-1, n)
+    delassus, rates, out = memory.array("matrix", 9 * n * n), memory.array("impact_z0", 3 * n), np.zeros(3 * n)
+    try:
+        law.impulses(n, delassus.copy(), rates.copy(), out, **dict(zip(names, given.copy(), strict=True)))
+        what = "gives impulses that are not finite"
+    except Exception as error:
+        what = f"refuses: {error}"
+    among = [model.system.contacts[int(i)].name for i in memory.array("identity", n)[memory.array("active", n)]]
+    return f"{type(law).__name__}: {_source(law.impulses)} {what} ({n} in contact: {'; '.join(among)})."
 
 
 def _guard_without_value(model: Model) -> str:

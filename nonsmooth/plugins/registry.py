@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
+import difflib
 import functools
 import importlib.util
 import inspect
@@ -12,7 +12,19 @@ from pathlib import Path
 from typing import Any
 
 from nonsmooth.errors import PluginError, UnknownName
-from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, Joint, Load, NormalLaw, Scenario
+from nonsmooth.interfaces import (
+    Body,
+    ContactKinematics,
+    FrictionLaw,
+    Guard,
+    ImpactLaw,
+    Joint,
+    Load,
+    Motion,
+    NormalLaw,
+    Scenario,
+    Shape,
+)
 
 GROUPS: dict[str, tuple[type, ...]] = {
     "bodies": (Body,),
@@ -21,6 +33,9 @@ GROUPS: dict[str, tuple[type, ...]] = {
     "kinematics": (ContactKinematics,),
     "joints": (Joint,),
     "loads": (Load,),
+    "shapes": (Shape,),
+    "motions": (Motion,),
+    "guards": (Guard,),
 }
 """Entry-point groups ``nonsmooth.<name>`` and the interfaces that their members implement."""
 
@@ -31,6 +46,9 @@ KINDS = {
     "kinematics": "contact kinematics",
     "joints": "joint",
     "loads": "load",
+    "shapes": "shape",
+    "motions": "motion",
+    "guards": "guard",
 }
 """What one member of a group is called."""
 
@@ -45,17 +63,42 @@ class BrokenPlugin(UserWarning):
 @functools.cache
 def _points(group: str) -> dict[str, EntryPoint]:
     found: dict[str, EntryPoint] = {}
-    for point in sorted(entry_points(group=f"nonsmooth.{group}"), key=lambda p: (p.name, p.value)):
-        if point.name in found and found[point.name].value != point.value:
+    # built-ins first, so that nothing installed later takes their names
+    for point in sorted(entry_points(group=f"nonsmooth.{group}"), key=lambda p: (not _is_ours(p), p.name, p.value)):
+        first = found.setdefault(point.name, point)
+        if (first.value, _distribution(first)) != (point.value, _distribution(point)):
             warnings.warn(
-                f"{point.name} of nonsmooth.{group} is claimed by {found[point.name].value} and by {point.value}; "
-                "the first is used",
+                f"{KINDS[group]} {point.name!r} is claimed by {_origin(first)} and by {_origin(point)}; "
+                "the first is used: rename the other, or uninstall one of the two.",
                 BrokenPlugin,
                 stacklevel=3,
             )
-            continue
-        found[point.name] = point
-    return found
+    return dict(sorted(found.items()))
+
+
+def _is_ours(point: EntryPoint) -> bool:
+    return point.dist is not None and point.dist.name == "nonsmooth"
+
+
+def _distribution(point: EntryPoint) -> str:
+    return f"{point.dist.name} {point.dist.version}" if point.dist else "unknown distribution"
+
+
+def _origin(point: EntryPoint) -> str:
+    return f"{_distribution(point)} ({point.value})"
+
+
+def check_groups() -> None:
+    """Warn of installed entry-point groups that are none of ours but begin like them: nobody would read them."""
+    known = [f"nonsmooth.{group}" for group in GROUPS]
+    for group in sorted(entry_points().groups):
+        if group.startswith("nonsmooth.") and group not in known:
+            origins = ", ".join(sorted(_origin(point) for point in entry_points(group=group)))
+            near = difflib.get_close_matches(group, known, n=1)
+            hint = f"Did you mean {near[0]!r}?" if near else f"Known: {', '.join(known)}."
+            warnings.warn(
+                f"The entry-point group {group!r} of {origins} is unknown. {hint}", BrokenPlugin, stacklevel=2
+            )
 
 
 def names(group: str) -> tuple[str, ...]:
@@ -65,8 +108,7 @@ def names(group: str) -> tuple[str, ...]:
 
 def source(group: str, name: str) -> str:
     """Return the distribution that a name comes from."""
-    distribution = _points(group)[name].dist
-    return f"{distribution.name} {distribution.version}" if distribution else "unknown distribution"
+    return _distribution(_points(group)[name])
 
 
 def load(group: str, name: str) -> Any:
@@ -87,21 +129,48 @@ def load(group: str, name: str) -> Any:
     except Exception as error:
         reason = f"{type(error).__name__}: {error}"
         raise PluginError(" ".join([f"{_title(group, name)} cannot be loaded: {reason}.", *_hidden()])) from error
-    if not (isinstance(loaded, type) and issubclass(loaded, GROUPS[group])):
-        wanted = " or ".join(base.__name__ for base in GROUPS[group])
-        raise PluginError(f"{_title(group, name)} must be a subclass of {wanted}, not {loaded!r}.")
+    return check_class(_title(group, name), loaded, GROUPS[group])
+
+
+def check_class(title: str, loaded: Any, bases: tuple[type, ...]) -> Any:
+    """Return what a plug-in gives, if it is a class that can be used.
+
+    Raises
+    ------
+    PluginError
+        If it is not a subclass of one of the bases, lacks a part of its interface, or is no dataclass.
+    """
+    if not (isinstance(loaded, type) and issubclass(loaded, bases)):
+        wanted = " or ".join(base.__name__ for base in bases)
+        raise PluginError(f"{title} must be a subclass of {wanted}, not {loaded!r}.")
     if inspect.isabstract(loaded):
         missing = ", ".join(sorted(vars(loaded)["__abstractmethods__"]))
-        raise PluginError(f"{_title(group, name)} must define {missing}.")
-    if not dataclasses.is_dataclass(loaded):
-        raise PluginError(
-            f"{_title(group, name)} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}."
-        )
+        raise PluginError(f"{title} must define {missing}.")
+    if "__dataclass_fields__" not in vars(loaded):
+        raise PluginError(f"{title} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}.")
     return loaded
 
 
 def _title(group: str, name: str) -> str:
     return f"{KINDS[group]} {name!r} ({_points(group)[name].value}, from {source(group, name)})"
+
+
+def name_of(owner: type) -> str | None:
+    """Return the name under which a class is installed, None if it is not."""
+    for group, bases in GROUPS.items():
+        if issubclass(owner, bases):
+            for name, point in _points(group).items():
+                # a module may show a class that lives in another one
+                if point.attr == owner.__name__ and _loaded(group, name) is owner:
+                    return name
+    return None
+
+
+def _loaded(group: str, name: str) -> Any:
+    try:
+        return load(group, name)
+    except PluginError:
+        return None
 
 
 def load_all(group: str) -> dict[str, Any]:

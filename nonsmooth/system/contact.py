@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, Joint, Load, NormalLaw
+from nonsmooth.system.materials import ContactLaws
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,26 @@ class Contact:
     def size(self) -> float:
         """The smaller of the extents [m]."""
         return min(self.extents)
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """What one call of ``System.contact`` said.
+
+    Attributes
+    ----------
+    first, second : Body
+        The bodies.
+    shapes : tuple
+        For either body numbers of its shapes, or None for all.
+    laws : ContactLaws
+        The laws.
+    """
+
+    first: Body
+    second: Body
+    shapes: tuple[tuple[int, ...] | None, tuple[int, ...] | None]
+    laws: ContactLaws
 
 
 @dataclass(frozen=True)

@@ -23,8 +23,8 @@ from nonsmooth.interfaces import (
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
 from nonsmooth.plugins import registry
-from nonsmooth.system.contact import Contact, Tie
-from nonsmooth.system.materials import Materials, check_laws
+from nonsmooth.system.contact import Contact, Declaration, Tie
+from nonsmooth.system.materials import ContactLaws, Materials, check_laws
 from nonsmooth.system.selection import Side, select
 
 _LARGEST_GRAVITY = 1e4
@@ -63,6 +63,7 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = float(gravity)
         self._contacts: list[Contact] = []
+        self._declared: list[Declaration] = []
         self._paired: set[_ShapePair] = set()
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
@@ -83,6 +84,11 @@ class System:
     def contacts(self) -> tuple[Contact, ...]:
         """The potential contacts, in the order declared."""
         return tuple(self._contacts)
+
+    @property
+    def declarations(self) -> tuple[Declaration, ...]:
+        """What was said of contacts, one entry for every two bodies or choice of their shapes, in that order."""
+        return tuple(self._declared)
 
     @property
     def guards(self) -> tuple[Guard, ...]:
@@ -241,6 +247,9 @@ class System:
         for one, other in itertools.product(*sides):
             added += self._pair(one, other, len(added), normal, friction, impact)
         self._contacts += added
+        chosen = tuple(None if numbers is None else tuple(numbers) for numbers in shapes)
+        laws = ContactLaws(normal, friction, impact)
+        self._declared.append(Declaration(first, second, (chosen[0], chosen[1]), laws))
         self._paired |= pairs
         return tuple(added)
 
@@ -291,14 +300,14 @@ class System:
             out.add(_key(one, other))
         for body in chosen:
             self._require(body, "System.contact_all: bodies")
-        kept, added = (list(self._contacts), set(self._paired)), len(self._contacts)
+        kept, added = (list(self._contacts), list(self._declared), set(self._paired)), len(self._contacts)
         try:
             for one, other in itertools.combinations(chosen, 2):
                 if _key(one, other) not in out and one.n_u + other.n_u > 0:
                     laws = materials.laws(names.get(id(one)), names.get(id(other)))
                     self.contact(one, other, normal=laws.normal, friction=laws.friction, impact=laws.impact)
         except InvalidInput:
-            self._contacts, self._paired = kept
+            self._contacts, self._declared, self._paired = kept
             raise
         return tuple(self._contacts[added:])
 

@@ -46,10 +46,14 @@ class BallBox(Scenario):
     n_balls: float = parameter(10.0, doc="number of balls", minimum=1.0, maximum=300.0)
     radius: float = parameter(0.01, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0))
     density: float = parameter(2500.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
-    restitution: float = parameter(0.5, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    friction: float = parameter(0.3, doc="friction coefficient between balls", minimum=0.0, maximum=10.0)
+    restitution: float = parameter(
+        0.5, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
+    friction: float = parameter(
+        0.3, doc="friction coefficient between balls", minimum=0.0, maximum=10.0, law="friction"
+    )
     wall_friction: float = parameter(
-        0.3, doc="friction coefficient of a ball on floor and walls", minimum=0.0, maximum=10.0
+        0.3, doc="friction coefficient of a ball on floor and walls", minimum=0.0, maximum=10.0, law="friction"
     )
     box_width: float = parameter(0.15, doc="inner width of the box", unit="m", above=0.0, usual=(1e-4, 10.0))
     drop_height: float = parameter(
@@ -59,7 +63,12 @@ class BallBox(Scenario):
         0.3, doc="largest speed at the start along each axis, at random", unit="m/s", minimum=0.0, usual=(1e-3, 10.0)
     )
     contact_time: float = parameter(
-        1e-4, doc="contact time T_c of the accumulation rule (33)", unit="s", above=0.0, usual=(1e-12, 1e-2)
+        1e-4,
+        doc="contact time T_c of the accumulation rule (33)",
+        unit="s",
+        above=0.0,
+        usual=(1e-12, 1e-2),
+        law="impact",
     )
     seed: float = parameter(0.0, doc="seed of the random places and velocities", minimum=0.0, maximum=1e9)
     t_end: float = parameter(4.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))

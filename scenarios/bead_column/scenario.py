@@ -42,13 +42,18 @@ class BeadColumn(Scenario):
     radius: float = parameter(5e-3, doc="radius of the beads", unit="m", above=0.0, usual=(1e-4, 1.0))
     density: float = parameter(7780.0, doc="density of the beads", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
     height: float = parameter(0.05, doc="way of the fall", unit="m", above=0.0, usual=(1e-6, 10.0))
-    restitution: float = parameter(1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
+    restitution: float = parameter(
+        1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
+    exponent: float = parameter(
+        1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0, law="impact"
+    )
     wall_stiffness: float = parameter(
         2.0**0.5,
         doc="stiffness at the wall over that between beads; by Hertz sqrt(2) for one material",
         above=0.0,
         usual=(1e-3, 1e3),
+        law="impact",
     )
     t_end: float = parameter(0.3, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 

@@ -72,7 +72,7 @@ class BouncingBall(Scenario):
     radius: float = parameter(0.01, doc="radius of the ball", unit="m", above=0.0, usual=(1e-4, 1.0))
     density: float = parameter(7800.0, doc="density of the ball", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
     contact_time: float = parameter(
-        2e-5, doc="contact time T_c that ends an accumulation", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
+        2e-5, doc="contact time T_c that ends an accumulation", unit="s", minimum=0.0, usual=(1e-12, 1e-2), law="impact"
     )
     t_end: float = parameter(4.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))
 

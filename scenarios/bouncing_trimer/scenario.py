@@ -46,9 +46,11 @@ class BouncingTrimer(Scenario):
     gamma: float = parameter(2.0, doc="peak acceleration of the plate over gravity", minimum=0.0, usual=(0.0, 20.0))
     frequency: float = parameter(50.0, doc="frequency f of the plate", unit="Hz", above=0.0, usual=(1.0, 1e3))
     restitution: float = parameter(
-        0.6, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, assumed=True
+        0.6, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, assumed=True, law="impact"
     )
-    friction: float = parameter(0.2, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), assumed=True)
+    friction: float = parameter(
+        0.2, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), assumed=True, law="friction"
+    )
     radius: float = parameter(5e-3, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)
     spacing: float = parameter(
         0.02, doc="distance between their centres", unit="m", above=0.0, usual=(2e-4, 10.0), assumed=True
@@ -60,7 +62,13 @@ class BouncingTrimer(Scenario):
     tilt: float = parameter(0.02, doc="tilt of the triangle at the start", unit="rad", minimum=-1.5, maximum=1.5)
     direction: float = parameter(0.3, doc="azimuth of the axis of that tilt", unit="rad", minimum=-7.0, maximum=7.0)
     contact_time: float = parameter(
-        2e-5, doc="contact time T_c that ends an accumulation", unit="s", minimum=0.0, usual=(1e-12, 1e-2), assumed=True
+        2e-5,
+        doc="contact time T_c that ends an accumulation",
+        unit="s",
+        minimum=0.0,
+        usual=(1e-12, 1e-2),
+        assumed=True,
+        law="impact",
     )
     t_end: float = parameter(10.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))
 

@@ -45,10 +45,14 @@ class DiscBall(Scenario):
     mass_ratio: float = parameter(1.0, doc="mass of the disc over that of a ball", above=0.0, usual=(1e-3, 1e3))
     radius_ratio: float = parameter(1.0, doc="radius of the disc over that of a ball", above=0.0, usual=(1e-2, 1e2))
     stiffness_ratio: float = parameter(
-        1.0, doc="stiffness at the right ball over that at the left one", above=0.0, usual=(1e-6, 1e6)
+        1.0, doc="stiffness at the right ball over that at the left one", above=0.0, usual=(1e-6, 1e6), law="impact"
     )
-    restitution: float = parameter(1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
+    restitution: float = parameter(
+        1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
+    exponent: float = parameter(
+        1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0, law="impact"
+    )
     incidence: float = parameter(
         0.0, doc="angle of the disc's velocity from the axis, positive to the right", unit="rad", usual=(-1.0, 1.0)
     )

@@ -59,13 +59,23 @@ class DumbbellScenario(Scenario):
         7800.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4), assumed=True
     )
     restitution: float | None = parameter(
-        None, doc="coefficient of restitution e; 0.8 in flutter, else 0.65", minimum=0.0, maximum=1.0, assumed=True
+        None,
+        doc="coefficient of restitution e; 0.8 in flutter, else 0.65",
+        minimum=0.0,
+        maximum=1.0,
+        assumed=True,
+        law="impact",
     )
     friction: float = parameter(
-        0.2, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), assumed=True
+        0.2, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), assumed=True, law="friction"
     )
     static_friction: float | None = parameter(
-        None, doc="static friction coefficient mu_s, by default mu", minimum=0.0, usual=(0.01, 2.0), assumed=True
+        None,
+        doc="static friction coefficient mu_s, by default mu",
+        minimum=0.0,
+        usual=(0.01, 2.0),
+        assumed=True,
+        law="friction",
     )
     gamma: float = parameter(
         0.9, doc="intensity Gamma = A_z (2 pi f)^2 / g of the vibration", minimum=0.0, usual=(0.01, 50.0)
@@ -109,8 +119,9 @@ class DumbbellScenario(Scenario):
         unit="s",
         minimum=0.0,
         usual=(1e-12, 1e-2),
+        law="impact",
     )
-    impact: str = parameter("energetic", doc="impact law, by its installed name", unit="")
+    impact: str = parameter("energetic", doc="impact law, by its installed name", unit="", law="impact")
 
     def _check(self) -> None:
         used = self.resolved()

@@ -43,10 +43,14 @@ class NewtonsCradle(Scenario):
     density: float = parameter(7780.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
     mass_ratio: float = parameter(1.0, doc="mass of a striker over that of another ball", above=0.0, usual=(1e-3, 1e3))
     stiffness_ratio: float = parameter(
-        1.0, doc="stiffness of a contact over that of the one before it", above=0.0, usual=(1e-3, 1e3)
+        1.0, doc="stiffness of a contact over that of the one before it", above=0.0, usual=(1e-3, 1e3), law="impact"
     )
-    restitution: float = parameter(1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
+    restitution: float = parameter(
+        1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
+    exponent: float = parameter(
+        1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0, law="impact"
+    )
     speed: float = parameter(1.0, doc="speed of the strikers", unit="m/s", above=0.0, usual=(1e-3, 1e2))
     distance: float = parameter(0.01, doc="way to the strike", unit="m", above=0.0, usual=(1e-6, 10.0))
     t_end: float = parameter(0.04, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))

@@ -46,9 +46,13 @@ class RockingBlock3D(Scenario):
     direction: float = parameter(
         0.7, doc="direction of the raised side, from x towards y", unit="rad", minimum=-math.pi, maximum=math.pi
     )
-    restitution: float = parameter(0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    exponent: float = parameter(1.0, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
-    friction: float = parameter(0.6, doc="friction coefficient mu", minimum=0.0, usual=(0.0, 2.0))
+    restitution: float = parameter(
+        0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
+    exponent: float = parameter(
+        1.0, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0, law="impact"
+    )
+    friction: float = parameter(0.6, doc="friction coefficient mu", minimum=0.0, usual=(0.0, 2.0), law="friction")
     t_end: float = parameter(3.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
     def resolved(self) -> Mapping[str, Any]:

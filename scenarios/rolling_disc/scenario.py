@@ -51,8 +51,10 @@ class RollingDisc(Scenario):
         1.0, doc="precession rate at the start over that of steady rolling", minimum=0.0, usual=(0.1, 10.0)
     )
     spin: float = parameter(0.0, doc="angular velocity about the own axis at the start", unit="rad/s")
-    friction: float = parameter(0.3, doc="friction coefficient mu", minimum=0.0, usual=(0.0, 2.0))
-    restitution: float = parameter(0.5, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    friction: float = parameter(0.3, doc="friction coefficient mu", minimum=0.0, usual=(0.0, 2.0), law="friction")
+    restitution: float = parameter(
+        0.5, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
     viscosity: float = parameter(
         1.8e-5, doc="viscosity of the air; 0 for none", unit="Pa s", minimum=0.0, usual=(1e-6, 10.0)
     )

@@ -56,9 +56,9 @@ class SliderCrank(Scenario):
     slider_inertia: float = parameter(2.7e-6, doc="central moment of inertia of the slider", unit="kg m^2", above=0.0)
     crank_rate: float = parameter(150.0, doc="angular velocity of the crank at the start", unit="rad/s")
     rod_rate: float = parameter(-75.0, doc="angular velocity of the rod at the start", unit="rad/s")
-    restitution: float = parameter(0.4, doc="restitution of the corners", minimum=0.0, maximum=1.0)
-    friction: float = parameter(0.01, doc="friction coefficient mu", minimum=0.0, usual=(0.001, 2.0))
-    law: str = parameter("newton", doc="impact law", unit="", choices=("newton", "energetic"))
+    restitution: float = parameter(0.4, doc="restitution of the corners", minimum=0.0, maximum=1.0, law="impact")
+    friction: float = parameter(0.01, doc="friction coefficient mu", minimum=0.0, usual=(0.001, 2.0), law="friction")
+    law: str = parameter("newton", doc="impact law", unit="", choices=("newton", "energetic"), law="impact")
     t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
     def resolved(self) -> Mapping[str, Any]:

@@ -42,7 +42,9 @@ class SlidingRod(Scenario):
 
     title: ClassVar[str] = "Painleve's sliding rod"
 
-    friction: float = parameter(1.4, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 10.0))
+    friction: float = parameter(
+        1.4, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 10.0), law="friction"
+    )
     tilt: float = parameter(
         math.atan(2.0),
         doc="angle phi of the rod from the ground at the start",
@@ -55,7 +57,9 @@ class SlidingRod(Scenario):
     half_length: float = parameter(0.1, doc="half of the length, s", unit="m", above=0.0, usual=(1e-3, 10.0))
     end_radius: float = parameter(1e-5, doc="radius of the ends", unit="m", above=0.0, usual=(1e-7, 1e-2))
     mass: float = parameter(0.1, doc="mass", unit="kg", above=0.0, usual=(1e-4, 1e3))
-    restitution: float = parameter(0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    restitution: float = parameter(
+        0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
     t_end: float = parameter(0.2, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
     def _check(self) -> None:

@@ -49,11 +49,18 @@ class TippeTop(Scenario):
     stem_offset: float = parameter(16e-3, doc="centre of the small sphere over the mass centre, a_2", unit="m")
     body_radius: float = parameter(15e-3, doc="radius of the large sphere, r_1", unit="m", above=0.0)
     stem_radius: float = parameter(5e-3, doc="radius of the small sphere, r_2", unit="m", above=0.0)
-    friction: float = parameter(0.3, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0))
+    friction: float = parameter(0.3, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), law="friction")
     contact_radius: float = parameter(
-        0.5e-3, doc="radius R of the contact disc, 0 for a point", unit="m", minimum=0.0, usual=(1e-6, 1e-2)
+        0.5e-3,
+        doc="radius R of the contact disc, 0 for a point",
+        unit="m",
+        minimum=0.0,
+        usual=(1e-6, 1e-2),
+        law="friction",
     )
-    restitution: float = parameter(0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
+    restitution: float = parameter(
+        0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
     tilt: float = parameter(0.1, doc="angle of the axis from the vertical at the start", unit="rad")
     spin: float = parameter(180.0, doc="spin about the axis at the start", unit="rad/s", usual=(1.0, 1e3))
     t_end: float = parameter(8.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))

@@ -62,10 +62,10 @@ class Woodpecker(Scenario):
     sleeve_inertia: float = parameter(5e-9, doc="moment of inertia J_M of the sleeve", unit="kg m^2", above=0.0)
     bird_inertia: float = parameter(7e-7, doc="moment of inertia J_S of the bird", unit="kg m^2", above=0.0)
     spring: float = parameter(5.6e-3, doc="torsional stiffness c_phi", unit="N m/rad", minimum=0.0)
-    friction: float = parameter(0.3, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0))
-    beak_restitution: float = parameter(0.5, doc="restitution of the beak", minimum=0.0, maximum=1.0)
-    sleeve_restitution: float = parameter(0.0, doc="restitution of the sleeve", minimum=0.0, maximum=1.0)
-    law: str = parameter("newton", doc="impact law", unit="", choices=("newton", "energetic"))
+    friction: float = parameter(0.3, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), law="friction")
+    beak_restitution: float = parameter(0.5, doc="restitution of the beak", minimum=0.0, maximum=1.0, law="impact")
+    sleeve_restitution: float = parameter(0.0, doc="restitution of the sleeve", minimum=0.0, maximum=1.0, law="impact")
+    law: str = parameter("newton", doc="impact law", unit="", choices=("newton", "energetic"), law="impact")
     t_end: float = parameter(2.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
     def resolved(self) -> Mapping[str, Any]:

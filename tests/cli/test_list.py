@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-GROUPS = ("scenarios", "bodies", "joints", "loads", "laws")
+GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws")
 Call = Callable[..., tuple[int, str, str]]
 
 
@@ -23,7 +23,7 @@ def test_all_groups_with_source_and_first_line(call: Call) -> None:
             "nonsmooth 0.1.0",
             "F = -k (d - d0) - c d' along the line between two points at distance d, which must not vanish.",
         ),
-        ("coulomb", "nonsmooth 0.1.0", "Coulomb's law, Eq. (17)."),
+        ("coulomb", "friction", "nonsmooth 0.1.0", "Coulomb's law, Eq. (17)."),
     ):
         assert any(line.split() == " ".join(row).split() for line in output.splitlines())
 

@@ -14,6 +14,7 @@ Call = Callable[..., tuple[int, str, str]]
 KEYS = {
     "scenario",
     "parameters",
+    "laws",
     "status",
     "message",
     "t_end",

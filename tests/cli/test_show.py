@@ -34,7 +34,7 @@ def test_parameters_of_a_scenario(call: Call) -> None:
             "plate",
             "motion",
             "motion Rest(slope=0.0, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0)) "
-            "a Motion given from Python only",
+            "a Motion from Python or a scenario file",
         ),
         ("newton", "duration", None),
     ],

@@ -45,7 +45,7 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
     registry._points.cache_clear()
 
 
-@pytest.mark.parametrize("group", ["bodies", "laws", "kinematics"])
+@pytest.mark.parametrize("group", list(registry.GROUPS))
 def test_every_built_in_loads(group: str) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -95,5 +95,31 @@ def test_a_broken_plug_in_is_named_with_its_mistake(
 
 def test_two_claims_to_a_name_are_told(install: Install) -> None:
     install("plug_rival", "coulomb = plug_rival:Good", plug_rival=_GOOD)
-    with pytest.warns(registry.BrokenPlugin, match="claimed by laws:Coulomb and by plug_rival:Good; the first is used"):
+    with pytest.warns(
+        registry.BrokenPlugin,
+        match=r"'coulomb' is claimed by nonsmooth .* \(laws:Coulomb\) and by plug_rival 1.2 \(plug_rival:Good\)",
+    ):
         assert registry.load("laws", "coulomb").__name__ == "Coulomb"
+
+
+def test_a_built_in_keeps_its_name_whatever_a_rival_is_called(install: Install) -> None:
+    install("a_rival", "coulomb = a_rival:Good", a_rival=_GOOD)  # sorts before ours
+    with pytest.warns(registry.BrokenPlugin, match=r"is claimed by nonsmooth .* and by a_rival 1.2 \(a_rival:Good\)"):
+        assert registry.load("laws", "coulomb").__name__ == "Coulomb"
+
+
+def test_the_name_of_a_class_is_found() -> None:
+    assert registry.name_of(registry.load("laws", "newton")) == "newton"
+    assert registry.name_of(registry.load("shapes", "box")) == "box"
+    assert registry.name_of(type("Coulomb", (registry.load("laws", "coulomb"),), {})) is None
+    assert registry.name_of(dict) is None
+
+
+def test_a_group_that_nobody_reads_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    info = tmp_path / "slip-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: slip\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[nonsmooth.law]\nwax = wax:Wax\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with pytest.warns(registry.BrokenPlugin, match=r"'nonsmooth.law' of slip 1.0 \(wax:Wax\) is unknown. Did you mean"):
+        registry.check_groups()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
-from scenarios.dumbbell.figures.laws import drift_by_law
+from scenarios.dumbbell.figures.laws import drift_by_law, drifts_of_all
 from scenarios.dumbbell.figures.motions import normal_motion
 from scenarios.dumbbell.figures.paths import Run, paths
 from scenarios.dumbbell.figures.portraits import portrait
@@ -46,7 +46,7 @@ _PERIODS = {"drift": 3.0, "jump": 3.0, "flutter": 4.0, "free": 6.0}
 
 
 def all_figures(kind: type[DumbbellScenario], progress: Progress | None) -> dict[str, Figure]:
-    """Run the paper's starts and draw Figs. 2 to 12."""
+    """Run the paper's starts and draw Figs. 2 to 13."""
     scenarios = {name: kind(**parameters) for name, parameters in _RUNS.items()}
     total = sum(scenario.t_end for scenario in scenarios.values())
     done = 0.0
@@ -64,6 +64,8 @@ def all_figures(kind: type[DumbbellScenario], progress: Progress | None) -> dict
     figures["fig11_paths"] = paths(across, _SPANS, sight)
     laws = {"energetic (compliant limit)": runs["energetic"], "Newton, in one step": runs["newton"]}
     figures["fig12_impact_laws"] = drift_by_law(laws, "The impact law decides even the direction of the drift")
+    title = "Laws that follow the slip through the impact drift as springs do, maps the other way"
+    figures["fig13_all_impact_laws"] = drifts_of_all(scenarios["energetic"], title)
     return figures
 
 

@@ -62,12 +62,12 @@ def legend(axes: list[Axes], columns: int = 3) -> None:
         )
 
 
-def footnote(*scenarios: DumbbellScenario) -> str:
-    """Say what the runs were made with, and which of it is assumed."""
+def footnote(*scenarios: DumbbellScenario, impact: str = "") -> str:
+    """Say what the runs were made with, and which of it is assumed; ``impact``: the laws, if not the scenarios'."""
     rows = [scenario.resolved() for scenario in scenarios]
     assumed = [name for name, (_, rule) in rules(DumbbellScenario).items() if rule.assumed and name in _SYMBOLS]
     gamma, frequency, ratio = (_values(rows, name, 1.0) for name in ("gamma", "frequency", "aspect_ratio"))
-    laws = ", ".join(dict.fromkeys(row["impact"] for row in rows))
+    laws = impact or ", ".join(dict.fromkeys(row["impact"] for row in rows))
     given = f"Γ = {gamma}, f = {frequency} Hz, A$_r$ = {ratio}; impact law: {laws}"
     words = []
     for name in assumed:

@@ -134,3 +134,21 @@ def test_figures(tmp_path: Path, runs: dict[float, tuple[BallBox, ns.Solution]])
     assert [len(axis.lines) for axis in drawn["history"].axes] == [1, 1]
     for name, figure in drawn.items():
         figure.savefig(tmp_path / f"{name}.png")
+
+
+@pytest.mark.parametrize(("n_balls", "friction"), [(2, 0.3), (3, 0.3), (3, 0.0)])
+def test_wedged_balls_rest(n_balls: int, friction: float) -> None:
+    """In a box of three radii the balls lie on each other and on walls: they rest, on forces that are not unique."""
+    scenario = BallBox(n_balls=n_balls, box_width=0.03, friction=friction, wall_friction=friction, t_end=1.0)
+    solution = ns.simulate(scenario.build(), 1.0)
+    assert solution.status == "done"
+    assert solution.energy.residual <= 1e-8
+    assert np.max(scenario.positions(solution)[-1, :, 2]) > 2.0 * scenario.radius
+    if friction > 0.0:
+        # a ball without friction may spin for ever, and one that rolls freely may roll
+        assert np.max(np.abs(solution.u_end)) < 1e-7
+    on_floor, on_walls = _forces(scenario, solution)
+    assert on_floor.min() >= 0.0
+    assert on_walls.max() > 0.0
+    if friction == 0.0:
+        assert on_floor.sum() == pytest.approx(n_balls * scenario.mass * 9.81, rel=1e-9)

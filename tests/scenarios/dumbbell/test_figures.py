@@ -12,7 +12,7 @@ import pytest
 from scenarios.dumbbell.figures.trace import Trace
 from scenarios.dumbbell.scenario import DumbbellScenario
 
-EXPECTED = {2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}
+EXPECTED = {2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13}
 Runner = Callable[..., Any]
 
 

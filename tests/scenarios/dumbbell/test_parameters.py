@@ -71,7 +71,7 @@ def test_wrong_order_of_magnitude_is_a_warning(name: str) -> None:
     [
         ({"mode": "drfit"}, "'drift'"),
         ({"impact": "energetc"}, "'energetic'"),
-        ({"impact": "coulomb"}, "energetic, newton"),
+        ({"impact": "coulomb"}, "energetic, johnson"),
     ],
 )
 def test_unknown_names_come_with_a_suggestion(given: dict[str, Any], words: str) -> None:

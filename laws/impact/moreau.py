@@ -1,0 +1,80 @@
+"""Moreau's impact law with normal and tangential restitution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import ClassVar, final
+
+import numpy as np
+
+from laws.impact.cone import solve_cone
+from nonsmooth.interfaces import ImpactMap
+from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
+
+
+def _impulses(
+    n: int,
+    delassus: Floats,
+    rates: Floats,
+    out: Floats,
+    friction: Floats,
+    restitution: Floats,
+    tangential_restitution: Floats,
+) -> None:
+    """G'+ >= -e_N g'- complementary to P_N >= 0; P_T in the disc against v+ + e_T v-."""
+    shift, none = np.zeros(3 * n), np.zeros(3 * n)
+    for i in range(3 * n):
+        out[i] = 0.0
+    for a in range(n):
+        shift[3 * a] = restitution[a] * min(rates[3 * a], 0.0)
+        for r in range(1, 3):
+            shift[3 * a + r] = tangential_restitution[a] * rates[3 * a + r]
+    solve_cone(n, delassus, rates, shift, none, none, out, friction)
+
+
+@final
+@dataclass(frozen=True)
+class MoreauImpact(ImpactMap):
+    """One contact problem for z+ + e z-, with coefficients of their own for normal and slip.
+
+    Where friction is strong enough, slip comes back as v+ = -e_T v-, as with a ball of rubber.  With e_T = 0 it is
+    Newton's law.  A contact that was separating counts with e_N = 0, so that nothing is left approaching.
+
+    It always loses energy if all contacts approach or rest and have the same e_N = e_T <= 1, for then the work
+    P^T (z+ + z-) / 2 is P^T (z+ + e z-) / (1 + e), which is not positive, less (1 - e) / (1 + e) P^T G P / 2.
+    With e_N different from e_T it may gain energy where normal and slip are coupled (Kane's example, e_T = 0).  So may
+    contacts with different e_N, even without friction.
+
+    References
+    ----------
+    J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988) 1-82.
+    """
+
+    departures: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {"dissipation with friction": "with e_T other than e_N friction acts against a slip that never is"}
+    )
+
+    restitution: float = parameter(doc="normal coefficient of restitution e_N", minimum=0.0, maximum=1.0)
+    tangential_restitution: float = parameter(
+        0.0, doc="tangential coefficient of restitution e_T", minimum=0.0, maximum=1.0
+    )
+    duration: float = parameter(
+        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
+    )
+
+    @property
+    def impulses(self) -> Callable[..., None]:
+        """The map from rates to impulses."""
+        return _impulses
+
+    @property
+    def contact_time(self) -> float:
+        """The parameter ``duration`` [s]."""
+        return self.duration
+
+    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
+        """Tell whether no more energy [J] came back than went in."""
+        return returned <= stored + tolerance

@@ -1,0 +1,55 @@
+"""The fully plastic impact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from laws.impact.cone import solve_cone
+from nonsmooth.interfaces import ImpactMap
+from nonsmooth.parameters import parameter
+from nonsmooth.types import Floats
+
+
+def _impulses(n: int, delassus: Floats, rates: Floats, out: Floats, friction: Floats) -> None:
+    """G'+ >= 0 complementary to P_N >= 0; P_T in the disc against v+."""
+    none = np.zeros(3 * n)
+    for i in range(3 * n):
+        out[i] = 0.0
+    solve_cone(n, delassus, rates, none, none, none, out, friction)
+
+
+@final
+@dataclass(frozen=True)
+class PlasticImpact(ImpactMap):
+    """All contacts that push stay closed: the contact problem with Coulomb friction on the velocities after.
+
+    Newton's, Moreau's and Poisson's laws are this one for e = 0.  It always loses energy, by at least that of the
+    change of velocity, (u+ - u-)^T M (u+ - u-) / 2, and by just that without friction (Carnot's theorem).  The
+    energetic law with e = 0 is another: there a contact may open again while others are still compressed.
+
+    References
+    ----------
+    J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988) 1-82.
+    """
+
+    duration: float = parameter(
+        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
+    )
+
+    @property
+    def impulses(self) -> Callable[..., None]:
+        """The map from rates to impulses."""
+        return _impulses
+
+    @property
+    def contact_time(self) -> float:
+        """The parameter ``duration`` [s]."""
+        return self.duration
+
+    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
+        """Tell whether no energy [J] came back."""
+        return abs(returned) <= tolerance and stored >= -tolerance

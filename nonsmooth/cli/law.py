@@ -1,0 +1,71 @@
+"""``--law ROLE=LAW,NAME=VALUE,...``: another law in all contacts of a scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.interfaces import FrictionLaw, ImpactLaw, NormalLaw
+from nonsmooth.parameters import from_all_words, rules
+from nonsmooth.plugins.file import find
+
+ROLES: dict[str, type] = {"normal": NormalLaw, "friction": FrictionLaw, "impact": ImpactLaw}
+"""The laws of a contact, by the name that the option has for them."""
+
+HELP = (
+    "a law for all contacts: ROLE=LAW or ROLE=LAW,NAME=VALUE,...; ROLE is normal, friction or impact, "
+    "LAW a name of `nonsmooth list laws` or FILE.py:CLASS; may come once a role"
+)
+_FORM = "must have the form ROLE=LAW or ROLE=LAW,NAME=VALUE,..."
+_EXAMPLE = "For example --law friction=./my_law.py:MyLaw,coefficient=0.2."
+
+
+def laws(words: Iterable[str]) -> dict[str, Any]:
+    """Return the laws asked for, by role.
+
+    Raises
+    ------
+    InvalidInput
+        If a word has another form, a role comes twice, a parameter is wrong or missing.
+    PluginError
+        If a law cannot be loaded.
+    """
+    made: dict[str, Any] = {}
+    for word in words:
+        role, _, rest = (part.strip() for part in word.partition("="))
+        name, *settings = (part.strip() for part in rest.split(","))
+        if not (role and name):
+            raise InvalidInput("--law", _FORM, word, _EXAMPLE)
+        if role not in ROLES:
+            raise UnknownName("--law role", role, ROLES)
+        if role in made:
+            raise InvalidInput(f"--law {role}", "must come once", word, "Leave one out.")
+        owner = find(f"--law {role}", "laws", ROLES[role], name)
+        values: dict[str, str] = {}
+        for setting in settings:
+            parameter, _, value = (part.strip() for part in setting.partition("="))
+            if not (parameter and value) or parameter in values:
+                raise InvalidInput(f"--law {role}", f"{_FORM}, each NAME once", word, _EXAMPLE)
+            values[parameter] = value
+        made[role] = from_all_words(owner, values, owner.__name__, f"{{name}}=VALUE to --law {role}={name}")
+    return made
+
+
+def described(law: Any) -> dict[str, Any]:
+    """Return the class of a law and its parameters, for the report."""
+    return {"law": type(law).__name__} | {name: getattr(law, name) for name in rules(type(law))}
+
+
+def check_not_ignored(owner: type, given: Iterable[str], roles: Iterable[str]) -> None:
+    """Raise InvalidInput if a parameter of a scenario was given that belongs to a law which is replaced."""
+    replaced, known = set(roles), rules(owner)
+    for name in given:
+        if name in known and known[name][1].law in replaced:
+            role = known[name][1].law
+            raise InvalidInput(
+                f"--set {name}",
+                f"must not be given with --law {role}, which replaces the law that it belongs to",
+                name,
+                f"Leave it out; give the new law its parameters as in --law {role}=LAW,NAME=VALUE.",
+            )

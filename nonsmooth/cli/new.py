@@ -1,0 +1,66 @@
+"""``nonsmooth new``: a package to start from."""
+
+from __future__ import annotations
+
+import argparse
+import keyword
+import re
+import sys
+from importlib import resources
+from pathlib import Path
+from string import Template
+from typing import Any
+
+from nonsmooth.cli.messages import say
+from nonsmooth.errors import InvalidInput
+from nonsmooth.plugins import registry
+from nonsmooth.solution.files import replacing
+
+_FILES = {
+    "pyproject.toml": "pyproject.toml.txt",
+    "README.md": "README.md.txt",
+    "{name}/__init__.py": "init.py.txt",
+    "{name}/friction.py": "friction.py.txt",
+    "tests/test_friction.py": "test_friction.py.txt",
+}
+"""Where each text goes."""
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("new", help="write a package to start from", allow_abbrev=False)
+    kinds = command.add_subparsers(title="kinds", required=True, metavar="KIND")
+    plugin = kinds.add_parser("plugin", help="a package with a friction law and its tests", allow_abbrev=False)
+    plugin.add_argument("name", metavar="NAME", help="of the package and of its law, in lower case")
+    plugin.add_argument("--dir", type=Path, metavar="DIR", help="the folder to write it to, ./NAME by default")
+    plugin.set_defaults(execute=execute)
+
+
+def execute(arguments: argparse.Namespace) -> bool:
+    """Write the package; print the paths of its files."""
+    name = arguments.name
+    _check_name(name)
+    folder = arguments.dir or Path(name)
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise InvalidInput("new plugin", "must be given a folder that is empty or new", str(folder), "Add --dir DIR.")
+    words = {"name": name, "title": "".join(part.capitalize() for part in name.split("_"))}
+    texts = resources.files("nonsmooth.templates") / "plugin"
+    for place, source in _FILES.items():
+        path = folder / place.format(name=name)
+        text = Template((texts / source).read_text(encoding="utf-8")).substitute(words)
+        with replacing(path) as part:
+            part.write_text(text, encoding="utf-8")
+        say(str(path))
+    return True
+
+
+def _check_name(name: str) -> None:
+    remedy = "Take small letters, digits and underscores, a letter first: rubber_friction."
+    if re.fullmatch(r"[a-z][a-z0-9_]*[a-z0-9]", name) is None or keyword.iskeyword(name):
+        raise InvalidInput("new plugin: name", "must be that of a Python package", name, remedy)
+    if (
+        name in registry.names("laws")
+        or name in sys.stdlib_module_names
+        or name in ("bodies", "laws", "scenarios", "tests")
+    ):
+        raise InvalidInput("new plugin: name", "must not be taken already", name, "Take another one.")

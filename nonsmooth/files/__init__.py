@@ -1,0 +1,1 @@
+"""Systems as plain files: TOML tables of bodies, laws, contacts and starts."""

@@ -1,0 +1,162 @@
+"""From tables to a system, in the order in which a user would write it in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from nonsmooth import placing
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.files.components import Table, component, naming
+from nonsmooth.files.keys import check_keys, number, tables_in, words
+from nonsmooth.interfaces import Body, FrictionLaw, Guard, ImpactLaw, Joint, Load, NormalLaw
+from nonsmooth.plugins import file, registry
+from nonsmooth.system.materials import ContactLaws, Materials
+from nonsmooth.system.system import System
+
+_ROLES: dict[str, type] = {"normal": NormalLaw, "friction": FrictionLaw, "impact": ImpactLaw}
+_PLACES = ("touching", "at_height", "resting")
+
+
+def system(tables: Table, path: Path) -> System:
+    """Return the system of the tables of a file.
+
+    Raises
+    ------
+    InvalidInput
+        If anything breaks a rule.
+    """
+    reader = _Reader(path, tables.get("laws", {}), {})
+    starts = {}
+    bodies = tables["bodies"]
+    if not (isinstance(bodies, dict) and bodies and all(isinstance(one, dict) for one in bodies.values())):
+        raise InvalidInput(f"{path}: bodies", "must be tables by name", bodies, "Write [bodies.ball] above each.")
+    made_of: dict[str, list[Body]] = {}
+    for name, table in bodies.items():
+        own = dict(table)
+        starts[name] = own.pop("start", {})
+        material = own.pop("material", None)
+        made = reader.bodies[name] = component(f"{path}: bodies.{name}", own, Body, path.parent)
+        if material is not None:
+            made_of.setdefault(material, []).append(made)
+    with naming(f"{path}"):
+        gravity = number("gravity", tables.get("gravity", 9.81), "m/s^2")
+        made_system = System(list(reader.bodies.values()), gravity)
+    for i, table in enumerate(tables_in(f"{path}: joints", tables.get("joints", []))):
+        reader.tie(made_system.joint, table, f"{path}: joints[{i}]", Joint)
+    for i, table in enumerate(tables_in(f"{path}: contacts", tables.get("contacts", []))):
+        reader.contact(made_system, table, f"{path}: contacts[{i}]")
+    if "materials" in tables:
+        reader.materials(made_system, tables["materials"], made_of, f"{path}: materials")
+    elif made_of:
+        raise InvalidInput(
+            f"{path}: materials", "must be given where bodies have one", sorted(made_of), "Add the table."
+        )
+    for i, table in enumerate(tables_in(f"{path}: loads", tables.get("loads", []))):
+        reader.tie(made_system.load, table, f"{path}: loads[{i}]", Load)
+    for i, table in enumerate(tables_in(f"{path}: guards", tables.get("guards", []))):
+        made_system.guard(component(f"{path}: guards[{i}]", table, Guard, path.parent))
+    for later in (False, True):  # what is put onto other bodies comes when those are in their places
+        for name, start in starts.items():
+            if not isinstance(start, dict):
+                raise InvalidInput(f"{path}: bodies.{name}.start", "must be a table", start, "See Body.state.")
+            if start and ("place" in start) == later:
+                with naming(f"{path}: bodies.{name}.start"):
+                    _start(made_system, reader.bodies[name], dict(start))
+    return made_system
+
+
+def _start(made: System, body: Body, start: Table) -> None:
+    place = start.pop("place", None)
+    if place is None and {"q", "u"} & set(start):
+        check_keys("start by q and u", start, ("q", "u"), required=("q", "u"))
+        made.set_start(body, start["q"], start["u"])
+    elif place is None:
+        made.place(body, **start)
+    elif place == "touching":
+        placing.touching(made, body, **start)
+    elif place == "resting":
+        placing.resting(made, body, **start)
+    elif place == "at_height":
+        height = number("height", start.pop("height", None), "m")
+        placing.at_height(made, body, height, **start)
+    else:
+        raise UnknownName("place", str(place), _PLACES)
+
+
+@dataclass(frozen=True)
+class _Reader:
+    path: Path
+    laws: Table
+    bodies: dict[str, Body]
+
+    def body(self, name: str, thing: str) -> Body:
+        if name not in self.bodies:
+            raise UnknownName(f"{thing}: body", name, self.bodies)
+        return self.bodies[name]
+
+    def between(self, table: Table, thing: str) -> tuple[Body, Body]:
+        one, two = words(f"{thing}.between", table.get("between"), 2)
+        return self.body(one, thing), self.body(two, thing)
+
+    def law(self, value: Any, thing: str, base: type) -> Any:
+        if isinstance(value, str) and not file.is_file(value):
+            if value in self.laws:
+                where = f"{self.path}: laws.{value}"
+                return component(where, self.laws[value], base, self.path.parent)
+            if value not in registry.names("laws"):
+                raise UnknownName(f"{thing}: law", value, [*self.laws, *registry.names("laws")])
+        return component(thing, value, base, self.path.parent)
+
+    def three(self, table: Table, thing: str) -> ContactLaws:
+        for role in _ROLES:
+            if role not in table:
+                remedy = "Write a name of [laws], an installed name, or a table with its type."
+                raise InvalidInput(f"{thing}.{role}", "must be given", None, remedy)
+        laws = [self.law(table[role], f"{thing}.{role}", base) for role, base in _ROLES.items()]
+        with naming(thing):
+            return ContactLaws(*laws)
+
+    def tie(self, add: Callable[..., None], table: Table, thing: str, base: type) -> None:
+        own = dict(table)
+        first, second = self.between(own, thing)
+        frames = own.pop("frames", [0, 0])
+        del own["between"]
+        if not (isinstance(frames, list) and len(frames) == 2):
+            raise InvalidInput(f"{thing}.frames", "must be two numbers", frames, "For example [0, 1].")
+        made = component(thing, own, base, self.path.parent)
+        with naming(thing):
+            add(made, first, second, frames=tuple(frames))
+
+    def contact(self, made: System, table: Table, thing: str) -> None:
+        check_keys(thing, table, ("between", "shapes", *_ROLES), required=("between",))
+        first, second = self.between(table, thing)
+        shapes = table.get("shapes", ["all", "all"])
+        if isinstance(shapes, list):
+            shapes = [None if one == "all" else one for one in shapes]
+        laws = self.three(table, thing)
+        with naming(thing):
+            made.contact(first, second, normal=laws.normal, friction=laws.friction, impact=laws.impact, shapes=shapes)
+
+    def materials(self, made: System, table: Table, of: dict[str, list[Body]], thing: str) -> None:
+        check_keys(thing, table, ("pairs", "default", "exclude"))
+        pairs: dict[tuple[str, str], ContactLaws] = {}
+        for i, pair in enumerate(tables_in(f"{thing}.pairs", table.get("pairs", []))):
+            where = f"{thing}.pairs[{i}]"
+            check_keys(where, pair, ("between", *_ROLES), required=("between",))
+            one, two = words(f"{where}.between", pair["between"], 2)
+            if (one, two) in pairs:
+                raise InvalidInput(where, "must name a pair once", [one, two], "Take one of the two out.")
+            pairs[one, two] = self.three(pair, where)
+        default = None
+        if "default" in table:
+            check_keys(f"{thing}.default", table["default"], tuple(_ROLES))
+            default = self.three(table["default"], f"{thing}.default")
+        left_out = table.get("exclude", [])
+        if not isinstance(left_out, list):
+            raise InvalidInput(f"{thing}.exclude", "must be a list of pairs", left_out, 'For example [["a", "b"]].')
+        exclude = [self.between({"between": pair}, f"{thing}.exclude") for pair in left_out]
+        with naming(thing):
+            made.contact_all(Materials(pairs, default), of, exclude=exclude)

@@ -1,0 +1,208 @@
+"""Components as tables: any frozen dataclass with parameters, by its installed name, and back."""
+
+from __future__ import annotations
+
+import collections.abc
+import contextlib
+import dataclasses
+import types
+import typing
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.plugins import file, registry
+
+TYPE = "type"
+"""The key that says of which class a component is."""
+
+Table = dict[str, Any]
+
+
+def table_of(component: Any, thing: str, declared: Any = None) -> Table:
+    """Return a component as a table of plain values.
+
+    Parameters
+    ----------
+    component : object
+        A dataclass.
+    thing : str
+        What it is, for messages ("bodies.ball").
+    declared : type, optional
+        The class that a reader expects; where that is the component's own, the table does not say it.
+
+    Raises
+    ------
+    InvalidInput
+        If its class is not installed, or it holds a function or another object that no file can hold.
+    """
+    owner = type(component)
+    table: Table = {}
+    if declared is not owner:
+        name = registry.name_of(owner)
+        if name is None:
+            raise InvalidInput(
+                thing,
+                "must be of an installed class, so that a file can name it",
+                owner.__name__,
+                "Give it an entry point in a package, as a plug-in has.",
+            )
+        table[TYPE] = name
+    if TYPE in {field.name for field in dataclasses.fields(owner)}:
+        raise InvalidInput(
+            f"{thing}.{TYPE}", "must not be a parameter", owner.__name__, "Files use this key for the class: rename it."
+        )
+    hints = typing.get_type_hints(owner)
+    for field in dataclasses.fields(owner):
+        value = getattr(component, field.name)
+        if not field.init or (value is None and field.default is None):
+            continue
+        table[field.name] = _plain(value, f"{thing}.{field.name}", hints[field.name])
+    return table
+
+
+def _plain(value: Any, thing: str, hint: Any) -> Any:
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, (bool, int, float, str)):
+        return value
+    if isinstance(value, (tuple, list, range)):
+        hints = _elements(hint, len(value))
+        return [_plain(one, f"{thing}[{i}]", hints[i]) for i, one in enumerate(value)]
+    if isinstance(value, Mapping) and all(isinstance(key, str) for key in value):
+        return {key: _plain(one, f"{thing}.{key}", Any) for key, one in value.items()}
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return table_of(value, thing, _own_class(hint))
+    what = getattr(value, "__qualname__", repr(value))
+    raise InvalidInput(
+        thing,
+        "must be made of numbers, words and components to be written to a file",
+        what,
+        "A system with Python functions lives in a Python scenario; write one, or a class with an entry point.",
+    )
+
+
+def component(thing: str, value: Any, base: type, folder: Path) -> Any:
+    """Return the component that a table, or the name of a class with defaults, describes.
+
+    Parameters
+    ----------
+    thing : str
+        Where it stands, for messages.
+    value : dict or str
+        The table, with the key ``type``; or what that key would say.
+    base : type
+        The interface that it must implement.
+    folder : Path
+        Where paths of Python files start.
+
+    Raises
+    ------
+    InvalidInput
+        If a class or a key is unknown, a value is missing or breaks a rule.
+    PluginError
+        If the class cannot be loaded.
+    """
+    table = {TYPE: value} if isinstance(value, str) else value
+    if not isinstance(table, dict):
+        raise InvalidInput(thing, "must be a table or a name", value, f'For example {{ {TYPE} = "..." }}.')
+    if TYPE not in table and _concrete(base):
+        return _made(thing, base, table, folder)
+    group = next(group for group, bases in registry.GROUPS.items() if issubclass(base, bases))
+    if not isinstance(table.get(TYPE), str):
+        raise InvalidInput(
+            f"{thing}.{TYPE}",
+            "must be a name",
+            table.get(TYPE),
+            f"Known: {', '.join(registry.names(group))}; or FILE.py:CLASS.",
+        )
+    with naming(f"{thing}.{TYPE}"):
+        owner = file.find(registry.KINDS[group], group, base, table[TYPE], folder)
+    return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, folder)
+
+
+def _made(thing: str, owner: Any, table: Table, folder: Path) -> Any:
+    hints = typing.get_type_hints(owner)
+    fields = {field.name: field for field in dataclasses.fields(owner) if field.init}
+    for key in table:
+        if key not in fields:
+            raise UnknownName(f"{thing}: parameter of {owner.__name__}", key, fields)
+    for name, field in fields.items():
+        if name not in table and field.default is field.default_factory:  # both MISSING
+            rule = field.metadata.get("rule")
+            raise InvalidInput(
+                f"{thing}.{name}", "must be given", None, f"It is the {rule.doc} [{rule.unit}]." if rule else "Add it."
+            )
+    values = {key: _value(f"{thing}.{key}", one, hints[key], folder) for key, one in table.items()}
+    with naming(thing):
+        try:
+            return owner(**values)
+        except (TypeError, AttributeError) as error:
+            raise InvalidInput(
+                owner.__name__, "must be made of values of the right kinds", table, f"{error}."
+            ) from error
+
+
+def _value(thing: str, value: Any, hint: Any, folder: Path) -> Any:
+    base = _component_class(hint)
+    if isinstance(value, list):
+        hints = _elements(hint, len(value))
+        return tuple(_value(f"{thing}[{i}]", one, hints[i], folder) for i, one in enumerate(value))
+    if base is not None and isinstance(value, (dict, str)):
+        return component(thing, value, base, folder)
+    if isinstance(value, dict):
+        return {key: _value(f"{thing}.{key}", one, Any, folder) for key, one in value.items()}
+    return value
+
+
+@contextlib.contextmanager
+def naming(thing: str) -> Iterator[None]:
+    """Put where something stands before the message of what is wrong with it."""
+    try:
+        yield
+    except InvalidInput as error:
+        raise InvalidInput(f"{thing}: {error.thing}", error.rule, error.value, error.remedy) from error
+
+
+def _options(hint: Any) -> tuple[Any, ...]:
+    """Return the types that a hint allows, None apart."""
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        return tuple(one for one in typing.get_args(hint) if one is not type(None))
+    return (hint,)
+
+
+def _elements(hint: Any, n: int) -> tuple[Any, ...]:
+    """Return the hints of the n elements of a sequence."""
+    for one in _options(hint):
+        arguments = typing.get_args(one)
+        if typing.get_origin(one) is tuple and len(arguments) == n and Ellipsis not in arguments:
+            return arguments
+        if typing.get_origin(one) in (tuple, list, collections.abc.Sequence) and arguments:
+            return (arguments[0],) * n
+    return (Any,) * n
+
+
+def _concrete(owner: Any) -> bool:
+    return isinstance(owner, type) and dataclasses.is_dataclass(owner) and not _abstract(owner)
+
+
+def _abstract(owner: type) -> bool:
+    return bool(getattr(owner, "__abstractmethods__", ()))
+
+
+def _component_class(hint: Any) -> Any:
+    """Return the class of components that a hint allows, None where it allows none."""
+    bases = tuple(base for bases in registry.GROUPS.values() for base in bases)
+    for one in _options(hint):
+        if isinstance(one, type) and (issubclass(one, bases) or _concrete(one)):
+            return one
+    return None
+
+
+def _own_class(hint: Any) -> Any:
+    """Return the class that a reader takes where a table does not say any."""
+    owner = _component_class(hint)
+    return owner if _concrete(owner) else None

@@ -1,0 +1,119 @@
+"""From a file to a system."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import final
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.files import assembling
+from nonsmooth.files.components import Table, component
+from nonsmooth.files.keys import check_keys, number
+from nonsmooth.files.parsing import changed, parse
+from nonsmooth.model.options import Options
+from nonsmooth.system.system import System
+
+SUFFIX = ".toml"
+"""What the name of a scenario file ends in."""
+
+_NO_CHANGES: Mapping[str, str] = {}
+_KEYS = (
+    "title",
+    "t_end",
+    "sample_interval",
+    "gravity",
+    "options",
+    "laws",
+    "bodies",
+    "contacts",
+    "materials",
+    "joints",
+    "loads",
+    "guards",
+)
+
+
+@final
+@dataclass(frozen=True)
+class Setup:
+    """What a scenario file says.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    title : str
+        One line that says what it is.
+    t_end, sample_interval : float or None
+        End time and time between samples [s], as far as the file says them.
+    options : Options
+        How to run it.
+    system : System
+        Bodies, contacts, starts.
+    names : tuple of str
+        Names of the bodies, in the order of the system.
+    changes : mapping of str to str
+        What was changed of the file, by key.
+    """
+
+    path: Path
+    title: str
+    t_end: float | None
+    sample_interval: float | None
+    options: Options
+    system: System
+    names: tuple[str, ...]
+    changes: Mapping[str, str]
+    _tables: Table = field(repr=False)
+
+    def build(self) -> System:
+        """Return the system anew."""
+        return assembling.system(self._tables, self.path)
+
+
+def load_system(path: str | Path) -> Setup:
+    """Read a system that :func:`save_system` or a user wrote.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    Setup
+        With ``system``, ``t_end``, ``sample_interval`` and ``options``, as :func:`simulate` takes them.
+
+    Raises
+    ------
+    InvalidInput
+        If there is no such file, it is no TOML, or anything in it breaks a rule: file, key, rule, value and remedy
+        are named.
+    PluginError
+        If a class that it names cannot be loaded.
+    """
+    return read(Path(path))
+
+
+def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
+    """Return what a file says, with some of its values changed, by dotted key ("bodies.ball.radius"), as TOML text.
+
+    Raises
+    ------
+    InvalidInput, PluginError
+        As :func:`load_system`, or if a key to be changed leads nowhere.
+    """
+    tables = changed(parse(path), changes, path)
+    check_keys(f"{path}", tables, _KEYS, required=("bodies",))
+    title = tables.get("title", "")
+    if not isinstance(title, str):
+        raise InvalidInput(f"{path}: title", "must be a text", title, "Put it in quotation marks.")
+    t_end, interval = (
+        number(f"{path}: {key}", tables[key], "s", positive=True) if key in tables else None
+        for key in ("t_end", "sample_interval")
+    )
+    options = component(f"{path}: options", tables.get("options", {}), Options, path.parent)
+    made = assembling.system(tables, path)
+    return Setup(path, title, t_end, interval, options, made, tuple(tables["bodies"]), dict(changes), tables)

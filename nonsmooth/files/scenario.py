@@ -1,0 +1,73 @@
+"""A file as a scenario, for the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.files.parsing import value
+from nonsmooth.files.reading import Setup
+from nonsmooth.interfaces import Scenario
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+
+_SAMPLES = 2000
+
+
+@final
+@dataclass(frozen=True)
+class FileScenario(Scenario):
+    """The system of a file; it has no coordinates and no figures of its own."""
+
+    title: ClassVar[str] = "A scenario file"
+
+    setup: Setup
+
+    def _check(self) -> None:
+        if self.setup.t_end is None:
+            raise InvalidInput(
+                f"{self.setup.path}: t_end", "must be given to run", None, "Add t_end = 1.0 [s], or --set t_end=1."
+            )
+
+    @property
+    def t_end(self) -> float:
+        """As the file says [s]."""
+        return float(self.setup.t_end or 0.0)
+
+    @property
+    def sample_interval(self) -> float:
+        """As the file says, a two-thousandth of the run by default [s]."""
+        return self.setup.sample_interval or self.t_end / _SAMPLES
+
+    def build(self) -> System:
+        """Return the system of the file."""
+        return self.setup.build()
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return title, times, and what was set on the command line."""
+        said = {"title": self.setup.title, "t_end": self.t_end, "sample_interval": self.sample_interval}
+        return {key: value(text) for key, text in self.setup.changes.items()} | said
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return nothing: q and u are in the results as they are."""
+        return {}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u} of all bodies at the end, in the order of the file."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return how the energy was lost [J]."""
+        energy = solution.energy
+        return {"restitution_loss": energy.restitution_loss, "friction_loss": energy.friction_loss}
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return none."""
+        return {}
+
+    @classmethod
+    def gallery(cls, progress: Any) -> Mapping[str, Any]:
+        """Return none."""
+        return {}

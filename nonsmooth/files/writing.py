@@ -1,0 +1,136 @@
+"""From a system to a file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.files.components import TYPE, Table, table_of
+from nonsmooth.files.text import text_of
+from nonsmooth.interfaces import Body
+from nonsmooth.model.options import Options
+from nonsmooth.plugins import registry
+from nonsmooth.solution.files import replacing
+from nonsmooth.system.contact import Declaration, Tie
+from nonsmooth.system.system import System
+
+
+def save_system(
+    system: System,
+    path: str | Path,
+    *,
+    t_end: float | None = None,
+    sample_interval: float | None = None,
+    options: Options | None = None,
+    title: str = "",
+    names: Sequence[str] = (),
+) -> None:
+    """Write a system to a TOML file that :func:`load_system` and ``nonsmooth run`` read.
+
+    Numbers come back to the last bit, so that a run from the file is the same run.
+
+    Parameters
+    ----------
+    system : System
+        All of its components must be of installed classes and without Python functions.
+    path : str or Path
+        The file, ending in .toml.
+    t_end, sample_interval : float, optional
+        End time and time between samples [s].
+    options : Options, optional
+        How to run it; the defaults are not written.
+    title : str
+        One line that says what it is.
+    names : sequence of str
+        Names for the bodies, in their order; by default those of their classes, numbered.
+
+    Raises
+    ------
+    InvalidInput
+        If a component cannot be written; it is named, and no file is written.
+    FileError
+        If the file cannot be written.
+    """
+    tables: Table = {"title": title} if title else {}
+    times = {"t_end": t_end, "sample_interval": sample_interval}
+    tables |= {name: float(value) for name, value in times.items() if value is not None}
+    tables["gravity"] = 0.0 - system.gravity[2]
+    if options is not None and options != Options():
+        tables["options"] = table_of(options, "options", Options)
+    known = dict(zip(map(id, system.bodies), _names(system.bodies, names), strict=True))
+    laws = _Laws()
+    contacts = [_contact(said, known, laws, f"contacts[{i}]") for i, said in enumerate(system.declarations)]
+    tables["laws"] = laws.tables
+    tables["bodies"] = {known[id(body)]: _body(system, body, f"bodies.{known[id(body)]}") for body in system.bodies}
+    tables["contacts"] = contacts
+    for kind, ties in (("joints", system.joints), ("loads", system.loads)):
+        tables[kind] = [_tie(tie, known, f"{kind}[{i}]") for i, tie in enumerate(ties)]
+    tables["guards"] = [table_of(guard, f"guards[{i}]") for i, guard in enumerate(system.guards)]
+    text = text_of({name: value for name, value in tables.items() if value not in ([], {})})
+    with replacing(Path(path)) as part:
+        part.write_text(text, encoding="utf-8")
+
+
+class _Laws:
+    """The laws met so far: equal ones are written once, under a name."""
+
+    def __init__(self) -> None:
+        self.tables: Table = {}
+        self._met: list[tuple[Any, str]] = []
+
+    def name(self, law: Any, thing: str) -> str:
+        for other, name in self._met:
+            if type(other) is type(law) and other == law:
+                return name
+        table = table_of(law, thing)
+        name = str(table[TYPE])
+        if len(table) > 1:  # one without parameters goes by its installed name
+            name = _free(name, self.tables)
+            self.tables[name] = table
+        self._met.append((law, name))
+        return name
+
+
+def _free(name: str, taken: Table) -> str:
+    number, free = 1, name
+    while free in taken:
+        number += 1
+        free = f"{name}_{number}"
+    return free
+
+
+def _names(bodies: Sequence[Body], given: Sequence[str]) -> list[str]:
+    if given:
+        if len(given) != len(bodies) or len(set(given)) != len(given):
+            raise InvalidInput(
+                "save_system: names", f"must be {len(bodies)} different names", list(given), "Give one a body."
+            )
+        return list(given)
+    kinds = [registry.name_of(type(body)) or type(body).__name__ for body in bodies]
+    return [kind if kinds.count(kind) == 1 else f"{kind}_{kinds[: i + 1].count(kind)}" for i, kind in enumerate(kinds)]
+
+
+def _body(system: System, body: Body, thing: str) -> Table:
+    table = table_of(body, thing)
+    if body.n_q:
+        q, u = system.start(body)
+        table["start"] = {"q": q.tolist(), "u": u.tolist()}
+    return table
+
+
+def _contact(said: Declaration, known: dict[int, str], laws: _Laws, thing: str) -> Table:
+    table: Table = {"between": [known[id(said.first)], known[id(said.second)]]}
+    if said.shapes != (None, None):
+        table["shapes"] = ["all" if chosen is None else list(chosen) for chosen in said.shapes]
+    for role in ("normal", "friction", "impact"):
+        table[role] = laws.name(getattr(said.laws, role), f"{thing}.{role}")
+    return table
+
+
+def _tie(tie: Tie, known: dict[int, str], thing: str) -> Table:
+    head: Table = {"between": [known[id(tie.first)], known[id(tie.second)]]}
+    if tie.frames != (0, 0):
+        head["frames"] = list(tie.frames)
+    return head | table_of(tie.component, thing)

@@ -1,0 +1,108 @@
+"""Classes by name: of an installed plug-in, or of a single file that nobody installed."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import inspect
+import re
+import sys
+import traceback
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from nonsmooth.errors import InvalidInput, PluginError, UnknownName
+from nonsmooth.plugins import registry
+
+_FILE = re.compile(r"(?P<file>.*\.py):(?P<name>[^:]*)")
+
+
+def is_file(word: str) -> bool:
+    """Tell whether a word means a class of a file, ``path/to/file.py:Class``, and not an installed name."""
+    return _FILE.fullmatch(word) is not None
+
+
+def find(thing: str, group: str, base: type, word: str, folder: Path | None = None) -> Any:
+    """Return the class that a word means.
+
+    Parameters
+    ----------
+    thing : str
+        What asks for it, for messages ("--law friction").
+    group : str
+        Group of the installed names.
+    base : type
+        The interface that it must implement.
+    word : str
+        An installed name, or ``file.py:Class``.
+    folder : Path, optional
+        Where the path of a file starts; the working folder by default.
+
+    Raises
+    ------
+    UnknownName
+        If nothing is installed under that name, or the file has no such class.
+    InvalidInput
+        If there is no such file, or what is installed is of another kind.
+    PluginError
+        If it cannot be loaded.
+    """
+    if is_file(word):
+        return load(thing, (base,), word, folder)
+    if word.endswith(".py"):
+        raise InvalidInput(thing, "must name a class of the file", word, f"For example {word}:MyLaw.")
+    if word in registry.names(group):
+        owner = registry.load(group, word)
+        if issubclass(owner, base):
+            return owner
+    known = [name for name, owner in registry.load_all(group).items() if issubclass(owner, base)]
+    raise UnknownName(thing, word, known)
+
+
+def load(thing: str, bases: tuple[type, ...], word: str, folder: Path | None = None) -> Any:
+    """Return a class of a file; parameters and errors are those of :func:`find`."""
+    match = _FILE.fullmatch(word)
+    if match is None:
+        raise InvalidInput(thing, "must have the form file.py:Class", word, "For example ./my_law.py:MyLaw.")
+    path = ((folder or Path()) / match["file"]).resolve()
+    if not path.is_file():
+        raise InvalidInput(thing, "must name a file that exists", match["file"], f"There is no {path}.")
+    module, name = _module(thing, path), match["name"]
+    known = [
+        n for n, c in vars(module).items() if inspect.isclass(c) and c.__module__ == module.__name__ and _fits(c, bases)
+    ]
+    if name not in vars(module):
+        raise UnknownName(f"{thing}: class of {path.name}", name, known)
+    return registry.check_class(f"{thing}: {name} of {path}", vars(module)[name], bases)
+
+
+def _fits(owner: type, bases: tuple[type, ...]) -> bool:
+    return issubclass(owner, bases) and not inspect.isabstract(owner)
+
+
+def _module(thing: str, path: Path) -> ModuleType:
+    """Run a file as a module of a name that no package has."""
+    key = f"{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+    specification = importlib.util.spec_from_file_location(key, path)
+    if specification is None or specification.loader is None:
+        raise InvalidInput(thing, "must name a Python file", str(path), "Its name must end in .py.")
+    module = importlib.util.module_from_spec(specification)
+    sys.modules[key] = module  # dataclasses and numba look modules up by name
+    try:
+        specification.loader.exec_module(module)
+    except Exception as error:
+        del sys.modules[key]
+        raise PluginError(f"{thing}: {path}{_line(error, path)} cannot be loaded: {_reason(error)}.") from error
+    return module
+
+
+def _line(error: Exception, path: Path) -> str:
+    if isinstance(error, SyntaxError) and error.lineno is not None:
+        return f", line {error.lineno},"
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+    return f", line {lines[-1]}," if lines else ""
+
+
+def _reason(error: Exception) -> str:
+    return f"{type(error).__name__}: {error.msg if isinstance(error, SyntaxError) else error}"

@@ -1,0 +1,52 @@
+"""The same system with other laws."""
+
+from __future__ import annotations
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import FrictionLaw, ImpactLaw, NormalLaw
+from nonsmooth.system.system import System
+
+
+def with_laws(
+    system: System,
+    *,
+    normal: NormalLaw | None = None,
+    friction: FrictionLaw | None = None,
+    impact: ImpactLaw | None = None,
+) -> System:
+    """Return a system of the same bodies, starts, joints, loads and guards, with other laws in all of its contacts.
+
+    Parameters
+    ----------
+    system : System
+        Stays as it is.
+    normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw, optional
+        The laws to put in; a law that is left out stays.
+
+    Raises
+    ------
+    InvalidInput
+        If the system has no contact, or a law is of the wrong kind.
+    """
+    if not system.declarations:
+        raise InvalidInput("with_laws", "needs a system with contacts", 0, "Declare some with system.contact(...).")
+    made = System(system.bodies, -system.gravity[2])
+    for said in system.declarations:
+        laws = said.laws
+        made.contact(
+            said.first,
+            said.second,
+            normal=laws.normal if normal is None else normal,
+            friction=laws.friction if friction is None else friction,
+            impact=laws.impact if impact is None else impact,
+            shapes=said.shapes,
+        )
+    for tie in system.joints:
+        made.joint(tie.component, tie.first, tie.second, frames=tie.frames)  # type: ignore[arg-type]
+    for tie in system.loads:
+        made.load(tie.component, tie.first, tie.second, frames=tie.frames)  # type: ignore[arg-type]
+    for guard in system.guards:
+        made.guard(guard)
+    for body in system.bodies:
+        made.set_start(body, *system.start(body))
+    return made

@@ -1,0 +1,1 @@
+"""Texts out of which ``nonsmooth new`` makes files."""

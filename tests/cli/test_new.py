@@ -1,0 +1,49 @@
+"""``nonsmooth new plugin``: the package that it writes works from the first minute."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+def test_its_own_tests_are_green_and_find_a_mistake(call: Call, tmp_path: Path) -> None:
+    folder = tmp_path / "somewhere"
+    status, output, errors = call("new", "plugin", "wet_sand", "--dir", str(folder))
+    assert (status, errors) == (0, "")
+    assert sorted(Path(line).relative_to(folder).as_posix() for line in output.split()) == [
+        "README.md",
+        "pyproject.toml",
+        "tests/test_friction.py",
+        "wet_sand/__init__.py",
+        "wet_sand/friction.py",
+    ]
+    words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+    law = folder / "wet_sand" / "friction.py"
+    law.write_text(law.read_text().replace("return kinetic +", "return -kinetic +"))
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "not negative" in done.stdout
+
+
+@pytest.mark.parametrize("name", ["Sand", "1sand", "wet-sand", "class", "math", "laws", "coulomb", "sand_"])
+def test_a_name_that_cannot_be_is_refused(call: Call, tmp_path: Path, name: str) -> None:
+    status, output, errors = call("new", "plugin", name, "--dir", str(tmp_path / "new"))
+    assert (status, output) == (2, "")
+    assert f"but it is {name!r}" in errors
+    assert not (tmp_path / "new").exists()
+
+
+def test_nothing_is_overwritten(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("kept")
+    status, _, errors = call("new", "plugin", "sand", "--dir", str(tmp_path))
+    assert status == 2
+    assert "must be given a folder that is empty or new" in errors
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]

@@ -1,0 +1,8 @@
+"""A friction law, an impact law, a body and a scenario, as a stranger would write them."""
+
+from .body import HollowBall
+from .friction import Rubber
+from .impact import Softening
+from .scenario import HollowBallOnSlope
+
+__all__ = ["HollowBall", "HollowBallOnSlope", "Rubber", "Softening"]
