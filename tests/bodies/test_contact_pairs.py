@@ -185,6 +185,16 @@ def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
     assert seen == set(range(len(rig.contacts[0].kinematics.features)))
 
 
+def test_tangent_of_a_face_that_looks_down_stays_with_it(build: Any) -> None:
+    """The normal (0, 0, -1) of the body has no tangent of its own; round-off must not choose one as the body turns."""
+    rig = Rig((Box(0.3, 0.2, 0.4), Sphere(0.1)), build.laws())
+    for i in range(30):
+        turn = Rotation.from_rotvec([0.3 * i, -0.2 * i, 0.5])
+        q = np.roll(turn.as_quat(), 1)
+        rig.put([(np.zeros(3), q), (turn.apply([0.01 * i, 0.05, -0.6]), q)], np.zeros(12))
+        np.testing.assert_allclose(rig.geometry[0, 4:7], turn.apply([1.0, 0.0, 0.0]), rtol=0, atol=1e-12)
+
+
 AT_ORIGIN = (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
 LEVEL_X = {"axis_x": 1.0, "axis_z": 0.0}
 DEGENERATE: dict[str, tuple[tuple[Shape, Shape], Any, float]] = {
