@@ -133,7 +133,7 @@ def _not_negative(law: FrictionLaw, case: Case) -> str:
 
 def _static_limit(law: FrictionLaw, case: Case) -> str:
     rest, slow, slower = _mu(law, 0.0), _mu(law, 1e-12), _mu(law, 1e-300)
-    if slower > rest * (1.0 + 1e-12):
+    if slower > rest * (1.0 + 1e-12) + 1e-12:
         return f"coefficient(0) is {rest:g}, below {slower:g} of incipient slip"
     if abs(slow - slower) > 1e-6 * (1.0 + abs(slow)):
         return f"coefficient(1e-12) is {slow:g} and coefficient(1e-300) {slower:g}: slow slip has no limit"

@@ -29,7 +29,7 @@ def process_rows(law: ImpactProcess) -> list[Row]:
 
     return [
         row("force", "zero at zero, and it rises with the indentation", _force, [_INDENTATION]),
-        row("efficiency", "1 for rates up to zero, between 0 and 1 above", _efficiency, [_RATE]),
+        row("efficiency", "1 for rates below zero, between 0 and 1 from there", _efficiency, [_RATE]),
         row(
             "certificate",
             "energies that the engine stores and gives back obey it",
@@ -54,7 +54,7 @@ def _force(law: ImpactProcess, case: Case) -> str:
 def _efficiency(law: ImpactProcess, case: Case) -> str:
     efficiency = plain_caller(law.efficiency, "scalar", law.parameters())
     for rate in (0.0, case["rate"], *_GRID):
-        if efficiency(-rate) != 1.0:
+        if rate > 0.0 and efficiency(-rate) != 1.0:
             return f"efficiency({-rate:g}) is {efficiency(-rate):g}"
         if not 0.0 <= efficiency(rate) <= 1.0:
             return f"efficiency({rate:g}) is {efficiency(rate):g}"
