@@ -6,6 +6,7 @@ import math
 
 from nonsmooth.engine.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact_problem import friction_coefficient
+from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.impact_rates import (
     COMPRESSION,
@@ -16,6 +17,9 @@ from nonsmooth.engine.impact_rates import (
     normal_force,
 )
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+
+_IDLE = 1e-10
+"""A slip that starts with less than this part of the largest acceleration does not."""
 
 
 @kernel()
@@ -35,6 +39,22 @@ def _stop_slips(S: Scalars, w: Floats, k: Integers) -> None:
         for r in range(1, 3):
             w[S.impact_y + STRIDE * a + r] += w[S.f + 3 * a + r]
     evaluate_impact_rates(S, w, k, S.impact_y)
+
+
+@kernel("void(S, F, I)")
+def _hold_idle(S: Scalars, w: Floats, k: Integers) -> None:
+    """Let stick who was found on its bound but does not start to slip.
+
+    Where several contacts share their friction at will, some stand on their bounds by chance.
+    """
+    largest = 0.0
+    for a in range(S.n_active):
+        largest = max(largest, w[own_block(S, k, a)] * w[S.f + 3 * a])
+    for a in range(S.n_active):
+        if k[S.at_rest + a] == 1 and k[S.tangent_held + a] == 0 and w[S.mu_static + a] > 0.0:
+            v1, v2 = add_product(S, w, k, 0.0, a, 1, S.f), add_product(S, w, k, 0.0, a, 2, S.f)
+            if math.sqrt(v1 * v1 + v2 * v2) <= _IDLE * largest:
+                k[S.tangent_held + a] = 1
 
 
 @room("void(S, F, I, f8)")
@@ -77,6 +97,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         for i in range(3 * S.n_active):
             w[S.b + i] = 0.0
         gauss_seidel(S, w, k, SWEEPS)
+        _hold_idle(S, w, k)
     for a in range(S.n_active):
         c = k[S.active + a]
         if w[S.f + 3 * a] <= 0.0:

@@ -229,3 +229,21 @@ def test_friction_to_zero_is_frictionless(contacts: int) -> None:
     ]
     assert gaps[0] <= 1e-3
     assert gaps[1] / gaps[0] == pytest.approx(1e-2, rel=0.05)
+
+
+@pytest.mark.parametrize("mu", [0.045, 0.048, 0.05, 0.053])
+def test_two_contacts_that_share_their_friction(mu: float) -> None:
+    """A body falls straight: who bears the friction is not unique, and at the bound it ends all the same."""
+    mass, normal, tangential = np.diag([1.0, 1.0, 1.0, 0.3, 0.4, 0.5]), np.zeros((6, 2)), np.zeros((6, 2, 2))
+    for i in range(2):
+        arm = np.array([i - 0.5, 0.1 * i, -0.5])
+        for column, axis in ((normal[:, i], 2), (tangential[:, i, 0], 0), (tangential[:, i, 1], 1)):
+            column[axis], column[3:] = 1.0, np.cross(arm, np.eye(3)[axis])
+    u = np.array([0.0, 0.0, -1.0, 0.0, 0.0, 0.0])
+    result = ns.solve_impact(mass, normal, tangential, u, [EnergeticImpact(0.65)] * 2, [Coulomb(mu)] * 2)
+    assert result.phases < 200
+    np.testing.assert_allclose(result.returned, 0.65**2 * result.stored, rtol=1e-8)
+    assert np.all(np.linalg.norm(result.tangential_impulse, axis=1) <= mu * result.normal_impulse * (1.0 + 1e-9))
+    assert np.all(normal.T @ result.velocity >= -1e-12)
+    lost = 0.5 * u @ mass @ u - 0.5 * result.velocity @ mass @ result.velocity
+    assert lost == pytest.approx(np.sum(result.stored - result.returned + result.friction_loss), rel=1e-9)
