@@ -21,8 +21,8 @@ from numba.extending import intrinsic, typeof_impl
 
 from nonsmooth.engine.native_build import KEYED, EnginePasses, c_function, cache_folder, numbered, raw, typed_once
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
-from nonsmooth.model.layout import ROOMS
 from nonsmooth.model.memory import Memory
+from nonsmooth.model.rooms import ROOMS
 
 _OPTIONS: dict[str, Any] = {
     "nopython": True,

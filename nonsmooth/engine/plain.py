@@ -7,8 +7,9 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from nonsmooth.model.layout import ROOMS, SCALARS
+from nonsmooth.model.layout import SCALARS
 from nonsmooth.model.memory import Memory
+from nonsmooth.model.rooms import ROOMS
 
 _functions: list[Callable[..., Any]] = []
 _rooms: dict[str, Callable[..., Any]] = {}

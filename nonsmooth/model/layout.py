@@ -49,6 +49,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from nonsmooth.model import tableau
+from nonsmooth.model.rooms import ROOMS
 
 FRAME = 24
 """Floats of frame motion at the head of a body's output block."""
@@ -87,45 +88,6 @@ N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair."""
 TOTALS = 9
 """Floats of a contact that go from one window of a large impact to the next."""
-
-ROOMS = (
-    "resolve",
-    "gauss_seidel",
-    "energetic_impact",
-    "run_impact",
-    "windowed_impact",
-    "evaluate_impact_forces",
-    "solve_contact",
-    "solve_from_rates",
-    "find_modes",
-    "verify",
-    "spread",
-    "choose_share",
-    "polish",
-    "enumerate_modes",
-    "search_by_pivots",
-    "search_by_newton",
-    "right_hand_side",
-    "slope",
-    "evaluate_contact",
-    "evaluate_at",
-    "guards_within",
-    "settle",
-    "advance",
-    "try_step",
-    "collide",
-    "touch",
-    "project_rates",
-    "project_joints",
-    "project_closed",
-    "list_contacts",
-    "set_up",
-    "first_crossing",
-    "locate",
-    "choose_friction",
-    "locate_switch",
-)
-"""Engine functions that are compiled apart and called by address (:func:`nonsmooth.engine.kernel.room`)."""
 
 INTEGER_SCALARS = (
     "n_bodies",

@@ -1,0 +1,42 @@
+"""The parts of the engine that are compiled apart."""
+
+from __future__ import annotations
+
+ROOMS = (
+    "resolve",
+    "gauss_seidel",
+    "energetic_impact",
+    "run_impact",
+    "windowed_impact",
+    "evaluate_impact_forces",
+    "solve_contact",
+    "solve_from_rates",
+    "find_modes",
+    "verify",
+    "spread",
+    "choose_share",
+    "polish",
+    "enumerate_modes",
+    "search_by_pivots",
+    "search_by_newton",
+    "right_hand_side",
+    "slope",
+    "evaluate_contact",
+    "evaluate_at",
+    "guards_within",
+    "settle",
+    "advance",
+    "try_step",
+    "collide",
+    "touch",
+    "project_rates",
+    "project_joints",
+    "project_closed",
+    "list_contacts",
+    "set_up",
+    "first_crossing",
+    "locate",
+    "choose_friction",
+    "locate_switch",
+)
+"""Engine functions that are compiled apart and called by address (:func:`nonsmooth.engine.kernel.room`)."""
