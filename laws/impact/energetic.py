@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from laws.impact.power import power_force
-from nonsmooth.interfaces import ImpactProcess
+from laws.impact.power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 from nonsmooth.parameters import parameter
 
 
@@ -17,7 +16,7 @@ def _efficiency(rate: float, restitution: float) -> float:
 
 @final
 @dataclass(frozen=True)
-class EnergeticImpact(ImpactProcess):
+class EnergeticImpact(PowerProcess):
     """The bi-stiffness law of Eqs. (19)-(28), with friction, for any number of coupled contacts.
 
     Only ratios of stiffness matter where all exponents are equal, so 1 will do for contacts of one material.
@@ -29,28 +28,14 @@ class EnergeticImpact(ImpactProcess):
     """
 
     restitution: float = parameter(doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    stiffness: float = parameter(
-        1.0, doc="contact stiffness k of F = k x^eta, relative to the other contacts", unit="N/m^eta", above=0.0
-    )
-    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
-    duration: float = parameter(
-        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
-    )
-
-    @property
-    def force(self) -> Callable[..., float]:
-        """K x^eta, Eq. (20)."""
-        return power_force
+    stiffness: float = stiffness_parameter()
+    exponent: float = exponent_parameter()
+    duration: float = duration_parameter()
 
     @property
     def efficiency(self) -> Callable[..., float]:
         """1 in compression, e^2 in expansion, Eq. (28)."""
         return _efficiency
-
-    @property
-    def contact_time(self) -> float:
-        """The parameter ``duration`` [s]."""
-        return self.duration
 
     def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
         """Tell whether the share e^2 of the stored energy [J] came back."""

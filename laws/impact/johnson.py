@@ -7,8 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from laws.impact.power import power_force
-from nonsmooth.interfaces import ImpactProcess
+from laws.impact.power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 from nonsmooth.parameters import parameter
 
 
@@ -46,7 +45,7 @@ def _efficiency(rate: float, elastic_speed: float) -> float:
 
 @final
 @dataclass(frozen=True)
-class JohnsonImpact(ImpactProcess):
+class JohnsonImpact(PowerProcess):
     """Plastic flow: e = (v_1 / v)^(1/4) above the speed v_1, elastic below; v_1 is :func:`johnson_speed`.
 
     The efficiency of the expansion depends on its own rate such that a contact by itself, without coupling of normal
@@ -62,28 +61,14 @@ class JohnsonImpact(ImpactProcess):
     elastic_speed: float = parameter(
         0.02, doc="approach speed v_1 up to which e = 1", unit="m/s", above=0.0, usual=(1e-7, 1e3)
     )
-    stiffness: float = parameter(
-        1.0, doc="contact stiffness k of F = k x^eta, relative to the other contacts", unit="N/m^eta", above=0.0
-    )
-    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
-    duration: float = parameter(
-        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
-    )
-
-    @property
-    def force(self) -> Callable[..., float]:
-        """K x^eta, Eq. (20)."""
-        return power_force
+    stiffness: float = stiffness_parameter()
+    exponent: float = exponent_parameter()
+    duration: float = duration_parameter()
 
     @property
     def efficiency(self) -> Callable[..., float]:
         """1 for slow expansion, 3/4 (v_1 / rate)^(2/3) above v_1."""
         return _efficiency
-
-    @property
-    def contact_time(self) -> float:
-        """The parameter ``duration`` [s]."""
-        return self.duration
 
     def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
         """Tell whether no more energy [J] came back than went in."""

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from laws.impact.power import power_force
-from nonsmooth.interfaces import ImpactProcess
+from laws.impact.power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 from nonsmooth.parameters import parameter
 
 
@@ -18,7 +17,7 @@ def _efficiency(rate: float, restitution: float) -> float:
 
 @final
 @dataclass(frozen=True)
-class MonoStiffnessImpact(ImpactProcess):
+class MonoStiffnessImpact(PowerProcess):
     """The mono-stiffness law: expansion goes back along the curve of compression and ends under load.
 
     A contact opens when the share e^2 of the energy that it held at the end of its last compression has come
@@ -33,28 +32,14 @@ class MonoStiffnessImpact(ImpactProcess):
     """
 
     restitution: float = parameter(doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    stiffness: float = parameter(
-        1.0, doc="contact stiffness k of F = k x^eta, relative to the other contacts", unit="N/m^eta", above=0.0
-    )
-    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
-    duration: float = parameter(
-        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
-    )
-
-    @property
-    def force(self) -> Callable[..., float]:
-        """K x^eta, Eq. (20), in both phases."""
-        return power_force
+    stiffness: float = stiffness_parameter()
+    exponent: float = exponent_parameter()
+    duration: float = duration_parameter()
 
     @property
     def efficiency(self) -> Callable[..., float]:
         """1 in both phases; e^2 of the energy at the turn comes back."""
         return _efficiency
-
-    @property
-    def contact_time(self) -> float:
-        """The parameter ``duration`` [s]."""
-        return self.duration
 
     def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
         """Tell whether at least the share e^2 of the stored energy [J] came back, and no more than all.

@@ -9,8 +9,8 @@ from typing import final
 import numpy as np
 
 from laws.impact.cone import solve_cone
+from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
-from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
 
@@ -36,9 +36,7 @@ class PlasticImpact(ImpactMap):
     J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988) 1-82.
     """
 
-    duration: float = parameter(
-        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
-    )
+    duration: float = duration_parameter()
 
     @property
     def impulses(self) -> Callable[..., None]:

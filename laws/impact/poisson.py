@@ -9,6 +9,7 @@ from typing import final
 import numpy as np
 
 from laws.impact.cone import solve_cone
+from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -53,9 +54,7 @@ class PoissonImpact(ImpactMap):
     """
 
     restitution: float = parameter(doc="kinetic coefficient of restitution e_P", minimum=0.0, maximum=1.0)
-    duration: float = parameter(
-        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
-    )
+    duration: float = duration_parameter()
 
     @property
     def impulses(self) -> Callable[..., None]:

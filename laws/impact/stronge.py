@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
+from laws.impact.power import duration_parameter
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
@@ -117,9 +118,7 @@ class StrongeImpact(ImpactMap):
     """
 
     restitution: float = parameter(doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    duration: float = parameter(
-        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
-    )
+    duration: float = duration_parameter()
 
     @property
     def impulses(self) -> Callable[..., None]:

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from typing import final
 
 from laws.impact.hertz import hertz_stiffness
-from laws.impact.power import power_force
+from laws.impact.power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 from nonsmooth.compiled import compiled
-from nonsmooth.interfaces import ImpactProcess
 from nonsmooth.parameters import parameter
 
 _C1 = 0.501086
@@ -71,7 +70,7 @@ def _efficiency(rate: float, reference_speed: float) -> float:
 
 @final
 @dataclass(frozen=True)
-class ViscoelasticImpact(ImpactProcess):
+class ViscoelasticImpact(PowerProcess):
     """Spheres with the force k (x^(3/2) + 3/2 A sqrt(x) dx/dt), never pulling: e falls from 1 as 1 - C (v / v_1)^(1/5).
 
     With s = (v / v_1)^(1/10), e = (1 + c_1 s) / (1 + c_1 s + b_2 s^2 + b_3 s^3 + b_4 s^4); v_1 is
@@ -94,28 +93,14 @@ class ViscoelasticImpact(ImpactProcess):
     reference_speed: float = parameter(
         1.0, doc="approach speed v_1 at which e = 0.40", unit="m/s", above=0.0, usual=(1e-9, 1e12)
     )
-    stiffness: float = parameter(
-        1.0, doc="contact stiffness k of F = k x^eta, relative to the other contacts", unit="N/m^eta", above=0.0
-    )
-    exponent: float = parameter(1.5, doc="exponent eta of F = k x^eta (3/2 Hertz, 1 linear)", minimum=1.0, maximum=10.0)
-    duration: float = parameter(
-        2e-5, doc="contact time T_c of the accumulation rule (33)", unit="s", minimum=0.0, usual=(1e-12, 1e-2)
-    )
-
-    @property
-    def force(self) -> Callable[..., float]:
-        """K x^eta, Eq. (20)."""
-        return power_force
+    stiffness: float = stiffness_parameter()
+    exponent: float = exponent_parameter()
+    duration: float = duration_parameter()
 
     @property
     def efficiency(self) -> Callable[..., float]:
         """E d(v e)/dv at the speed v whose rebound v e is the rate."""
         return _efficiency
-
-    @property
-    def contact_time(self) -> float:
-        """The parameter ``duration`` [s]."""
-        return self.duration
 
     def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
         """Tell whether no more energy [J] came back than went in."""
