@@ -19,7 +19,7 @@ from nonsmooth.testing.property import Property, properties
 
 _NUMBERS = 24
 _DRAWS = 24
-_WHILE = 0.05
+_WHILE = 0.5
 
 
 def check_guard(guard: Guard, *, numbers: int = _NUMBERS) -> list[Property]:

@@ -90,7 +90,7 @@ def _look(load: Load, t: float, at: Frames) -> Array:
 def _writes(load: Load, case: Case) -> str:
     call, at = _plain(load), (case["t"], moving.frames(case))
     other = {name: -0.9 * value + 0.11 for name, value in case.items()}
-    before = _written(call, case["t"], moving.frames(other))
+    before = _written(call, 1.0 - case["t"], moving.frames(other))
     wrong = np.flatnonzero(_written(call, *at, before) != _written(call, *at))
     return f"number {wrong[0]} of the block is left from the call before" if len(wrong) else ""
 

@@ -18,7 +18,7 @@ from nonsmooth.testing.examine import Trial, examine
 from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
 from nonsmooth.testing.jumps import jump
 from nonsmooth.testing.moving import Array
-from nonsmooth.testing.property import Broken, Property, Row, properties
+from nonsmooth.testing.property import Broken, NotChecked, Property, Row, properties
 
 _DRAWS = 40
 _SAME = 1e-6
@@ -50,8 +50,7 @@ def check_motion(motion: Motion, *, duration: float | None = None) -> list[Prope
     """
 
     def span() -> float:
-        scale = float(motion.time_scale)
-        return duration or (_LOOKED_AT * scale if math.isfinite(scale) else 1.0)
+        return duration or (_LOOKED_AT * _unit(motion) if math.isfinite(motion.time_scale) else 1.0)
 
     functions = Functions(lambda: [_evaluator(motion, span())])
 
@@ -106,8 +105,14 @@ def _look(motion: Motion, t: float) -> Array:
     return _written(_plain(motion), t)[:FRAME]
 
 
+def _unit(motion: Motion) -> float:
+    """Return the time scale, a second where there is none to go by [s]."""
+    scale = float(motion.time_scale)
+    return scale if math.isfinite(scale) and scale > 0.0 else 1.0
+
+
 def _step(motion: Motion) -> float:
-    return _STEP * (float(motion.time_scale) if math.isfinite(motion.time_scale) else 1.0)
+    return _STEP * _unit(motion)
 
 
 def _check_positive(motion: Motion) -> None:
@@ -117,7 +122,7 @@ def _check_positive(motion: Motion) -> None:
 
 def _writes(motion: Motion, case: Case) -> str:
     call = _plain(motion)
-    clean, before = _written(call, case["t"]), _written(call, case["t"] + 137.0 * _step(motion))
+    clean, before = _written(call, case["t"]), _written(call, abs(case["t"] - 0.637 * _unit(motion)))
     wrong = np.flatnonzero(_written(call, case["t"], before) != clean)
     return f"number {wrong[0]} of the block is left from the call before" if len(wrong) else ""
 
@@ -168,6 +173,8 @@ def _check_jumps(motion: Motion, span: float) -> None:
 
 def _check_scale(motion: Motion, span: float) -> None:
     scale = float(motion.time_scale)
+    if not scale > 0.0:
+        raise NotChecked("not checked, as the time scale is not positive")
     piece = min(scale, span) / _PIECES
     blocks = np.array([_look(motion, t) for t in np.arange(0.0, span + piece, 0.5 * piece)])
     for name, part in _PARTS:
