@@ -19,6 +19,9 @@ from nonsmooth.plugins.fingerprint import fingerprint
 
 ROLES = {
     "scalar": ("x",),
+    "compliance": ("indentation", "rate", "closing_rate"),
+    "traction": ("normal_force", "motion", "state", "out"),
+    "rates": ("speed", "state", "out"),
     "guard": ("t", "q", "u"),
     "body": ("t", "q", "u", "out"),
     "load": ("t", "a", "b", "out"),
@@ -29,6 +32,9 @@ ROLES = {
 
 _CALLS = {
     "scalar": ("x, p", "return law(x{unpacked})", "return nan"),
+    "compliance": ("x, y, z, p", "return law(x, y, z{unpacked})", "return nan"),
+    "traction": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
+    "rates": ("t, a, b, p, out", "law(t, b, out{unpacked})", "out[0] = nan"),
     "guard": ("t, q, u, p", "return law(t, q, u{unpacked})", "return nan"),
     "body": ("t, q, u, p, out", "law(t, q, u, out{unpacked})", "out[0] = nan"),
     "load": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
@@ -59,7 +65,7 @@ def bind(
     function : callable
         A plain function whose first arguments are those of ``ROLES[form]``.
     form : str
-        "scalar", "guard", "body", "load", "pair" or "map".
+        One of ``ROLES``.
     values : mapping of str to float or tuple of float
         The parameters that the law's object and its surroundings offer; the function gets a tuple as a heap.
     owner : str

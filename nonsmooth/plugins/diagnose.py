@@ -10,7 +10,7 @@ import numpy as np
 
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.modes import NOT_FINITE, STEP_TOO_SMALL
-from nonsmooth.interfaces import ImpactMap, ImpactProcess
+from nonsmooth.interfaces import FrictionLaw, ImpactMap, ImpactProcess
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.layout import FRAME, GEOMETRY, LOAD
 from nonsmooth.model.model import Model
@@ -28,9 +28,9 @@ def culprit(model: Model, status: int) -> str:
     slips = model.memory.array("rate", 3 * int(model.memory.scalars["n_contacts"][0])).reshape(-1, 3)[:, 1:]
     speeds = (*_PROBES, *np.linalg.norm(slips, axis=1).tolist())
     for contact in model.system.contacts:
-        laws: list[tuple[Any, Callable[..., float], tuple[float, ...]]] = [
-            (contact.friction, contact.friction.coefficient, speeds)
-        ]
+        laws: list[tuple[Any, Callable[..., float], tuple[float, ...]]] = []
+        if isinstance(contact.friction, FrictionLaw):
+            laws.append((contact.friction, contact.friction.coefficient, speeds))
         if isinstance(contact.impact, ImpactProcess):
             laws.append((contact.impact, contact.impact.force, _PROBES))
             laws.append((contact.impact, contact.impact.efficiency, tuple(-p for p in _PROBES) + _PROBES))
