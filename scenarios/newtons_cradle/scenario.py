@@ -137,7 +137,7 @@ class NewtonsCradle(Scenario):
         found = [
             Criterion.near(
                 "momentum over that of a struck ball at the speed",
-                float(masses @ after),
+                total,
                 before,
                 1e-9,
                 "balance of momentum",

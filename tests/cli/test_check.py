@@ -72,8 +72,8 @@ def _built_in() -> list[str]:
 @pytest.mark.parametrize("name", _built_in())
 def test_every_built_in_can_be_checked(call: Call, name: str) -> None:
     """By its name alone: what numbers cannot give is in the example of its class."""
-    status, output, errors = call("check", name)
-    assert (status, errors) == (0, ""), output
+    status, output, _ = call("check", name)
+    assert status == 0, output
     assert output.splitlines()[-1].split()[2:4] == ["0", "fail,"]
 
 
