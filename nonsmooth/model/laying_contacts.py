@@ -10,6 +10,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     AnisotropicFrictionLaw,
     CompliantNormalLaw,
+    FrictionLaw,
     ImpactMap,
     ImpactProcess,
     StatefulFrictionLaw,
