@@ -160,7 +160,8 @@ def lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, place
         functions["efficiency"] = (impact.efficiency, "scalar", impact.parameters())
     fields: dict[str, int] = {"mode": OPEN}
     for name, (function, form, available) in functions.items():
-        address, values = bind(function, form, available, contact.name)
+        owner = {"geometry": contact.kinematics, "friction": contact.friction}.get(name, impact)
+        address, values = bind(function, form, available, f"{type(owner).__name__} ({contact.name})")
         fields |= {f"{name}_function": address, f"{name}_parameters": heap.store(values)}
     for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
         place = places[id(body)]
