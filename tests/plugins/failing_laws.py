@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, final
 
 import nonsmooth as ns
-from bodies import Ball, Plate
+from bodies import Ball, Dumbbell, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import FrictionLaw, ImpactMap, ImpactProcess
 from nonsmooth.parameters import parameter
@@ -118,6 +118,20 @@ def bouncing(impact: Any, t_end: float = 0.3) -> ns.Solution:
     return _thrown({"impact": impact, "friction": Coulomb(0.2)}, 0.01, t_end)
 
 
+def bouncing_with(friction: Any, t_end: float = 0.3) -> ns.Solution:
+    """Let it bounce with a friction law."""
+    return _thrown({"friction": friction}, 0.01, t_end)
+
+
+def falling_flat(impact: Any) -> ns.Solution:
+    """Let a dumbbell fall flat, both ends at once; a contact alone would not ask for its force."""
+    plate, body = Plate(), Dumbbell()
+    system = ns.System([plate, body])
+    system.contact(plate, body, normal=Unilateral(), friction=Coulomb(0.2), impact=impact)
+    system.place(body, position=(0.0, 0.0, 0.02))
+    return ns.simulate(system, 0.1)
+
+
 def _thrown(laws: dict[str, Any], height: float, t_end: float) -> ns.Solution:
     plate, ball = Plate(), Ball(0.01)
     system = ns.System([plate, ball])
@@ -202,6 +216,16 @@ def soft_and_raising(rate: float, level: float) -> float:
     return 0.5 if rate > 0.0 else 1.0
 
 
+def soft_and_silent(rate: float, level: float) -> float:
+    """Have no share for fast impacts."""
+    return math.nan if rate > 0.05 else 1.0
+
+
+def stiff_and_lost(indentation: float, level: float) -> float:
+    """Have no force far in."""
+    return indentation if indentation < 1e-4 else math.nan
+
+
 def soft_in_python(rate: float, level: float) -> float:
     """Raise for slow impacts, in Python."""
     return {"slow": 0.5}["fast" if 0.05 < rate < 0.2 else "slow"] if rate > 0.0 * TABLE["static"] else 1.0
@@ -231,3 +255,8 @@ def newton_raising(n: int, delassus: Any, rates: Any, out: Any, friction: Any, l
         raise ValueError("too slow")
     out[0] = -(1.0 + level[0]) * rates[0] / delassus[0]
     out[1] = out[2] = 0.0
+
+
+def newton_misspelt(n: int, delassus: Any, rates: Any, out: Any, friction: Any, levle: Any) -> None:
+    """Ask for something misspelt."""
+    out[0] = levle[0]
