@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import math
 
-from nonsmooth.interfaces import FrictionLaw
+from nonsmooth.interfaces import (
+    AnisotropicFrictionLaw,
+    CompliantNormalLaw,
+    FrictionLaw,
+    StatefulFrictionLaw,
+    TractionLaw,
+)
 
 Pair = tuple[float, float]
 
@@ -27,11 +34,59 @@ def opposes_slip(law: FrictionLaw, slip: Pair, normal_force: float, tangential_f
         Deviation that counts as zero [m/s, N].
     """
     speed = math.hypot(*slip)
-    offered = law.parameters()
+    offered: dict[str, object] = dict(law.parameters())
+    if isinstance(law, StatefulFrictionLaw):
+        offered["state"] = law.initial_state
     names = list(inspect.signature(law.coefficient).parameters)[1:]
     rests = speed <= tolerance
-    bound = law.coefficient(0.0 if rests else speed, **{name: offered[name] for name in names}) * normal_force
+    bound = float(law.coefficient(0.0 if rests else speed, **{name: offered[name] for name in names})) * normal_force
     if rests:
         return math.hypot(*tangential_force) <= bound + tolerance
     # a distance, so that the verdict is the same in any axes
     return math.dist(tangential_force, [-bound * v / speed for v in slip]) <= tolerance
+
+
+def follows_compliance(
+    law: CompliantNormalLaw, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float
+) -> bool:
+    """Tell whether a normal force [N] is that of a compliant law."""
+    names = list(inspect.signature(law.force).parameters)[3:]
+    parameters = {name: law.parameters()[name] for name in names}
+    return abs(law.force(indentation, rate, closing_rate, **parameters) - force) <= tolerance
+
+
+def lies_in_half_ellipses(
+    law: AnisotropicFrictionLaw, slip: Pair, normal_force: float, tangential_force: Pair, tolerance: float
+) -> bool:
+    """Tell whether a force lies in the bound of an anisotropic law and, under slip, where the slip is normal to it.
+
+    Slip and force are along the law's axis and across it; for the rest see :func:`opposes_slip`.
+    """
+    forward, backward, across = law.ratios
+    offered = law.parameters()
+    names = list(inspect.signature(law.coefficient).parameters)[1:]
+    mu = functools.partial(law.coefficient, **{name: offered[name] for name in names})
+    if math.hypot(*slip) <= tolerance:
+        along = forward if tangential_force[0] < 0.0 else backward
+        gauge = math.hypot(tangential_force[0] / along, tangential_force[1] / across)
+        return gauge <= mu(0.0) * normal_force + tolerance / min(along, across)
+    along = forward if slip[0] > 0.0 else backward
+    counted = along * slip[0], across * slip[1]
+    speed = math.hypot(*counted)
+    factor = -mu(speed) * normal_force / speed
+    return math.dist(tangential_force, (factor * along * counted[0], factor * across * counted[1])) <= tolerance
+
+
+def follows_traction(
+    law: TractionLaw,
+    motion: tuple[float, ...],
+    state: tuple[float, ...],
+    normal_force: float,
+    traction: tuple[float, ...],
+    tolerance: float,
+) -> bool:
+    """Tell whether force and moment [N, N m] are those of a law of traction."""
+    names = list(inspect.signature(law.traction).parameters)[4:]
+    out = [math.nan] * (5 + len(state))
+    law.traction(normal_force, motion, state, out, **{name: law.parameters()[name] for name in names})
+    return math.dist(out[:5], traction) <= tolerance

@@ -17,7 +17,7 @@ from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
 from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.compile import bind
-from nonsmooth.plugins.diagnose import without_value
+from nonsmooth.plugins.law_failure import first_without_value, law_functions, without_value
 
 
 def solve_contact(
@@ -132,8 +132,11 @@ def solve_contact(
 
 def _culprit(memory: Memory, friction: Sequence[FrictionLaw]) -> str:
     starts = memory.array("friction_parameters", len(friction))
-    found = (without_value(memory, int(i), law, law.coefficient) for i, law in zip(starts, friction, strict=True))
-    return next(filter(None, found), "")
+    return first_without_value(
+        without_value(memory.floats[start:], part, (), f"contact {i}")
+        for i, (start, law) in enumerate(zip(starts, friction, strict=True))
+        for part in law_functions(law)
+    )
 
 
 def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:

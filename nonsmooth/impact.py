@@ -17,7 +17,7 @@ from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.compile import bind
-from nonsmooth.plugins.diagnose import law_functions, without_value
+from nonsmooth.plugins.law_failure import first_without_value, law_functions, without_value
 
 Floats = NDArray[np.float64]
 
@@ -153,13 +153,12 @@ def solve_impact(
 
 
 def _culprit(memory: Memory, impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw]) -> str:
-    for i, laws in enumerate(zip(friction, impact, strict=True)):
-        for name, law, function in law_functions(*laws):
-            start = int(memory.array(f"{name}_parameters", i + 1)[i])
-            found = without_value(memory, start, law, function)
-            if found:
-                return f"{found} (contact {i})"
-    return "A force or efficiency is not positive."
+    findings = (
+        without_value(memory.floats[int(memory.array(f"{part.name}_parameters", i + 1)[i]) :], part, (), f"contact {i}")
+        for i, laws in enumerate(zip(friction, impact, strict=True))
+        for part in law_functions(*laws)
+    )
+    return first_without_value(findings) or "A force or efficiency is not positive."
 
 
 def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], tolerance: float) -> Memory:

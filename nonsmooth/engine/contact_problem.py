@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.compliance import decouple_normals
 from nonsmooth.engine.contact_search import find_modes
 from nonsmooth.engine.contact_trial import verify
 from nonsmooth.engine.delassus import add_response, assemble_delassus
@@ -84,6 +85,7 @@ def set_up(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.b + 3 * a + r] = bias + free
             S.acceleration_scale = max(S.acceleration_scale, abs(bias), abs(free))
         _lay_friction(S, w, k, a)
+    decouple_normals(S, w, k)
 
 
 @room("i8(S, F, I)")
@@ -125,5 +127,8 @@ def solve_from_rates(S: Scalars, w: Floats, k: Integers) -> int:
 
 @kernel("void(S, F, I)")
 def accelerate(S: Scalars, w: Floats, k: Integers) -> None:
-    """Add the accelerations that the contact forces give to ``du``."""
+    """Add the accelerations that the contact forces give to ``du``; it holds those of given normal forces."""
+    for a in range(S.n_active):
+        if k[S.normal_function + k[S.active + a]] != 0:
+            w[S.f + 3 * a] = 0.0
     add_response(S, w, k, S.f, S.du)

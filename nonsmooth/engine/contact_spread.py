@@ -19,6 +19,31 @@ _CHEAP = 1e-7
 """the Hessian counts by this, relative to H."""
 
 
+@kernel("f8(S, F, i8, i8)")
+def _disc_excess(S: Scalars, w: Floats, i: int, a: int) -> float:
+    """Write the friction of a contact with a given normal force less its projection on the disc; return its square."""
+    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    bound, length = w[S.mu_static + a] * w[S.f + 3 * a], math.sqrt(t1 * t1 + t2 * t2)
+    out = max(0.0, length - bound)
+    w[S.right + i] = w[S.right + i + 1] = 0.0
+    if out > 0.0:
+        w[S.right + i], w[S.right + i + 1] = out * t1 / length, out * t2 / length
+    return out * out
+
+
+@kernel("void(S, F, i8, i8, i8, i8, f8)")
+def _add_disc_curve(S: Scalars, w: Floats, i: int, a: int, line1: int, line2: int, factor: float) -> None:
+    """Add the Hessian of the half square of what :func:`_disc_excess` writes."""
+    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    bound, length = w[S.mu_static + a] * w[S.f + 3 * a], math.sqrt(t1 * t1 + t2 * t2)
+    if length > bound:
+        c1, c2, round_ = t1 / length, t2 / length, 1.0 - bound / length
+        w[line1 + i] += factor * (c1 * c1 + round_ * c2 * c2)
+        w[line2 + i + 1] += factor * (c2 * c2 + round_ * c1 * c1)
+        w[line1 + i + 1] += factor * (1.0 - round_) * c1 * c2
+        w[line2 + i] += factor * (1.0 - round_) * c1 * c2
+
+
 @kernel("f8(S, F, I, i8, f8)")
 def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
     """Write f less its projection on the cones to ``right``; return half its square."""
@@ -26,6 +51,8 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
     for i in range(n):
         line = k[S.column + i]
         a = line // 3
+        if line == 3 * a + 1 and k[S.normal_held + a] == 0:
+            square += _disc_excess(S, w, i, a)
         if line != 3 * a:
             continue
         normal = w[S.f + line] - inset * k[S.redundant + a]
@@ -53,6 +80,8 @@ def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: in
     for i in range(n):
         line = k[S.column + i]
         a = line // 3
+        if line == 3 * a + 1 and k[S.normal_held + a] == 0:
+            _add_disc_curve(S, w, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
         if line != 3 * a:
             continue
         normal, h = w[S.f + line] - inset * k[S.redundant + a], band_row(matrix, i, n, half) + i

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.anisotropy import facing_force
 from nonsmooth.engine.bodies import evaluate_driven_bodies, evaluate_free_bodies
+from nonsmooth.engine.compliance import evaluate_given_force, refresh_states, rub_by_traction, write_state_rates
 from nonsmooth.engine.contact_problem import free_acceleration, friction_coefficient
+from nonsmooth.engine.forces import friction_of_slip
 from nonsmooth.engine.held_contacts import hold_contacts, lay_rows
 from nonsmooth.engine.islands import activate_group
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import STICK
 from nonsmooth.engine.runge_kutta import stage_state, step_errors
+from nonsmooth.model.layout import GEOMETRY, N_ACCOUNTS
 
 
 @room("void(S, F, I, f8, i8)")
@@ -26,13 +30,16 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
     if S.n_grouped == 0:
         return
     evaluate_driven_bodies(S, w, k, t, y)
+    refresh_states(S, w, k, y)
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         for a in range(S.n_active):
             c = k[S.active + a]
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
-            _set_friction(S, w, k, a)
+            if k[S.normal_function + c] != 0:
+                evaluate_given_force(S, w, k, c)
+            _set_friction(S, w, k, a, y)
             evaluate_bias(S, w, k, c, 1 + 2 * k[S.tangent_held + a])
             lay_rows(S, w, k, a)
         hold_contacts(S, w, k)
@@ -52,13 +59,13 @@ def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     if k[S.tangent_held + a] == 0:
         v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
         return float(S.velocity_tolerance - math.sqrt(v1 * v1 + v2 * v2))
-    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    t1, t2 = facing_force(S, w, k, c, w[S.f + 3 * a + 1]), w[S.f + 3 * a + 2]
     slack = w[S.slack + c] * k[S.redundant + a]
     return float(w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2) + slack)
 
 
-@kernel("void(S, F, I, i8)")
-def _set_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+@kernel("void(S, F, I, i8, i8)")
+def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
     """Set what is held and the slip direction, continued smoothly through a reversal within the step.
 
     Where the slip is too slow to have a direction of its own, that at the start of the step holds.
@@ -66,6 +73,13 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     c = k[S.active + a]
     k[S.normal_held + a] = 1
     k[S.tangent_held + a] = 0
+    w[S.turned + c] = 0.0
+    if k[S.normal_function + c] != 0:
+        k[S.normal_held + a] = 0
+        w[S.f + 3 * a] = w[S.given + c]
+        if k[S.traction_function + c] != 0:
+            rub_by_traction(S, w, k, c, S.f + 3 * a, y)
+            return
     if k[S.mode + c] == STICK:
         w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
         if w[S.mu_static + a] > 0.0:
@@ -79,6 +93,26 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
         d1, d2 = inverse * v1, inverse * v2
     w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
     w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+    if k[S.normal_held + a] == 0:
+        # what pulls does not rub
+        w[S.mu + a] *= 1.0 if w[S.given + c] > 0.0 else 0.0
+        friction_of_slip(S, w, a)
+
+
+@kernel("f8(S, F, I, i8)")
+def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach."""
+    if k[S.normal_function + c] != 0:
+        return w[S.reach + c] - w[S.geometry + GEOMETRY * c]
+    return w[S.force + 3 * c]
+
+
+@kernel("f8(S, F, I, i8)")
+def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return the slip along its direction at the start of the step, or 1 where nothing depends on its sign."""
+    if k[S.traction_function + c] != 0:
+        return 1.0
+    return w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
 
 
 @room("void(S, F, I, f8, i8, i8)")
@@ -105,14 +139,16 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
         if not sticks:
             for r in range(1, 3):
                 lost -= w[S.force + 3 * c + r] * w[S.rate + 3 * c + r]
-        w[S.least_force + c] = min(w[S.least_force + c], w[S.force + 3 * c])
-        slip = w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
-        if sticks or w[S.force + 3 * c] < 0.0 or slip < 0.0:
+        lost -= w[S.turned + c]
+        hold = hold_guard(S, w, k, c)
+        w[S.least_force + c] = min(w[S.least_force + c], hold)
+        if sticks or hold < 0.0 or slip_guard(S, w, k, c) < 0.0:
             S.suspect = 1
     w[out + S.n_q + S.n_u] = S.driven_power
     w[out + S.n_q + S.n_u + 1] = lost
     w[out + S.n_q + S.n_u + 2] = abs(own) + abs(S.driven_power) + abs(lost)
     w[out + S.n_q + S.n_u + 3] = S.load_power
+    write_state_rates(S, w, k, y, out)
 
 
 @room("f8(S, F, I, f8)")
@@ -135,7 +171,9 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         slope(S, w, k, S.t + node * h, out, S.slopes + stage * n)
     step_errors(S, w, S.slopes, n, h, S.y_stage)
     worst = 0.0
-    for i in range(S.n_q + S.n_u):
+    for i in range(S.n_y):
+        if S.n_q + S.n_u <= i < S.n_q + S.n_u + N_ACCOUNTS:
+            continue
         scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
         error = abs(w[S.y_stage + i]) / (S.rtol * scale)
         if error > worst or error != error:

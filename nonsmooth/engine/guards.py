@@ -3,8 +3,8 @@
 Every contact has two guards, positive while its mode is valid:
 
 * open: the gap; the second is not used.
-* closed: the normal force; and, sticking, the distance to the static bound, sliding, the slip
-  velocity along its direction at the start of the step.
+* closed: the normal force, or, compliant, the way left to its reach; and, sticking, the distance to the static
+  bound, sliding, the slip velocity along its direction at the start of the step.
 
 Behind them stand the scenario's own, whatever the modes.
 
@@ -16,10 +16,10 @@ zero at the start does not fire while the next one does.
 from __future__ import annotations
 
 from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
-from nonsmooth.engine.flow import right_hand_side
+from nonsmooth.engine.flow import hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_guard, kernel
 from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
-from nonsmooth.engine.modes import OPEN, STICK
+from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 from nonsmooth.model.layout import GEOMETRY
 
 _ROUND_OFF = 1e-3
@@ -36,13 +36,12 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
     elif forces == 1:
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
-            w[S.guard + 2 * c] = w[S.force + 3 * c]
+            w[S.guard + 2 * c] = hold_guard(S, w, k, c)
+            w[S.gap_rate + c] = w[S.rate + 3 * c]
             if k[S.mode + c] == STICK:
                 w[S.guard + 2 * c + 1] = w[S.static_margin + c]
             else:
-                w[S.guard + 2 * c + 1] = (
-                    w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
-                )
+                w[S.guard + 2 * c + 1] = slip_guard(S, w, k, c)
     for c in range(S.n_contacts):
         if k[S.mode + c] == OPEN:
             evaluate_geometry(S, w, k, c)
@@ -104,7 +103,12 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
                 if w[S.gap_rate_end + c] <= S.velocity_tolerance:
                     w[S.guard_start + first] -= _ROUND_OFF * S.gap_tolerance
                 w[S.guard_first + first] = w[S.gap_rate_end + c]
-        elif k[S.mode + c] != STICK and w[S.guard_first + first + 1] <= S.velocity_tolerance:
+        elif k[S.normal_function + c] != 0 and w[S.guard_first + first] <= S.gap_tolerance:
+            # it has just touched down, and lets go when it comes back to here
+            k[S.guard_deflated + first] = 1
+            w[S.guard_start + first] = min(0.0, w[S.guard_start + first]) - _ROUND_OFF * S.gap_tolerance
+            w[S.guard_first + first] = -w[S.gap_rate_end + c]
+        if k[S.mode + c] == SLIDE and w[S.guard_first + first + 1] <= S.velocity_tolerance:
             k[S.guard_deflated + first + 1] = 1
             w[S.guard_start + first + 1] = min(0.0, w[S.guard_start + first + 1]) - _ROUND_OFF * S.velocity_tolerance
             w[S.guard_first + first + 1] = 0.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.anisotropy import turn_facing
 from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import right_hand_side, slope, try_step
@@ -34,6 +35,7 @@ from nonsmooth.engine.modes import (
     STICK,
     STICK_TO_SLIP,
     STOPPED,
+    TOUCH,
 )
 from nonsmooth.engine.projection import (
     normalise_quaternions,
@@ -116,6 +118,8 @@ def _drifted(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             rate, gap = abs(w[S.rate_end + 3 * c]), abs(w[S.gap_end + c])
+            if k[S.normal_function + c] != 0:
+                rate = gap = 0.0
             if k[S.mode + c] == STICK:
                 rate += abs(w[S.rate_end + 3 * c + 1]) + abs(w[S.rate_end + 3 * c + 2])
             if rate > _DRIFT * S.velocity_tolerance or gap > _DRIFT * S.gap_tolerance:
@@ -137,12 +141,18 @@ def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         S.closing_loss += project_closed(S, w, k, 0)
 
 
+@kernel("i8(S, I, i8)")
+def _closing_cause(S: Scalars, k: Integers, c: int) -> int:
+    """Return what it is when contact ``c`` closes."""
+    return IMPACT if k[S.normal_function + c] == 0 else TOUCH
+
+
 @kernel("i8(S, F, I)")
 def _cause(S: Scalars, w: Floats, k: Integers) -> int:
     """Return what the guard that fired means."""
     c = S.trigger // 2
     if S.trigger % 2 == 0:
-        return IMPACT if k[S.mode + c] == OPEN else LIFT_OFF
+        return _closing_cause(S, k, c) if k[S.mode + c] == OPEN else LIFT_OFF
     if k[S.mode + c] != STICK:
         return SLIP_TO_STICK
     # the static bound vanishes with the normal force
@@ -168,7 +178,7 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
     So close to rest the direction of the slip is stiff, and what is left of it below the tolerance.
     """
     for c in range(S.n_contacts):
-        if k[S.mode + c] == SLIDE:
+        if k[S.mode + c] == SLIDE and k[S.traction_function + c] == 0:
             v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
             if speed <= S.velocity_tolerance and speed < w[S.guard_first + 2 * c + 1]:
@@ -216,7 +226,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         arrived = w[S.guard_end + 2 * c] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance
         if k[S.mode + c] == OPEN and arrived:
             S.fresh = 0
-            return _settle_event(S, w, k, IMPACT, c)
+            return _settle_event(S, w, k, _closing_cause(S, k, c), c)
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
     status = _accepted_step(S, w, k)
@@ -294,6 +304,7 @@ def _break_direction(S: Scalars, w: Floats, k: Integers, contact: int) -> None:
     t2 = w[S.force + 3 * contact + 2] - w[S.share + 3 * contact + 2] * k[S.tied + contact]
     norm = math.sqrt(t1 * t1 + t2 * t2)
     if norm > 0.0:
+        turn_facing(S, w, k, contact, t1)
         w[S.direction + 2 * contact] = -t1 / norm
         w[S.direction + 2 * contact + 1] = -t2 / norm
 

@@ -17,7 +17,8 @@ _NEXT_TO_ZERO = 1e-3
 @kernel("i8(S, F, I, i8)")
 def is_jammed(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     """Return 1 if the active contact ``a`` slides at the Painleve singularity, its slip direction being known."""
-    slides = k[S.mode + k[S.active + a]] == SLIDE
+    c = k[S.active + a]
+    slides = k[S.mode + c] == SLIDE and k[S.normal_function + c] == 0
     return 1 if slides and reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * w[own_block(S, k, a)] else 0
 
 

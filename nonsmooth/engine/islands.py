@@ -92,7 +92,7 @@ def group_closed(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("void(S, F, I)")
 def group_touching(S: Scalars, w: Floats, k: Integers) -> None:
-    """Sort the touching contacts into islands."""
+    """Sort the touching contacts that collide, not those that give way, into islands."""
     for c in range(S.n_contacts):
-        k[S.member + c] = k[S.touching + c]
+        k[S.member + c] = k[S.touching + c] if k[S.normal_function + c] == 0 else 0
     group_members(S, w, k)

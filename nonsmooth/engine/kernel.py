@@ -46,6 +46,8 @@ at: Callable[[Floats, int], Floats] = _half.at
 """The heap from an offset on."""
 call_scalar: Callable[[int, float, Floats], float] = _half.call_scalar
 """Call ``law(x, parameters)`` at an address."""
+call_compliance: Callable[[int, float, float, float, Floats], float] = _half.call_compliance
+"""Call ``force(indentation, rate, closing_rate, parameters)`` at an address."""
 call_body: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.call_body
 """Call ``body(t, q, u, parameters, out)`` at an address."""
 call_guard: Callable[[int, float, Floats, Floats, Floats], float] = _half.call_guard
@@ -64,7 +66,7 @@ shared: Callable[[Callable[..., Any]], Any] = _half.shared
 unshared: Callable[[Any], Any] = _half.unshared
 """The function out of which :func:`shared` has made a value, any other value as it is."""
 address_of: Callable[[Callable[..., Any], str, str], int] = _half.address_of
-"""Compile a shim of a form ("scalar", "guard", "body", "load", "pair", "map"), or find it under its key on disk, and
+"""Compile a shim of a form of :data:`nonsmooth.plugins.compile.ROLES`, or find it under its key on disk, and
 return its address.  Without a key nothing is kept on disk."""
 
 __all__ = [
@@ -76,6 +78,7 @@ __all__ = [
     "address_of",
     "at",
     "call_body",
+    "call_compliance",
     "call_guard",
     "call_load",
     "call_map",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.anisotropy import stretch_bias, stretch_tangents
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_pair, kernel, room
 from nonsmooth.model.layout import FRAME, GEOMETRY
 
@@ -27,6 +28,17 @@ def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     w[n + 8] = w[n] * w[t + 1] - w[n + 1] * w[t]
 
 
+@kernel("void(S, F, i8)")
+def _unit_tangents(S: Scalars, w: Floats, c: int) -> None:
+    """Write both unit tangents of contact ``c`` to ``tangents``."""
+    n, t, out = S.geometry + GEOMETRY * c + 1, S.geometry + GEOMETRY * c + 4, S.tangents
+    for i in range(3):
+        w[out + i] = w[t + i]
+    w[out + 3] = w[n + 1] * w[t + 2] - w[n + 2] * w[t + 1]
+    w[out + 4] = w[n + 2] * w[t] - w[n] * w[t + 2]
+    w[out + 5] = w[n] * w[t + 1] - w[n + 1] * w[t]
+
+
 @kernel("void(S, F, I, i8)")
 def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
@@ -39,9 +51,15 @@ def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
         vx = w[frame + 12] + oy * z - oz * y - vx
         vy = w[frame + 13] + oz * x - ox * z - vy
         vz = w[frame + 14] + ox * y - oy * x - vz
-    for r in range(3):
-        axis = S.axes + 9 * c + 3 * r
-        w[S.rate + 3 * c + r] = w[axis] * vx + w[axis + 1] * vy + w[axis + 2] * vz
+    axis = S.axes + 9 * c
+    w[S.rate + 3 * c] = w[axis] * vx + w[axis + 1] * vy + w[axis + 2] * vz
+    for r in range(2):
+        axis += 3
+        w[S.slip + 2 * c + r] = w[axis] * vx + w[axis + 1] * vy + w[axis + 2] * vz
+        w[S.rate + 3 * c + 1 + r] = w[S.slip + 2 * c + r]
+    if k[S.oriented + c] == 1:
+        _unit_tangents(S, w, c)
+        stretch_tangents(S, w, k, c, S.tangents)
 
 
 @kernel("void(F, i8, i8, f8, f8, f8, i8, i8)")
@@ -55,6 +73,26 @@ def side_row(w: Floats, frame: int, point: int, ax: float, ay: float, az: float,
         w[out + j] = (
             ax * w[v] + ay * w[v + n_u] + az * w[v + 2 * n_u] + mx * w[o] + my * w[o + n_u] + mz * w[o + 2 * n_u]
         )
+
+
+@kernel("void(F, i8, i8, i8, i8, f8, i8, i8)")
+def _side_wrench(w: Floats, frame: int, point: int, force: int, moment: int, sign: float, n_u: int, out: int) -> None:
+    """Write the row of one body: of a force at a witness point and a moment, world components at two places."""
+    fx, fy, fz = sign * w[force], sign * w[force + 1], sign * w[force + 2]
+    side_row(w, frame, point, fx, fy, fz, n_u, out)
+    for j in range(n_u):
+        o = frame + FRAME + j + 3 * n_u
+        w[out + j] += sign * (w[moment] * w[o] + w[moment + 1] * w[o + n_u] + w[moment + 2] * w[o + 2 * n_u])
+
+
+@kernel("void(S, F, I, i8, i8, i8, i8)")
+def wrench_row(S: Scalars, w: Floats, k: Integers, c: int, r: int, force: int, moment: int) -> None:
+    """Write row ``r`` of contact ``c``: what a force and a moment on the second body do, in world components."""
+    point = S.geometry + GEOMETRY * c + 7
+    row_a = k[S.jacobian_a + c] + r * k[S.linkage_nu + k[S.linkage_a + c]] + k[S.shift_a + c]
+    row_b = k[S.jacobian_b + c] + r * k[S.linkage_nu + k[S.linkage_b + c]] + k[S.shift_b + c]
+    _side_wrench(w, k[S.frame_a + c], point, force, moment, -1.0, k[S.nu_a + c], row_a)
+    _side_wrench(w, k[S.frame_b + c], point + 3, force, moment, 1.0, k[S.nu_b + c], row_b)
 
 
 @kernel("void(S, F, I, i8, i8, f8, f8, f8)")
@@ -86,6 +124,17 @@ def evaluate_row_response(S: Scalars, w: Floats, k: Integers, c: int, r: int, s:
                 if entry != 0.0:
                     total += entry * w[jacobian + j]
             w[response + i] = total
+
+
+@kernel("void(S, F, I, i8, i8, f8, i8)")
+def push_response(S: Scalars, w: Floats, k: Integers, c: int, s: int, force: float, du: int) -> None:
+    """Add the accelerations that a force in column ``s`` of contact ``c`` gives to ``du``."""
+    for side in range(2):
+        linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
+        response = k[S.response_a + c] if side == 0 else k[S.response_b + c]
+        n_u = k[S.linkage_nu + linkage]
+        for i in range(n_u):
+            w[du + k[S.linkage_u + linkage] + i] += w[response + s * n_u + i] * force
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")
@@ -124,7 +173,8 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     """
     geometry = S.geometry + GEOMETRY * c
     n = S.axes + 9 * c
-    t1, t2 = n + 3, n + 6
+    _unit_tangents(S, w, c)
+    t1, t2 = S.tangents, S.tangents + 3
     a, b = k[S.frame_a + c], k[S.frame_b + c]
     gap = w[geometry]
     # turning of the normal with the first body, (omega_A x n) in the tangent plane; rho likewise for B - A
@@ -132,7 +182,7 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     turn_a2 = -(w[a + 15] * w[t1] + w[a + 16] * w[t1 + 1] + w[a + 17] * w[t1 + 2])
     rho1 = w[b + 15] * w[t2] + w[b + 16] * w[t2 + 1] + w[b + 17] * w[t2 + 2] - turn_a1
     rho2 = -(w[b + 15] * w[t1] + w[b + 16] * w[t1 + 1] + w[b + 17] * w[t1 + 2]) - turn_a2
-    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    v1, v2 = w[S.slip + 2 * c], w[S.slip + 2 * c + 1]
     d1, d2 = v1 - gap * turn_a1, v2 - gap * turn_a2
     # slide and turn of one surface commute, so u = turn_a x, nu = slide_a x leaves two unknowns
     slide_a, turn_a, slide_b, turn_b = geometry + 13, geometry + 17, geometry + 21, geometry + 25
@@ -169,17 +219,17 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
         ax = w[frame + 18] + by * z - bz * y + oy * vz - oz * vy - ax
         ay = w[frame + 19] + bz * x - bx * z + oz * vx - ox * vz - ay
         az = w[frame + 20] + bx * y - by * x + ox * vy - oy * vx - az
-    for r in range(rows):
-        axis = n + 3 * r
-        w[S.bias + 3 * c + r] = w[axis] * ax + w[axis + 1] * ay + w[axis + 2] * az
+    w[S.bias + 3 * c] = w[n] * ax + w[n + 1] * ay + w[n + 2] * az
     # the axes themselves turn: n' = omega_A x n + nu, and the tangents spin about n with the first body
     n1, n2 = turn_a1 + nu1, turn_a2 + nu2
     spin = w[a + 15] * w[n] + w[a + 16] * w[n + 1] + w[a + 17] * w[n + 2]
     rate = w[S.rate + 3 * c]
     w[S.bias + 3 * c] += n1 * v1 + n2 * v2
     if rows == 3:
-        w[S.bias + 3 * c + 1] += spin * v2 - n1 * rate
-        w[S.bias + 3 * c + 2] += -spin * v1 - n2 * rate
+        w[S.bias + 3 * c + 1] = w[t1] * ax + w[t1 + 1] * ay + w[t1 + 2] * az + spin * v2 - n1 * rate
+        w[S.bias + 3 * c + 2] = w[t2] * ax + w[t2 + 1] * ay + w[t2 + 2] * az - spin * v1 - n2 * rate
+        if k[S.oriented + c] == 1:
+            stretch_bias(S, w, k, c, S.bias + 3 * c)
 
 
 @room("void(S, F, I, i8, i8)")

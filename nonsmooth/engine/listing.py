@@ -11,7 +11,7 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.model.layout import CATALOGUE
+from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS
 
 _WIDTH = len(CATALOGUE)
 _MODE = CATALOGUE.index("mode")
@@ -27,18 +27,13 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     if S.n_contacts == S.n_slots:
         return 0
     c = S.n_contacts
-    row, floats = S.catalogue + _WIDTH * declared, S.catalogue_floats + 3 * declared
-    k[S.frame_a + c], k[S.frame_b + c] = k[row], k[row + 1]
-    k[S.nu_a + c], k[S.nu_b + c] = k[row + 2], k[row + 3]
-    k[S.shift_a + c], k[S.shift_b + c] = k[row + 4], k[row + 5]
-    k[S.linkage_a + c], k[S.linkage_b + c] = k[row + 6], k[row + 7]
-    k[S.geometry_function + c], k[S.geometry_parameters + c] = k[row + 8], k[row + 9]
-    k[S.friction_function + c], k[S.friction_parameters + c] = k[row + 10], k[row + 11]
-    k[S.force_function + c], k[S.force_parameters + c] = k[row + 12], k[row + 13]
-    k[S.efficiency_function + c], k[S.efficiency_parameters + c] = k[row + 14], k[row + 15]
-    k[S.map_parameters + c], k[S.mode + c] = k[row + 16], k[row + _MODE]
-    w[S.contact_time + c] = w[floats]
+    row, floats = S.catalogue + _WIDTH * declared, S.catalogue_floats + CATALOGUE_FLOATS * declared
+    # the arrays of the catalogue's entries follow one another
+    for i in range(_WIDTH):
+        k[S.frame_a + i * S.n_slots + c] = k[row + i]
+    w[S.contact_time + c], w[S.reach + c] = w[floats], w[floats + 3]
     w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = w[floats + 1], w[floats + 2]
+    k[S.facing + c] = 1
     k[S.touching + c] = 0
     k[S.identity + c] = declared
     # Jacobians keep zeros where other bodies of a linkage stand
@@ -58,7 +53,7 @@ def _leave(S: Scalars, w: Floats, k: Integers) -> None:
         declared = k[S.identity + c]
         k[S.catalogue + _WIDTH * declared + _MODE] = k[S.mode + c]
         for i in range(2):
-            w[S.catalogue_floats + 3 * declared + 1 + i] = w[S.direction + 2 * c + i]
+            w[S.catalogue_floats + CATALOGUE_FLOATS * declared + 1 + i] = w[S.direction + 2 * c + i]
     S.n_contacts = 0
 
 

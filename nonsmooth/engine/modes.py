@@ -5,7 +5,7 @@ from __future__ import annotations
 OPEN, STICK, SLIDE = 0, 1, 2
 """Mode of a contact between events."""
 
-START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD = range(10)
+START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH = range(11)
 """Cause of an event."""
 
 CAUSES = (
@@ -19,6 +19,7 @@ CAUSES = (
     "end",
     "jamming of a slip",
     "guard of the scenario",
+    "touch of a compliant contact",
 )
 
 BY_LAW, COMPLIANT, REFUSE = range(3)

@@ -221,6 +221,12 @@ def call_scalar(typingctx: Any, address: Any, x: Any, p: Any) -> Any:
 
 
 @intrinsic
+def call_compliance(typingctx: Any, address: Any, x: Any, rate: Any, first: Any, p: Any) -> Any:
+    """Call ``float force(indentation, rate, closing_rate, parameters)`` at an address."""
+    return _caller(types.float64, (types.float64, types.float64, types.float64, FLOATS))
+
+
+@intrinsic
 def call_body(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any, out: Any) -> Any:
     """Call ``void body(t, q, u, parameters, out)`` at an address."""
     return _caller(types.void, (types.float64, FLOATS, FLOATS, FLOATS, FLOATS))
@@ -253,6 +259,9 @@ def call_guard(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any) -> 
 _C_SIGNATURES = {
     "guard": types.float64(types.float64, FLOATS, FLOATS, FLOATS),
     "scalar": types.float64(types.float64, FLOATS),
+    "compliance": types.float64(types.float64, types.float64, types.float64, FLOATS),
+    "traction": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
+    "rates": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
     "body": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
     "load": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
     "pair": types.void(FLOATS, FLOATS, FLOATS, FLOATS),

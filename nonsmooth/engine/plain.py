@@ -57,6 +57,11 @@ def call_scalar(address: int, x: float, p: Any) -> Any:
     return _functions[address - 1](x, p)
 
 
+def call_compliance(address: int, x: float, rate: float, first: float, p: Any) -> Any:
+    """Call ``float force(indentation, rate, closing_rate, parameters)``."""
+    return _functions[address - 1](x, rate, first, p)
+
+
 def call_body(address: int, t: float, q: Any, u: Any, p: Any, out: Any) -> None:
     """Call ``void body(t, q, u, parameters, out)``."""
     _functions[address - 1](t, q, u, p, out)

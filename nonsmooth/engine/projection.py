@@ -34,9 +34,11 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
-        k[S.normal_held + a] = 1
+        k[S.normal_held + a] = 1 if k[S.normal_function + c] == 0 else 0
+        w[S.f + 3 * a] = 0.0
         slow = max(abs(w[S.rate + 3 * c + 1]), abs(w[S.rate + 3 * c + 2])) <= S.velocity_tolerance
-        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or (at_event == 1 and slow) else 0
+        rubs = k[S.traction_function + c] != 0
+        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or (at_event == 1 and slow and not rubs) else 0
         w[S.mu + a] = 0.0
         for r in range(3):
             w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
@@ -72,15 +74,16 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
     m = S.n_active
     worst = 0.0
     for a in range(m):
-        worst = max(worst, abs(w[S.geometry + GEOMETRY * k[S.active + a]]))
+        if k[S.normal_function + k[S.active + a]] == 0:
+            worst = max(worst, abs(w[S.geometry + GEOMETRY * k[S.active + a]]))
     if worst <= 1e-16:
         return 0
     assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
-        k[S.normal_held + a] = 1
+        k[S.normal_held + a] = 1 if k[S.normal_function + c] == 0 else 0
         k[S.tangent_held + a] = 0
-        w[S.mu + a] = 0.0
+        w[S.f + 3 * a] = w[S.mu + a] = 0.0
         w[S.b + 3 * a] = w[S.geometry + GEOMETRY * c]
     resolve(S, w, k)
     add_response(S, w, k, S.f, S.y_stage + S.n_q)

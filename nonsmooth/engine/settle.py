@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.anisotropy import turn_facing, unstretch_force
 from nonsmooth.engine.bodies import evaluate_bodies
+from nonsmooth.engine.compliance import (
+    begin_contact,
+    evaluate_given_force,
+    push_given,
+    refresh_states,
+    rubs_unasked,
+)
 from nonsmooth.engine.contact_problem import accelerate, free_acceleration, set_up, solve_contact
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import reduced_coefficient
@@ -40,18 +48,24 @@ from nonsmooth.model.layout import GEOMETRY
 
 _ATTEMPTS = 200
 _PAINLEVE_ATTEMPTS = 5
+_FACINGS = 20
+"""So often friction may be found to oppose the other way."""
 
 
 @room("i8(S, F, I)")
 def touch(S: Scalars, w: Floats, k: Integers) -> int:
     """Find and evaluate the touching contacts; return 1 if one of them approaches."""
     evaluate_bodies(S, w, k, S.t, S.y)
+    refresh_states(S, w, k, S.y)
     approaching = 0
     for c in range(S.n_contacts):
         k[S.touching + c] = 1
         evaluate_geometry(S, w, k, c)
         evaluate_rates(S, w, k, c)
         rate = w[S.rate + 3 * c]
+        if k[S.normal_function + c] != 0:
+            _touch_compliant(S, w, k, c)
+            continue
         near = max(S.gap_tolerance, S.time_tolerance * abs(rate))
         if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c] > near:
             k[S.touching + c] = 0
@@ -60,6 +74,19 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
         if rate < -S.velocity_tolerance:
             approaching = 1
     return approaching
+
+
+@kernel("void(S, F, I, i8)")
+def _touch_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+    """Find whether the compliant contact ``c`` touches, and evaluate it; it does not collide."""
+    gap, rate = w[S.geometry + GEOMETRY * c], w[S.rate + 3 * c]
+    end = 0.0 if k[S.mode + c] == OPEN else w[S.reach + c]
+    slow = rate <= S.velocity_tolerance
+    if gap > end + S.gap_tolerance or (gap > end - S.gap_tolerance and not slow):
+        k[S.touching + c] = 0
+        return
+    evaluate_contact(S, w, k, c, 3)
+    evaluate_given_force(S, w, k, c)
 
 
 @kernel("f8(S, F, I, i8)")
@@ -73,7 +100,7 @@ def _fastest_approach(S: Scalars, w: Floats, k: Integers) -> int:
     """Return the touching contact that approaches most."""
     contact, worst = -1, 1e300
     for c in range(S.n_contacts):
-        if k[S.touching + c] == 1 and w[S.rate + 3 * c] < worst:
+        if k[S.touching + c] == 1 and k[S.normal_function + c] == 0 and w[S.rate + 3 * c] < worst:
             contact, worst = c, w[S.rate + 3 * c]
     return contact
 
@@ -151,14 +178,19 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
             impulse = w[S.impulse + 3 * a + r]
             w[S.event_impulse + 3 * c + r] = impulse
             w[S.event_head + 1] -= impulse * w[S.prescribed_rate + 3 * c + r]
+        if k[S.oriented + c] == 1:
+            unstretch_force(S, w, k, c, S.event_impulse + 3 * c)
     return RUNNING
 
 
 @kernel("void(S, F, I, i8)")
 def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
-    if k[S.touching + c] == 0 or w[S.rate + 3 * c] > S.velocity_tolerance:
+    rigid = k[S.normal_function + c] == 0
+    if k[S.touching + c] == 0 or (rigid and w[S.rate + 3 * c] > S.velocity_tolerance):
         k[S.mode + c] = OPEN
         return
+    if k[S.mode + c] == OPEN:
+        begin_contact(S, w, k, c)
     speed = _speed(S, w, k, c)
     k[S.mode + c] = SLIDE if speed > S.velocity_tolerance else STICK
     if speed > S.velocity_tolerance:
@@ -171,9 +203,10 @@ def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return 1 if the normal force of a closed contact has gone together with that which fired."""
     largest = 0.0
     for other in range(S.n_contacts):
-        if k[S.mode + other] != OPEN:
+        if k[S.mode + other] != OPEN and k[S.normal_function + other] == 0:
             largest = max(largest, w[S.guard_first + 2 * other])
-    return 1 if k[S.mode + c] != OPEN and w[S.guard + 2 * c] <= 1e-9 * largest else 0
+    rigid = k[S.normal_function + c] == 0
+    return 1 if rigid and k[S.mode + c] != OPEN and w[S.guard + 2 * c] <= 1e-9 * largest else 0
 
 
 @kernel("void(S, F, I, i8, i8)")
@@ -182,7 +215,9 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
     for c in range(S.n_contacts):
         k[S.member + c] = 0
         k[S.mode_agreed + c] = OPEN
-        if k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
+        if k[S.normal_function + c] != 0:
+            _expect_compliant(S, w, k, c, 1 if c == contact else 0, cause)
+        elif k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
             k[S.member + c] = 1
             # a slip about to start from rest is found anew, not remembered
             mode = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
@@ -198,10 +233,32 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
     group_members(S, w, k)
 
 
+@kernel("void(S, F, I, i8, i8, i8)")
+def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, caused: int, cause: int) -> None:
+    """Guess the mode of a compliant contact, which is its mode where its friction is no question."""
+    if cause == LIFT_OFF and caused == 1:
+        k[S.touching + c] = 0
+    if k[S.touching + c] == 0:
+        return
+    speed = _speed(S, w, k, c)
+    slides = speed > S.velocity_tolerance or k[S.traction_function + c] != 0
+    k[S.mode_agreed + c] = SLIDE if slides or (cause == STICK_TO_SLIP and caused == 1) else STICK
+    k[S.member + c] = 1 - rubs_unasked(S, w, k, c)
+    for i in range(2):
+        w[S.direction_agreed + 2 * c + i] = w[S.direction + 2 * c + i]
+        if speed > S.velocity_tolerance:
+            w[S.direction_agreed + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
+
+
 @kernel("i8(S, F, I)")
 def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
-    """Find modes and forces of the grouped contacts; return 1, or 0 with an island active that has no solution."""
+    """Find modes and forces of the grouped contacts; return 1, or 0 with an island active that has no solution.
+
+    Return 2 where all is to be done again, some friction having another bound than it seemed.
+    """
     free_acceleration(S, w, k)
+    push_given(S, w, k)
+    turned = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         for a in range(S.n_active):
@@ -215,7 +272,10 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
             k[S.mode_agreed + c] = k[S.mode_tried + a]
             for i in range(2):
                 w[S.direction_agreed + 2 * c + i] = w[S.d + 2 * a + i]
-    return 1
+            if k[S.at_rest + a] == 1 and k[S.mode_tried + a] != OPEN:
+                turned += turn_facing(S, w, k, c, w[S.f + 3 * a + 1])
+    # friction that turned out to oppose the other way has another bound
+    return 2 if turned > 0 else 1
 
 
 @kernel("i8(S, F, I)")
@@ -248,7 +308,7 @@ def _close(S: Scalars, w: Floats, k: Integers) -> int:
     S.h_first = 1e300
     for c in range(S.n_contacts):
         rate = w[S.rate + 3 * c]
-        if k[S.touching + c] == 0 or rate <= S.velocity_tolerance:
+        if k[S.touching + c] == 0 or k[S.normal_function + c] != 0 or rate <= S.velocity_tolerance:
             continue
         approach = -(w[S.bias + 3 * c] + row(S, w, k, c, 0, S.du))
         if approach > 0.0:
@@ -300,7 +360,11 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
         if S.recorded == 0:
             remember(S, w, k)
         _expect(S, w, k, cause, contact)
-        if _solve_islands(S, w, k) == 0:
+        solved = _solve_islands(S, w, k)
+        if solved == 2 and _attempt < _FACINGS:
+            approaching = touch(S, w, k)
+            continue
+        if solved == 0:
             for a in range(S.n_active):
                 if not (w[S.mu + a] >= 0.0 and w[S.mu_static + a] >= 0.0):
                     return NOT_FINITE
@@ -324,6 +388,8 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
 def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
     """Take over the modes and slip directions that the contact problem found."""
     for c in range(S.n_contacts):
+        if k[S.mode + c] == OPEN and k[S.mode_agreed + c] != OPEN:
+            begin_contact(S, w, k, c)
         k[S.mode + c] = k[S.mode_agreed + c]
         if k[S.mode + c] == SLIDE:
             for i in range(2):

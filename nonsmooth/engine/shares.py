@@ -31,6 +31,9 @@ def _least_room(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     for i in range(n):
         line = k[S.column + i]
         a = line // 3
+        if line == 3 * a + 1 and k[S.normal_held + a] == 0 and k[S.redundant + a] == 1:
+            t1, t2 = w[S.f + line], w[S.f + line + 1]
+            least = min(least, w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2))
         if line != 3 * a or k[S.redundant + a] == 0:
             continue
         room_left = w[S.f + line]

@@ -2,18 +2,21 @@
 
 from nonsmooth.interfaces.body import Body
 from nonsmooth.interfaces.contact_kinematics import ContactKinematics
-from nonsmooth.interfaces.friction_law import FrictionLaw
+from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
 from nonsmooth.interfaces.joint import Joint
 from nonsmooth.interfaces.load import Load
 from nonsmooth.interfaces.motion import Motion
-from nonsmooth.interfaces.normal_law import NormalLaw
+from nonsmooth.interfaces.normal_law import CompliantNormalLaw, NormalLaw, RigidNormalLaw
 from nonsmooth.interfaces.scenario import Scenario
 from nonsmooth.interfaces.shape import Shape
+from nonsmooth.interfaces.traction_law import TractionLaw
 
 __all__ = [
+    "AnisotropicFrictionLaw",
     "Body",
+    "CompliantNormalLaw",
     "ContactKinematics",
     "FrictionLaw",
     "Guard",
@@ -24,6 +27,9 @@ __all__ = [
     "Load",
     "Motion",
     "NormalLaw",
+    "RigidNormalLaw",
     "Scenario",
     "Shape",
+    "StatefulFrictionLaw",
+    "TractionLaw",
 ]

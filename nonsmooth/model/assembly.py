@@ -8,11 +8,12 @@ from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.engine.modes import POLICIES
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
 from nonsmooth.model.checks import check_start
-from nonsmooth.model.laying import lay_bodies, lay_contact, lay_guards, lay_joints, lay_loads, lay_slots
-from nonsmooth.model.layout import COUNTS
+from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
+from nonsmooth.model.laying_contacts import initial_state, lay_contacts
+from nonsmooth.model.layout import COUNTS, N_ACCOUNTS
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.memory import Heap, allocate
-from nonsmooth.model.model import N_ACCOUNTS, Model, map_width
+from nonsmooth.model.model import Model, map_width
 from nonsmooth.model.options import Options
 from nonsmooth.model.solvers import pivoted_contacts, solver_number
 from nonsmooth.model.units import find_units, lay_units
@@ -43,6 +44,7 @@ def lay_out(system: System, options: Options) -> Model:
     bodies, contacts = system.bodies, system.contacts
     n_q = sum(body.n_q for body in bodies)
     n_u = sum(body.n_u for body in bodies)
+    n_states = sum(len(initial_state(contact)) for contact in contacts)
     groups = linkages(system)
     units = find_units(contacts)
     row = EVENT_HEAD + 3 * units.n_slots + n_q + 2 * n_u
@@ -59,7 +61,8 @@ def lay_out(system: System, options: Options) -> Model:
         "n_linkages": len(groups),
         "n_q": n_q,
         "n_u": n_u,
-        "n_y": n_q + n_u + N_ACCOUNTS,
+        "n_y": n_q + n_u + N_ACCOUNTS + n_states,
+        "n_states": n_states,
         "n_pivoted": pivoted_contacts(solver_number(options.solver), units.n_slots),
         "map_width": map_width(contacts),
         "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + 64 * row,
@@ -73,12 +76,10 @@ def lay_out(system: System, options: Options) -> Model:
     places = lay_bodies(system, memory, heap)
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)
-    for number, contact in enumerate(contacts):
-        lay_contact(memory, heap, number, contact, places)
-    lay_slots(memory, heap, contacts, places)
+    lay_contacts(memory, heap, contacts, places)
     lay_units(memory, units, {(i, f): at for i, place in places.items() for f, at in enumerate(place.frames)})
     lay_guards(system, memory, heap)
-    model = Model(system, heap.close(), n_q, n_u)
+    model = Model(system, heap.close(), n_q, n_u, n_states)
     _set_scalars(model, options)
     call_room("list_contacts", model.memory)
     return model

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.model import Model
 from nonsmooth.system.contact import Tie
@@ -21,6 +22,8 @@ def check_start(model: Model) -> None:
         If bodies overlap, or a joint is open or opening.
     """
     for contact, gap in zip(model.system.contacts, model.gaps(), strict=True):
+        if isinstance(contact.normal, CompliantNormalLaw):
+            continue
         if not gap >= -max(_OPEN, 1e-6 * contact.size):
             raise InvalidInput(
                 f"start of the {contact.name}",

@@ -1,4 +1,4 @@
-"""Bodies, joints, loads, contacts and guards, each laid into the engine's memory."""
+"""Bodies, joints, loads and guards, each laid into the engine's memory."""
 
 from __future__ import annotations
 
@@ -6,16 +6,14 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from nonsmooth.engine.modes import OPEN
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ImpactMap, ImpactProcess, Joint, Load
+from nonsmooth.interfaces import Joint, Load
 from nonsmooth.interfaces.guard import guard_value
-from nonsmooth.model.layout import CATALOGUE, FRAME, JOINT_ROW, LOAD
+from nonsmooth.model.layout import FRAME, JOINT_ROW, LOAD
 from nonsmooth.model.linkages import Linkage
 from nonsmooth.model.memory import Heap, Memory
-from nonsmooth.parameters import Value
-from nonsmooth.plugins.compile import bind, parameter_names
-from nonsmooth.system.contact import Contact, Tie
+from nonsmooth.plugins.compile import bind
+from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
 
@@ -146,56 +144,6 @@ def lay_loads(system: System, memory: Memory, heap: Heap, places: Places) -> Non
             fields[f"frame_{side}"] = places[id(body)].frames[frame]
             fields[f"body_{side}"] = places[id(body)].number
         _write(memory, "load", number, fields)
-
-
-def lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, places: Places) -> None:
-    """Lay one contact."""
-    impact = contact.impact
-    functions = {
-        "geometry": (contact.kinematics.evaluator, "pair", contact.kinematics.parameters()),
-        "friction": (contact.friction.coefficient, "scalar", contact.friction.parameters()),
-    }
-    if isinstance(impact, ImpactProcess):
-        functions["force"] = (impact.force, "scalar", impact.parameters())
-        functions["efficiency"] = (impact.efficiency, "scalar", impact.parameters())
-    fields: dict[str, int] = {"mode": OPEN}
-    for name, (function, form, available) in functions.items():
-        owner = {"geometry": contact.kinematics, "friction": contact.friction}.get(name, impact)
-        address, values = bind(function, form, available, f"{type(owner).__name__} ({contact.name})")
-        fields |= {f"{name}_function": address, f"{name}_parameters": heap.store(values)}
-    for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
-        place = places[id(body)]
-        fields |= {f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
-        fields |= {f"shift_{side}": place.shift, f"linkage_{side}": place.linkage}
-    if isinstance(impact, ImpactMap):
-        fields["map_parameters"] = _lay_map(memory, heap, impact)
-    row = memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
-    for name, value in fields.items():
-        row[CATALOGUE.index(name)] = value
-    memory.array("catalogue_floats", 3 * number + 3)[3 * number :] = impact.contact_time, 1.0, 0.0
-
-
-def lay_slots(memory: Memory, heap: Heap, contacts: Sequence[Contact], places: Places) -> None:
-    """Reserve the Jacobians of the slots."""
-    widths = [places[id(body)].linkage_nu for contact in contacts for body in (contact.first, contact.second)]
-    for slot in range(int(memory.scalars["n_slots"][0])):
-        for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
-            memory.array(name, slot + 1)[slot] = heap.block(3 * max(widths))
-
-
-def _lay_map(memory: Memory, heap: Heap, impact: ImpactMap) -> int:
-    names = parameter_names(impact.impulses, "map")
-    if names[:1] != ("friction",):
-        raise InvalidInput(
-            f"{type(impact).__name__}.impulses",
-            "must take friction as the first of its own arguments",
-            names,
-            "Write impulses(n, delassus, rates, out, friction, ...).",
-        )
-    offered: dict[str, Value] = {**impact.parameters(), "friction": 0.0}
-    address, values = bind(impact.impulses, "map", offered, type(impact).__name__)
-    memory.scalars["impact_map"] = address
-    return heap.store(values[1:])
 
 
 def lay_guards(system: System, memory: Memory, heap: Heap) -> None:

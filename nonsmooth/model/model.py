@@ -8,14 +8,11 @@ import numpy as np
 
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.interfaces import ImpactMap
-from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.layout import GEOMETRY, N_ACCOUNTS
 from nonsmooth.model.memory import Memory
 from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
-
-N_ACCOUNTS = 4
-"""Energies integrated with the state: work of driven bodies, loss to friction, gross exchange, work of loads."""
 
 
 @dataclass(frozen=True)
@@ -28,19 +25,20 @@ class Model:
         What it was made from.
     memory : Memory
         Scalars and heaps.
-    n_q, n_u : int
-        Numbers of coordinates and velocities of all bodies.
+    n_q, n_u, n_states : int
+        Numbers of coordinates and velocities of all bodies, and of the inner states of laws.
     """
 
     system: System
     memory: Memory
     n_q: int
     n_u: int
+    n_states: int
 
     @property
     def n_y(self) -> int:
-        """Length of the integrated state: q, u, accounts."""
-        return self.n_q + self.n_u + N_ACCOUNTS
+        """Length of the integrated state: q, u, accounts, states of laws."""
+        return self.n_q + self.n_u + N_ACCOUNTS + self.n_states
 
     def energy(self) -> tuple[float, float]:
         """Return kinetic and potential energy [J] of the present state."""
@@ -67,6 +65,7 @@ class Model:
 
 def map_width(contacts: tuple[Contact, ...]) -> int:
     """Return how many numbers a law that maps velocities takes per contact."""
-    if contacts and isinstance(contacts[0].impact, ImpactMap):
-        return len(parameter_names(contacts[0].impact.impulses, "map"))
+    for contact in contacts:
+        if isinstance(contact.impact, ImpactMap):
+            return len(parameter_names(contact.impact.impulses, "map"))
     return 1

@@ -8,7 +8,7 @@ import functools
 import inspect
 import math
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +23,9 @@ from nonsmooth.plugins.source import described, name_of, place_of
 
 ROLES = {
     "scalar": ("x",),
+    "compliance": ("indentation", "rate", "closing_rate"),
+    "traction": ("normal_force", "motion", "state", "out"),
+    "rates": ("speed", "state", "out"),
     "guard": ("t", "q", "u"),
     "body": ("t", "q", "u", "out"),
     "load": ("t", "a", "b", "out"),
@@ -32,7 +35,10 @@ ROLES = {
 """What the engine passes to a function of each form, before the function's own parameters."""
 
 _CALLS = {
-    "scalar": ("x, p", "y = float(law(x{unpacked}))", "y = nan"),
+    "scalar": ("x, p", "v = float(law(x{unpacked}))", "v = nan"),
+    "compliance": ("x, y, z, p", "v = float(law(x, y, z{unpacked}))", "v = nan"),
+    "traction": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
+    "rates": ("t, a, b, p, out", "law(t, b, out{unpacked})", "out[0] = nan"),
     "guard": ("t, q, u, p", "return float(law(t, q, u{unpacked}))", "return nan"),
     "body": ("t, q, u, p, out", "law(t, q, u, out{unpacked})", "out[0] = nan"),
     "load": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
@@ -40,8 +46,21 @@ _CALLS = {
     "map": ("n, delassus, rates, p, out", "law(n, delassus, rates, out{unpacked})", "out[0] = nan"),
 }
 """What the engine calls with, the call of the function, and what stands for an exception."""
-_ENDINGS = {"scalar": " if x - x == 0.0 and y - y != 0.0: p[0] = x\n return y\n"}
-"""What follows the call: the last number for which there is none stands before the parameters, for messages."""
+_ENDINGS = {
+    "scalar": " if x - x == 0.0 and v - v != 0.0: p[0] = x\n return v\n",
+    "compliance": (" if x - x + y - y + z - z == 0.0 and v - v != 0.0: p[0], p[1], p[2] = x, y, z\n return v\n"),
+    "traction": (
+        " v = out[0] + out[1] + out[2] + out[3] + out[4]\n"
+        " s = t + a[0] + a[1] + a[2] + a[3] + a[4]\n"
+        " if s - s == 0.0 and v - v != 0.0:\n"
+        "  p[0] = t\n"
+        "  for i in range(5): p[1 + i] = a[i]\n"
+    ),
+    "rates": " if t - t == 0.0 and out[0] - out[0] != 0.0: p[0] = t\n",
+}
+"""What follows the call of a law: the numbers for which it has no value, before its parameters, for messages."""
+RECORDED = {"scalar": 1, "compliance": 3, "traction": 6, "rates": 1}
+"""How many numbers that are; none for other forms."""
 _SHIM = "def shim({arguments}):\n {call}\n{ending}"
 _GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
 """A compiled function cannot raise into the engine: an exception becomes a number that is not finite.
@@ -86,7 +105,7 @@ def bind(
     function : callable
         A plain function whose first arguments are those of ``ROLES[form]``.
     form : str
-        "scalar", "guard", "body", "load", "pair" or "map".
+        One of ``ROLES``.
     values : mapping of str to float or tuple of float
         The parameters that the law's object and its surroundings offer; the function gets a tuple as a heap.
     owner : str
@@ -95,9 +114,9 @@ def bind(
     Returns
     -------
     tuple of int and tuple of float
-        The address, and what the function's parameters need on the heap: for functions of one number, a place for
-        one that it has no value for; one number for each parameter, in the order of the signature, then the tuples;
-        the number of a tuple says where it begins.
+        The address, and what the function's parameters need on the heap: places for numbers that it has no value
+        for (``RECORDED``); one number for each parameter, in the order of the signature, then the tuples; the number
+        of a tuple says where it begins.
 
     Raises
     ------
@@ -109,7 +128,7 @@ def bind(
         if name not in values:
             raise UnknownName(f"{owner}: {described(function)}, asks for a parameter whose", name, values)
     vectors = tuple(isinstance(values[name], tuple) for name in names)
-    first = _first(form)
+    first = RECORDED.get(form, 0)
     heap: list[float] = [math.nan] * first + [0.0] * len(names)
     for i, name in enumerate(names, start=first):
         value = values[name]
@@ -123,6 +142,11 @@ def bind(
         _warned.add(entry.address)
         _warn(function, owner, entry.refusal, interpreted.cost(entry.shim, tuple(heap)))
     return entry.address, tuple(heap)
+
+
+def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float], name: str) -> int:
+    """Return where a tuple begins in what :func:`bind` wants on the heap."""
+    return int(heap[RECORDED.get(form, 0) + parameter_names(function, form).index(name)])
 
 
 _warned: set[int] = set()
@@ -139,16 +163,11 @@ def _warn(function: Callable[..., Any], owner: str, why: Refusal, cost: str) -> 
     )
 
 
-def _first(form: str) -> int:
-    """Return how many numbers stand before the parameters of a function."""
-    return 1 if form in _ENDINGS else 0
-
-
 @functools.cache
 def _entry(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> _Entry:
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
-    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items, start=_first(form)))
+    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items, start=RECORDED.get(form, 0)))
     arguments, call, failure = _CALLS[form]
     parts = {"arguments": arguments, "call": call.format(unpacked=unpacked), "failure": failure}
     ending = _ENDINGS.get(form, "")

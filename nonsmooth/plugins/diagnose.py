@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
 
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.modes import NOT_FINITE, STEP_TOO_SMALL
-from nonsmooth.interfaces import FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess, Load
+from nonsmooth.interfaces import ImpactMap, Load
 from nonsmooth.interfaces.guard import guard_value
-from nonsmooth.model.layout import CATALOGUE, FRAME, GEOMETRY, LOAD
-from nonsmooth.model.memory import Memory
+from nonsmooth.model.layout import CATALOGUE, FRAME, GEOMETRY, LOAD, N_ACCOUNTS
 from nonsmooth.model.model import Model
-from nonsmooth.parameters import Component
 from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.compile import parameter_names
-from nonsmooth.plugins.source import described, raised, returned
-
-_REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can step through it."
+from nonsmooth.plugins.law_failure import REMEDY, Finding, first_without_value, law_functions, without_value
+from nonsmooth.plugins.source import described, raised
 
 
 def culprit(model: Model, status: int) -> str:
@@ -28,13 +24,7 @@ def culprit(model: Model, status: int) -> str:
     found = (_in_the_map(model) if status == NOT_FINITE else "") or _in_the_blocks(model)
     if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
         return found
-    for number, contact in enumerate(model.system.contacts):
-        row = model.memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
-        for name, law, function in law_functions(contact.friction, contact.impact):
-            found = without_value(model.memory, int(row[CATALOGUE.index(f"{name}_parameters")]), law, function)
-            if found:
-                return f"{found} ({contact.name})"
-    found = _guard_without_value(model)
+    found = first_without_value(_law_findings(model)) or _guard_without_value(model)
     if found:
         return found
     state = model.memory.array("y", model.n_y)
@@ -43,34 +33,15 @@ def culprit(model: Model, status: int) -> str:
     return ""
 
 
-def law_functions(friction: FrictionLaw, impact: ImpactLaw) -> Iterator[tuple[str, Component, Callable[..., float]]]:
-    """Yield the functions of one number of the laws of a contact, with their names in the memory and their laws."""
-    yield "friction", friction, friction.coefficient
-    if isinstance(impact, ImpactProcess):
-        yield "force", impact, impact.force
-        yield "efficiency", impact, impact.efficiency
-
-
-def without_value(memory: Memory, parameters: int, law: Component, function: Callable[..., float]) -> str:
-    """Return a sentence on the last number for which a function had no finite value in the engine, nothing without one.
-
-    Parameters
-    ----------
-    memory : Memory
-        The engine's.
-    parameters : int
-        Where the parameters of the function begin there.
-    law : Component
-        The law.
-    function : callable
-        Its function.
-    """
-    x = float(memory.floats[parameters])
-    if not math.isfinite(x):
-        return ""
-    values = {name: law.parameters()[name] for name in parameter_names(function, "scalar")}
-    what = interpreted.noted(function) or returned(function, x, **values)
-    return f"{type(law).__name__}: {described(function)}, {what} at {x!r} with {values}. {_REMEDY}"
+def _law_findings(model: Model) -> Iterator[Finding | None]:
+    first_state = model.n_q + model.n_u + N_ACCOUNTS
+    for number, contact in enumerate(model.system.contacts):
+        row = model.memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
+        start, n = (int(row[CATALOGUE.index(name)]) for name in ("state", "n_state"))
+        state = model.memory.array("y", model.n_y)[first_state + start :][:n]
+        for part in law_functions(contact.friction, contact.impact, contact.normal):
+            parameters = int(row[CATALOGUE.index(f"{part.name}_parameters")])
+            yield without_value(model.memory.floats[parameters:], part, state, contact.name)
 
 
 def _in_the_blocks(model: Model) -> str:
@@ -84,7 +55,7 @@ def _in_the_blocks(model: Model) -> str:
         for name, function, block in _blocks(model):
             if not np.all(np.isfinite(block)):
                 what = interpreted.noted(function) or "raises or gives a number that is not finite"
-                return f"{name} {what} at t = {time:.9g} s. {_REMEDY}"
+                return f"{name} {what} at t = {time:.9g} s. {REMEDY}"
     return ""
 
 

@@ -19,7 +19,7 @@ from nonsmooth.engine.kernel import PLAIN, at, unshared
 from nonsmooth.plugins.source import raised
 
 _Pointer = ctypes.POINTER(ctypes.c_double)
-_C_TYPES: dict[str, Any] = {"n": ctypes.c_int64, "t": ctypes.c_double, "x": ctypes.c_double}
+_C_TYPES: dict[str, Any] = {"n": ctypes.c_int64, **dict.fromkeys("txyz", ctypes.c_double)}
 """Of the arguments that are no pointers."""
 _SECONDS = 5e-3
 """How long a function is timed."""
@@ -66,11 +66,11 @@ def address(shim: Callable[..., Any]) -> int:
 
 
 def cost(shim: Callable[..., Any], numbers: tuple[float, ...]) -> str:
-    """Return in words what a call by address takes: of a function of one number itself, of any other an empty one."""
+    """Return in words what a call by address takes: of a function of numbers itself, of any other an empty one."""
     names = tuple(inspect.signature(shim).parameters)
     heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)
-    if names == ("x", "p"):
-        seconds = _time(_prototype(shim)(shim), (0.0, heap))
+    if all(name in _C_TYPES for name in names[:-1]):
+        seconds = _time(_prototype(shim)(shim), (*[0.0] * (len(names) - 1), heap))
         return f"A call takes {1e6 * seconds:.1f} us, timed just now"
     callback = _prototype(shim)(lambda *arguments: 0.0)
     given = [0 if name == "n" else 0.0 if name in _C_TYPES else heap for name in names]

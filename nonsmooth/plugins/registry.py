@@ -24,11 +24,12 @@ from nonsmooth.interfaces import (
     NormalLaw,
     Scenario,
     Shape,
+    TractionLaw,
 )
 
 GROUPS: dict[str, tuple[type, ...]] = {
     "bodies": (Body,),
-    "laws": (NormalLaw, FrictionLaw, ImpactLaw),
+    "laws": (NormalLaw, FrictionLaw, TractionLaw, ImpactLaw),
     "scenarios": (Scenario,),
     "kinematics": (ContactKinematics,),
     "joints": (Joint,),

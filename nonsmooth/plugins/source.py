@@ -45,8 +45,8 @@ def raised(function: Callable[..., Any], error: BaseException) -> str:
     return f"raises {error!r}{_line(file, number)}{beyond}"
 
 
-def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> str:
-    """Call a function; return what it returns, and in which line, or what it raises, in words."""
+def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> tuple[str, Any]:
+    """Call a function; return what it returns, and in which line, or what it raises, in words, and the value."""
     code, lines = _code(function), [0]
 
     def follow(frame: FrameType, event: str, argument: Any) -> Any:
@@ -60,10 +60,10 @@ def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> str:
     try:
         value = function(*arguments, **more)
     except Exception as error:
-        return raised(function, error)
+        return raised(function, error), None
     finally:
         sys.settrace(before)
-    return f"returns {value!r}{_line(place_of(function)[0], lines[0])}"
+    return f"returns {value!r}{_line(place_of(function)[0], lines[0])}", value
 
 
 def _line(file: str, line: int) -> str:

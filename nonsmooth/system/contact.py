@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, Joint, Load, NormalLaw
+from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, Joint, Load, NormalLaw, TractionLaw
 from nonsmooth.system.materials import ContactLaws
 
 
@@ -24,8 +24,10 @@ class Contact:
         Geometry of the pair of shapes.
     extents : tuple of float
         Radius about its frame's origin that holds either shape [m].
-    normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw
-        The laws.
+    normal, friction : NormalLaw, FrictionLaw or TractionLaw
+        The laws of sustained contact.
+    impact : ImpactLaw or None
+        The law of impacts; None for a compliant contact, which has none.
     """
 
     name: str
@@ -35,8 +37,8 @@ class Contact:
     kinematics: ContactKinematics
     extents: tuple[float, float]
     normal: NormalLaw
-    friction: FrictionLaw
-    impact: ImpactLaw
+    friction: FrictionLaw | TractionLaw
+    impact: ImpactLaw | None
 
     @property
     def size(self) -> float:

@@ -7,7 +7,15 @@ from dataclasses import dataclass, field
 from typing import final
 
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.interfaces import FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess, NormalLaw
+from nonsmooth.interfaces import (
+    CompliantNormalLaw,
+    FrictionLaw,
+    ImpactLaw,
+    ImpactMap,
+    ImpactProcess,
+    NormalLaw,
+    TractionLaw,
+)
 
 
 @final
@@ -17,8 +25,10 @@ class ContactLaws:
 
     Attributes
     ----------
-    normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw
-        The laws.
+    normal, friction : NormalLaw, FrictionLaw or TractionLaw
+        The laws of sustained contact.
+    impact : ImpactLaw, optional
+        The law of impacts, which a compliant contact does without.
 
     Raises
     ------
@@ -27,8 +37,8 @@ class ContactLaws:
     """
 
     normal: NormalLaw
-    friction: FrictionLaw
-    impact: ImpactLaw
+    friction: FrictionLaw | TractionLaw
+    impact: ImpactLaw | None = None
 
     def __post_init__(self) -> None:
         check_laws("ContactLaws", self.normal, self.friction, self.impact)
@@ -106,11 +116,30 @@ class Materials:
         return self.default
 
 
-def check_laws(where: str, normal: NormalLaw, friction: FrictionLaw, impact: ImpactLaw) -> None:
-    """Raise InvalidInput, naming ``where``, unless the three laws are of their kinds."""
-    for law, kind in ((normal, NormalLaw), (friction, FrictionLaw), (impact, ImpactLaw)):
-        if not isinstance(law, kind):
-            raise InvalidInput(where, f"needs a {kind.__name__}", law, "See `nonsmooth list laws`.")
+def check_laws(where: str, normal: NormalLaw, friction: FrictionLaw | TractionLaw, impact: ImpactLaw | None) -> None:
+    """Raise InvalidInput, naming ``where``, unless the laws are of their kinds and go with one another."""
+    if not isinstance(normal, NormalLaw):
+        raise InvalidInput(where, "needs a NormalLaw", normal, "See `nonsmooth list laws`.")
+    if not isinstance(friction, (FrictionLaw, TractionLaw)):
+        raise InvalidInput(where, "needs a FrictionLaw or TractionLaw", friction, "See `nonsmooth list laws`.")
+    if isinstance(normal, CompliantNormalLaw):
+        if impact is not None:
+            raise InvalidInput(
+                where,
+                f"takes no impact law beside the compliant {type(normal).__name__}",
+                impact,
+                "Leave `impact` out: the force over the time of the contact is the impact.",
+            )
+        return
+    if isinstance(friction, TractionLaw):
+        raise InvalidInput(
+            where,
+            f"needs a compliant normal law for {type(friction).__name__}",
+            normal,
+            "Take one, such as hertz, or a friction law with a coefficient, such as coulomb.",
+        )
+    if not isinstance(impact, ImpactLaw):
+        raise InvalidInput(where, "needs an ImpactLaw", impact, "See `nonsmooth list laws`.")
     if not isinstance(impact, (ImpactProcess, ImpactMap)):
         raise InvalidInput(where, "needs an ImpactProcess or ImpactMap", impact, "Subclass one of the two.")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import FrictionLaw, ImpactLaw, NormalLaw
+from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw, ImpactLaw, NormalLaw, TractionLaw
 from nonsmooth.system.system import System
 
 
@@ -11,7 +11,7 @@ def with_laws(
     system: System,
     *,
     normal: NormalLaw | None = None,
-    friction: FrictionLaw | None = None,
+    friction: FrictionLaw | TractionLaw | None = None,
     impact: ImpactLaw | None = None,
 ) -> System:
     """Return a system of the same bodies, starts, joints, loads and guards, with other laws in all of its contacts.
@@ -20,8 +20,8 @@ def with_laws(
     ----------
     system : System
         Stays as it is.
-    normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw, optional
-        The laws to put in; a law that is left out stays.
+    normal, friction, impact : NormalLaw, FrictionLaw or TractionLaw, ImpactLaw, optional
+        The laws to put in; a law that is left out stays, but a compliant normal law takes the place of an impact law.
 
     Raises
     ------
@@ -33,12 +33,13 @@ def with_laws(
     made = System(system.bodies, -system.gravity[2])
     for said in system.declarations:
         laws = said.laws
+        kept = None if isinstance(normal, CompliantNormalLaw) else laws.impact
         made.contact(
             said.first,
             said.second,
             normal=laws.normal if normal is None else normal,
             friction=laws.friction if friction is None else friction,
-            impact=laws.impact if impact is None else impact,
+            impact=kept if impact is None else impact,
             shapes=said.shapes,
         )
     for tie in system.joints:

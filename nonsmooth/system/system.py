@@ -19,6 +19,7 @@ from nonsmooth.interfaces import (
     Joint,
     Load,
     NormalLaw,
+    TractionLaw,
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
@@ -191,8 +192,8 @@ class System:
         second: Body,
         *,
         normal: NormalLaw,
-        friction: FrictionLaw,
-        impact: ImpactLaw,
+        friction: FrictionLaw | TractionLaw,
+        impact: ImpactLaw | None = None,
         shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
     ) -> tuple[Contact, ...]:
         """Let two bodies touch: one contact per pair of their shapes, all with the same laws.
@@ -201,8 +202,10 @@ class System:
         ----------
         first, second : Body
             The bodies.
-        normal, friction, impact : NormalLaw, FrictionLaw, ImpactLaw
-            The laws.
+        normal, friction : NormalLaw, FrictionLaw or TractionLaw
+            The laws of sustained contact.
+        impact : ImpactLaw, optional
+            The law of impacts; a compliant normal law does without one, a rigid one needs it.
         shapes : tuple of two sequences of int, optional
             Which shapes of either body may touch, None for all.  The shapes of a body are numbered from 0 through all
             of its frames, in the order of ``Body.frames``.  Shapes of the same two bodies may so get laws of their own
@@ -223,10 +226,11 @@ class System:
         self._require(first, "System.contact")
         self._require(second, "System.contact")
         check_laws("System.contact", normal, friction, impact)
-        if self._contacts and not _same_kind(impact, self._contacts[0].impact):
+        present = next((contact.impact for contact in self._contacts if contact.impact is not None), impact)
+        if impact is not None and present is not None and not _same_kind(impact, present):
             raise InvalidInput(
                 "System.contact",
-                f"needs an impact law of the kind of {type(self._contacts[0].impact).__name__}",
+                f"needs an impact law of the kind of {type(present).__name__}",
                 type(impact).__name__,
                 "An impact owns the whole colliding set: give all contacts laws of one kind.",
             )
@@ -332,8 +336,8 @@ class System:
         second: Side,
         n_added: int,
         normal: NormalLaw,
-        friction: FrictionLaw,
-        impact: ImpactLaw,
+        friction: FrictionLaw | TractionLaw,
+        impact: ImpactLaw | None,
     ) -> list[Contact]:
         known = registry.load_all("kinematics").values()
         number = len(self._contacts) + n_added + 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.contact import solve_contact
-from nonsmooth.interfaces import NormalLaw
+from nonsmooth.interfaces import RigidNormalLaw
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.draws import Case, Variable
 from nonsmooth.testing.examine import Trial, examine
@@ -17,12 +17,12 @@ _TOLERANCE = 1e-9
 _DRAWS = 12
 
 
-def check_normal_law(law: NormalLaw) -> list[Property]:
+def check_normal_law(law: RigidNormalLaw) -> list[Property]:
     """Return the properties of a normal law: its certificate on both sides.
 
     Parameters
     ----------
-    law : NormalLaw
+    law : RigidNormalLaw
         The law, with parameters.
     """
 
@@ -52,7 +52,7 @@ def check_normal_law(law: NormalLaw) -> list[Property]:
     )
 
 
-def _accepts(law: NormalLaw, case: Case) -> str:
+def _accepts(law: RigidNormalLaw, case: Case) -> str:
     result = solve_contact(
         np.eye(3), np.eye(3)[:, 2:], np.eye(3)[:, None, :2], [0.0, 0.0, case["load"]], [Constant(0.0)]
     )
@@ -63,7 +63,7 @@ def _accepts(law: NormalLaw, case: Case) -> str:
 
 
 def _refuses(acceleration: int, force: int) -> Trial:
-    def trial(law: NormalLaw, case: Case) -> str:
+    def trial(law: RigidNormalLaw, case: Case) -> str:
         g, f = acceleration * case["size"], force * case["size"]
         if not law.is_fulfilled(g, f, _TOLERANCE * case["size"]):
             return ""
@@ -72,7 +72,7 @@ def _refuses(acceleration: int, force: int) -> Trial:
     return trial
 
 
-def _scales(law: NormalLaw, case: Case) -> str:
+def _scales(law: RigidNormalLaw, case: Case) -> str:
     size = case["size"]
     for g, f in ((max(case["load"], 0.0), max(-case["load"], 0.0)), (case["load"], 1.0)):
         one, other = (bool(law.is_fulfilled(c * g, c * f, c * _TOLERANCE)) for c in (1.0, size))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.kernel import call_room
-from nonsmooth.interfaces import Body, ContactKinematics, NormalLaw, Shape
+from nonsmooth.interfaces import Body, ContactKinematics, RigidNormalLaw, Shape
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.model.layout import GEOMETRY
 from nonsmooth.model.options import Options
@@ -107,7 +107,7 @@ class _Carrier(Body):
 
 @final
 @dataclass(frozen=True)
-class _Any(NormalLaw):
+class _Any(RigidNormalLaw):
     def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
         return True
 

@@ -130,7 +130,9 @@ def test_a_run_that_fails_says_where_and_saves_what_it_has(call: Call, law: Path
     assert (status, report["status"]) == (1, "failed")
     line = _LAW.splitlines().index('        raise ValueError("no such speed")') + 1
     for text in (errors, report["message"]):
-        assert re.search(rf"Lost: lost in {law}, line \d+, raises ValueError\('no such speed'\) \(line {line}\) at 0\.1", text)
+        assert re.search(
+            rf"Lost: lost in {law}, line \d+, raises ValueError\('no such speed'\) \(line {line}\) at 0\.1", text
+        )
     assert 0.0 < report["t_end"] < 20.0
     assert report["n_steps"] > 10
     assert len((results / "events.csv").read_text().splitlines()) == 1 + report["n_events"]

@@ -11,7 +11,15 @@ from typing import Any, final
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.interfaces import FrictionLaw, ImpactMap, ImpactProcess
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import (
+    CompliantNormalLaw,
+    FrictionLaw,
+    ImpactMap,
+    ImpactProcess,
+    StatefulFrictionLaw,
+    TractionLaw,
+)
 from nonsmooth.parameters import parameter
 
 TABLE = {"static": 0.3, "kinetic": 0.2}
@@ -108,6 +116,123 @@ class Map(ImpactMap):
         return True
 
 
+def push_back(indentation: float, rate: float, closing_rate: float, level: float) -> float:
+    """Push as a spring with damping."""
+    return max(0.0, 1e5 * level * indentation * (1.0 + 0.5 * rate))
+
+
+@final
+@dataclass(frozen=True)
+class Compliance(CompliantNormalLaw):
+    """A compliant normal law by a function of the test's."""
+
+    function: Callable[..., float] = field(default=push_back)
+    level: float = parameter(1.0, doc="stiffness")
+
+    def parameters(self) -> dict[str, float]:
+        """Return the level."""
+        return {"level": self.level}
+
+    @property
+    def force(self) -> Callable[..., float]:
+        """As given."""
+        return self.function
+
+    @property
+    def reach(self) -> float:
+        """None."""
+        return 0.0
+
+    def is_fulfilled(
+        self, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float
+    ) -> bool:
+        """Not asked for here."""
+        return True
+
+
+@compiled
+def drag(normal_force: float, motion: Any, state: Any, out: Any, level: float) -> None:
+    """Resist slip in proportion."""
+    for i in range(5):
+        out[i] = 0.0
+    out[0], out[1] = -level * normal_force * motion[0], -level * normal_force * motion[1]
+
+
+def by_drag(normal_force: float, motion: Any, state: Any, out: Any, level: float) -> None:
+    """Do just that."""
+    drag(normal_force, motion, state, out, level)
+
+
+@final
+@dataclass(frozen=True)
+class Traction(TractionLaw):
+    """A law of traction by a function of the test's."""
+
+    function: Callable[..., None] = field(default=by_drag)
+    level: float = parameter(1.0, doc="viscosity", unit="s/m")
+
+    def parameters(self) -> dict[str, float]:
+        """Return the level."""
+        return {"level": self.level}
+
+    @property
+    def traction(self) -> Callable[..., None]:
+        """As given."""
+        return self.function
+
+    @property
+    def initial_state(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
+    def is_fulfilled(self, motion: Any, state: Any, normal_force: float, traction: Any, tolerance: float) -> bool:
+        """Not asked for here."""
+        return True
+
+
+def remembering(speed: float, level: float, state: Any) -> float:
+    """Grow with the state."""
+    return float(level + 0.1 * state[0])
+
+
+def settle(speed: float, state: Any, out: Any, level: float) -> None:
+    """Follow the speed."""
+    out[0] = 20.0 * (speed - state[0])
+
+
+@final
+@dataclass(frozen=True)
+class Stateful(StatefulFrictionLaw):
+    """Friction with a state, by functions of the test's."""
+
+    function: Callable[..., float] = field(default=remembering)
+    rates_by: Callable[..., None] = field(default=settle)
+    level: float = parameter(0.2, doc="coefficient")
+
+    def parameters(self) -> dict[str, float]:
+        """Return the level."""
+        return {"level": self.level}
+
+    @property
+    def coefficient(self) -> Callable[..., float]:
+        """As given."""
+        return self.function
+
+    @property
+    def rates(self) -> Callable[..., None]:
+        """As given."""
+        return self.rates_by
+
+    @property
+    def initial_state(self) -> tuple[float, ...]:
+        """A speed."""
+        return (0.1,)
+
+    def is_fulfilled(self, slip: Any, normal_force: float, tangential_force: Any, tolerance: float) -> bool:
+        """Not asked for here."""
+        return True
+
+
 def sliding(friction: Any, t_end: float = 0.1) -> ns.Solution:
     """Let a ball slide on a plate at 0.5 m/s; the slip falls at 7 mu g / 2."""
     return _thrown({"friction": friction}, 0.0, t_end)
@@ -116,6 +241,15 @@ def sliding(friction: Any, t_end: float = 0.1) -> ns.Solution:
 def bouncing(impact: Any, t_end: float = 0.3) -> ns.Solution:
     """Let a ball bounce from 1 cm: its impacts are at 0.443 m/s, and slower from time to time."""
     return _thrown({"impact": impact, "friction": Coulomb(0.2)}, 0.01, t_end)
+
+
+def pressed(normal: Any = None, friction: Any = None) -> ns.Solution:
+    """Let a ball that slides fall on a compliant plate from 1 mm."""
+    plate, ball = Plate(), Ball(0.01)
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, normal=normal or Compliance(), friction=friction or Coulomb(0.2))
+    system.place(ball, position=(0.0, 0.0, 0.011), velocity=(0.3, 0.0, 0.0))
+    return ns.simulate(system, 0.1)
 
 
 def bouncing_with(friction: Any, t_end: float = 0.3) -> ns.Solution:
@@ -260,3 +394,28 @@ def newton_raising(n: int, delassus: Any, rates: Any, out: Any, friction: Any, l
 def newton_misspelt(n: int, delassus: Any, rates: Any, out: Any, friction: Any, levle: Any) -> None:
     """Ask for something misspelt."""
     out[0] = levle[0]
+
+
+def lost_deep(indentation: float, rate: float, closing_rate: float, level: float) -> float:
+    """Have no force far in."""
+    return 1e5 * level * indentation if 0.0 <= indentation < 2e-5 else math.nan if indentation > 0.0 else 0.0
+
+
+def drag_lost(normal_force: float, motion: Any, state: Any, out: Any, level: float) -> None:
+    """Have no force for slip below 0.29 m/s."""
+    for i in range(5):
+        out[i] = 0.0
+    out[1] = -level * normal_force * motion[1]
+    out[0] = -level * normal_force * motion[0] if motion[0] > 0.29 else math.nan
+
+
+def settle_lost(speed: float, state: Any, out: Any, level: float) -> None:
+    """Divide by zero for slow slip."""
+    if speed < 0.3:
+        raise ZeroDivisionError("slow")
+    out[0] = speed
+
+
+def remembering_lost(speed: float, level: float, state: Any) -> float:
+    """Have no coefficient for slow slip."""
+    return float(level + 0.1 * state[0]) if speed > 0.3 else math.nan

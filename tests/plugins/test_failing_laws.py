@@ -32,9 +32,10 @@ NUMBER = r"[-+.e0-9]+"
 
 
 def _failure(run: Callable[[], Any]) -> tuple[str, ns.Solution]:
-    with warnings.catch_warnings(), pytest.raises(ns.RunFailed) as caught:
+    with warnings.catch_warnings():
         warnings.simplefilter("ignore", ns.RunsInPython)
-        run()
+        with pytest.raises(ns.RunFailed) as caught:
+            run()
     solution = caught.value.solution
     assert isinstance(solution, ns.Solution)
     assert solution.status == "failed"
@@ -131,6 +132,47 @@ def test_what_was_raised_once_is_told_though_it_never_comes_again() -> None:
     message, _ = _failure(lambda: dummies.bouncing_with(law))
     assert "raises OSError('table gone')" in message
     assert re.search(r"test_failing_laws\.py, line \d+, raises", message)
+
+
+FORMS: dict[str, tuple[Callable[[], Any], str, Callable[..., Any], str]] = {
+    "compliance": (
+        lambda: dummies.pressed(normal=dummies.Compliance(dummies.lost_deep)),
+        "Compliance",
+        dummies.lost_deep,
+        r"returns nan \(.*\) at indentation = (?P<x>\S+), rate = \S+, closing_rate = \S+ with",
+    ),
+    "traction": (
+        lambda: dummies.pressed(friction=dummies.Traction(dummies.drag_lost)),
+        "Traction",
+        dummies.drag_lost,
+        r"writes \[.*nan.*\] \(.*\) at normal_force = \S+, motion = \[(?P<x>[^,]*), .*\], state = \[\] with",
+    ),
+    "rates": (
+        lambda: dummies.sliding(dummies.Stateful(rates_by=dummies.settle_lost)),
+        "Stateful",
+        dummies.settle_lost,
+        r"raises ZeroDivisionError\(.*\) \(.*\) at speed = (?P<x>\S+), state = \[\S+\] with",
+    ),
+    "coefficient with a state": (
+        lambda: dummies.sliding(dummies.Stateful(dummies.remembering_lost)),
+        "Stateful",
+        dummies.remembering_lost,
+        r"returns nan \(.*\) at (?P<x>\S+) with \{'level': 0.2, 'state': \[\S+\]\}",
+    ),
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_other_forms_of_contact_laws(form: str) -> None:
+    """Each names all of its input, inner states as well."""
+    run, owner, function, told = FORMS[form]
+    message, solution = _failure(run)
+    place = rf"{owner}: {function.__name__} in \S*failing_laws\.py, line {function.__code__.co_firstlineno}, "
+    found = re.search(place + told, message)
+    assert found is not None, message
+    assert 0.0 < abs(float(found["x"])) < 0.5
+    assert solution.t_end > 0.0
+    assert len(solution.t) > 1
 
 
 def test_one_impact_names_the_law() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import signal
+import types
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -27,7 +28,7 @@ TABLE = dummies.TABLE
 
 def _fresh(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a copy that nobody has seen, so that it makes a warning of its own."""
-    copy = type(function)(function.__code__, function.__globals__, function.__name__)
+    copy = types.FunctionType(function.__code__, function.__globals__, function.__name__)
     copy.__qualname__ = function.__qualname__
     return copy
 
@@ -112,6 +113,37 @@ def test_impact_laws() -> None:
 
 def _half_in_python(rate: float, level: float) -> float:
     return {False: 0.5, True: TABLE["static"] / 0.3}[rate <= 0.0]
+
+
+def _push_back(indentation: float, rate: float, closing_rate: float, level: float) -> float:
+    return max(0.0, 1e5 * level * indentation * (1.0 + 0.5 * rate)) * TABLE["static"] / 0.3
+
+
+def _drag(normal_force: float, motion: Any, state: Any, out: Any, level: float) -> None:
+    scale = TABLE["static"] / 0.3
+    dummies.drag(normal_force, motion, state, out, scale * level)
+
+
+def _settle(speed: float, state: Any, out: Any, level: float) -> None:
+    out[0] = TABLE["static"] / 0.3 * 20.0 * (speed - state[0])
+
+
+def _remembering(speed: float, level: float, state: Any) -> float:
+    return float(TABLE["static"] / 0.3 * (level + 0.1 * state[0]))
+
+
+def test_compliant_laws_traction_and_states() -> None:
+    """The other forms of contact laws, against their compiled twins."""
+    compliance, drag = dummies.Compliance(_fresh(_push_back)), dummies.Traction(_fresh(_drag))
+    states = dummies.Stateful(_fresh(_remembering), _fresh(_settle))
+    for one, two, functions in (
+        (dummies.pressed(), dummies.pressed, {"normal": compliance}),
+        (dummies.pressed(friction=dummies.Traction()), dummies.pressed, {"friction": drag}),
+        (dummies.sliding(dummies.Stateful()), dummies.sliding, {"friction": states}),
+    ):
+        found, told = _with_warnings(lambda two=two, functions=functions: two(**functions))  # type: ignore[misc]
+        np.testing.assert_allclose(found.q, one.q, rtol=0.0, atol=1e-11)
+        assert len(told) == (0 if PLAIN else len(functions) + (states in functions.values()))
 
 
 def _mass(q: Any, out: Any, length: float) -> None:
@@ -235,8 +267,8 @@ def test_a_compiled_helper_that_cannot_be_compiled_is_the_one_named() -> None:
 
 @NATIVE
 def test_a_warning_made_an_error_stops_before_the_run() -> None:
-    with warnings.catch_warnings(), pytest.raises(ns.RunsInPython):
-        warnings.simplefilter("error")
+    warnings.simplefilter("error")
+    with pytest.raises(ns.RunsInPython):
         dummies.sliding(dummies.Friction(_fresh(dummies.by_dictionary)))
 
 

@@ -15,10 +15,10 @@ Install = Callable[..., None]
 
 _GOOD = """
 from dataclasses import dataclass
-from nonsmooth.interfaces import NormalLaw
+from nonsmooth.interfaces import RigidNormalLaw
 
 @dataclass(frozen=True)
-class Good(NormalLaw):
+class Good(RigidNormalLaw):
     '''A law that accepts everything.'''
 
     def is_fulfilled(self, acceleration, force, tolerance):
@@ -72,8 +72,8 @@ def test_an_unknown_name_is_answered_with_the_nearest() -> None:
         (1, "Missing", _GOOD, "cannot be loaded: AttributeError"),
         (2, "Good", "1 +", "cannot be loaded: SyntaxError"),
         (3, "Good", "raise KeyError('x')", "cannot be loaded: KeyError"),
-        (4, "Good", "Good = 3", "must be a subclass of NormalLaw or FrictionLaw or ImpactLaw, not 3"),
-        (5, "Good", "class Good: pass", "must be a subclass of NormalLaw"),
+        (4, "Good", "Good = 3", "must be a subclass of RigidNormalLaw or FrictionLaw or ImpactLaw, not 3"),
+        (5, "Good", "class Good: pass", "must be a subclass of RigidNormalLaw"),
         (6, "Good", _GOOD.replace("def is_fulfilled", "def fulfils"), "must define is_fulfilled"),
         (7, "Good", _GOOD.replace("@dataclass(frozen=True)", ""), "must be a dataclass: write @dataclass"),
     ],

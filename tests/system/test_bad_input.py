@@ -201,7 +201,7 @@ BAD: dict[str, tuple[Callable[[], Any], tuple[str, str, str, str]]] = {
     ),
     "no impact law": (
         lambda: _contact(Plate(), Ball(1), impact=0.5),
-        ("System.contact", "needs a ImpactLaw", "0.5", "nonsmooth list laws"),
+        ("System.contact", "needs an ImpactLaw", "0.5", "nonsmooth list laws"),
     ),
     "restitution": (
         lambda: EnergeticImpact(1.5),

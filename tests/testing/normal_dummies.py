@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from nonsmooth.interfaces import NormalLaw
+from nonsmooth.interfaces import RigidNormalLaw
 
 Certificate = Callable[[float, float, float], bool]
 
@@ -35,7 +35,7 @@ def absolute(g: float, f: float, tolerance: float) -> bool:
 
 
 @dataclass(frozen=True)
-class Normal(NormalLaw):
+class Normal(RigidNormalLaw):
     """A law that is a certificate."""
 
     certificate: Certificate = sound
@@ -44,7 +44,7 @@ class Normal(NormalLaw):
         return self.certificate(acceleration, force, tolerance)
 
 
-DUMMIES: list[tuple[str, NormalLaw]] = [
+DUMMIES: list[tuple[str, RigidNormalLaw]] = [
     ("accepts sustained contact", Normal(refusing)),
     ("no penetration", Normal(penetrating)),
     ("no tension", Normal(pulling)),

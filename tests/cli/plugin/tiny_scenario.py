@@ -12,7 +12,7 @@ import numpy as np
 from bodies import Ball, Harmonic, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import Solution, System, simulate
-from nonsmooth.interfaces import FrictionLaw, NormalLaw, Scenario
+from nonsmooth.interfaces import FrictionLaw, RigidNormalLaw, Scenario
 from nonsmooth.parameters import parameter
 
 NUMBER = 1.0
@@ -121,12 +121,12 @@ class NotANumber(FrictionLaw):
 
 
 @dataclass(frozen=True)
-class Abstract(NormalLaw):
+class Abstract(RigidNormalLaw):
     """A law without a certificate."""
 
 
 @final
-class Bare(NormalLaw):
+class Bare(RigidNormalLaw):
     """A law that is no dataclass."""
 
     def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:

@@ -1,0 +1,122 @@
+"""Contacts and their laws, laid into the engine's memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeAlias
+
+from nonsmooth.engine.modes import OPEN
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import (
+    AnisotropicFrictionLaw,
+    CompliantNormalLaw,
+    FrictionLaw,
+    ImpactMap,
+    ImpactProcess,
+    StatefulFrictionLaw,
+    TractionLaw,
+)
+from nonsmooth.model.laying import Places
+from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS
+from nonsmooth.model.memory import Heap, Memory
+from nonsmooth.parameters import Value
+from nonsmooth.plugins.compile import bind, parameter_names, vector_place
+from nonsmooth.system.contact import Contact
+
+_Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
+"""Name in the catalogue, function, form, parameters that it may ask for."""
+_FORCE_AND_MOMENT = 5
+
+
+def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places: Places) -> None:
+    """Lay the contacts, and reserve the Jacobians of the slots."""
+    first_state = 0
+    for number, contact in enumerate(contacts):
+        _lay_contact(memory, heap, number, contact, places, first_state)
+        first_state += len(initial_state(contact))
+    widths = [places[id(body)].linkage_nu for contact in contacts for body in (contact.first, contact.second)]
+    for slot in range(int(memory.scalars["n_slots"][0])):
+        for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
+            memory.array(name, slot + 1)[slot] = heap.block(3 * max(widths))
+
+
+def initial_state(contact: Contact) -> tuple[float, ...]:
+    """Return the inner states from which the friction of a contact starts."""
+    law = contact.friction
+    return law.initial_state if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
+
+
+def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, places: Places, first_state: int) -> None:
+    impact, reach = contact.impact, 0.0
+    functions: list[_Function] = [
+        ("geometry", contact.kinematics.evaluator, "pair", contact.kinematics.parameters()),
+        *_friction_functions(contact.friction),
+    ]
+    if isinstance(contact.normal, CompliantNormalLaw):
+        functions.append(("normal", contact.normal.force, "compliance", contact.normal.parameters()))
+        reach = contact.normal.reach
+    if isinstance(impact, ImpactProcess):
+        functions.append(("force", impact.force, "scalar", impact.parameters()))
+        functions.append(("efficiency", impact.efficiency, "scalar", impact.parameters()))
+    owners = {"geometry": contact.kinematics, "normal": contact.normal, "force": impact, "efficiency": impact}
+    fields: dict[str, int] = {"mode": OPEN}
+    for name, function, form, available in functions:
+        owner = type(owners.get(name, contact.friction)).__name__
+        address, values = bind(function, form, available, f"{owner} ({contact.name})")
+        fields |= {f"{name}_function": address, f"{name}_parameters": heap.store(values)}
+        if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
+            fields["state_copy"] = fields["friction_parameters"] + _place_of_state(contact.friction, values)
+    start = initial_state(contact)
+    if start or isinstance(contact.friction, TractionLaw):
+        fields |= {"state": first_state, "n_state": len(start), "state_start": heap.store(start)}
+        fields |= {"traction_out": heap.block(_FORCE_AND_MOMENT + len(start)), "rates_out": heap.block(len(start))}
+    if isinstance(contact.friction, AnisotropicFrictionLaw):
+        law = contact.friction
+        fields |= {"oriented": 1, "axis": heap.store(((0.0, 1.0)[law.body == "second"], *law.axis, *law.ratios))}
+    for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
+        place = places[id(body)]
+        fields |= {f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
+        fields |= {f"shift_{side}": place.shift, f"linkage_{side}": place.linkage}
+    if isinstance(impact, ImpactMap):
+        fields["map_parameters"] = _lay_map(memory, heap, impact)
+    row = memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
+    for name, value in fields.items():
+        row[CATALOGUE.index(name)] = value
+    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * (number + 1))[CATALOGUE_FLOATS * number :]
+    floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach
+
+
+def _friction_functions(law: FrictionLaw | TractionLaw) -> list[_Function]:
+    if isinstance(law, TractionLaw):
+        return [("traction", law.traction, "traction", law.parameters())]
+    if isinstance(law, StatefulFrictionLaw):
+        offered = {**law.parameters(), "state": law.initial_state}
+        return [("friction", law.coefficient, "scalar", offered), ("rates", law.rates, "rates", law.parameters())]
+    return [("friction", law.coefficient, "scalar", law.parameters())]
+
+
+def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
+    names = parameter_names(law.coefficient, "scalar")
+    if "state" not in names:
+        raise InvalidInput(
+            f"{type(law).__name__}.coefficient",
+            "must take the vector `state` among its arguments",
+            names,
+            "Write coefficient(speed, state, ...), or subclass FrictionLaw if there is no state.",
+        )
+    return vector_place(law.coefficient, "scalar", values, "state")
+
+
+def _lay_map(memory: Memory, heap: Heap, impact: ImpactMap) -> int:
+    names = parameter_names(impact.impulses, "map")
+    if names[:1] != ("friction",):
+        raise InvalidInput(
+            f"{type(impact).__name__}.impulses",
+            "must take friction as the first of its own arguments",
+            names,
+            "Write impulses(n, delassus, rates, out, friction, ...).",
+        )
+    offered: dict[str, Value] = {**impact.parameters(), "friction": 0.0}
+    address, values = bind(impact.impulses, "map", offered, type(impact).__name__)
+    memory.scalars["impact_map"] = address
+    return heap.store(values[1:])
