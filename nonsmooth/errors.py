@@ -59,6 +59,10 @@ class RunsInPython(UserWarning):
     """A function that the compiler refuses, which runs in Python: as right, but slow; where, why, at which cost."""
 
 
+class MissingPackagesError(NonsmoothError):
+    """Optional packages that a request needs and that are not installed."""
+
+
 class RunFailed(NonsmoothError, RuntimeError):
     """A run that could not go on.  What was computed until then is in ``solution``."""
 

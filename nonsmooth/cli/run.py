@@ -25,7 +25,9 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("run", help="run a scenario", allow_abbrev=False)
     command.add_argument(
-        "scenario", metavar="SCENARIO", help="a name of `nonsmooth list scenarios`, a FILE.toml, or FILE.py:CLASS"
+        "scenario",
+        metavar="SCENARIO",
+        help="a name of `nonsmooth list scenarios`, a FILE.toml or FILE.yaml, or FILE.py:CLASS",
     )
     command.add_argument(
         "--set",
