@@ -13,7 +13,7 @@ from nonsmooth.plugins.source import place_of
 
 _STEP = re.compile(r"^Failed in \w+ mode pipeline.*$", re.M)
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
-_PLACES = re.compile(r'File "(?P<file>[^"]+)", line (?P<line>\d+)|(?:at|from) (?P<path>\S+\.py) \((?P<number>\d+)\)')
+_PLACES = re.compile(r'File "(?P<file>[^"]+)", line (?P<line>\d+)|(?:at|from) (?P<path>[^\s<>]\S*) \((?P<number>\d+)\)')
 _SIGNATURE = re.compile(r"^\s*>>>\s*(.*)$", re.M)
 _REDUNDANT = re.compile(r"\.?\s*Raised from .*$|, defined at None$| for '\$[^']*'")
 
@@ -66,10 +66,8 @@ def _place(message: str, file: str, first: int) -> tuple[str, int]:
     """Return the first place in the message that is a file of Python; the compiler goes from the inside out."""
     for found in _PLACES.finditer(message):
         named, line = found["file"] or found["path"], int(found["line"] or found["number"])
-        if not named.endswith(".py") or "numba" in Path(named).parts:
-            continue
         if Path(named).name == Path(file).name:
             return file, line
-        if Path(named).is_file():
+        if named.endswith(".py") and "numba" not in Path(named).parts and Path(named).is_file():
             return str(Path(named).resolve()), line
     return file, first

@@ -20,9 +20,14 @@ def name_of(function: Callable[..., Any]) -> str:
 
 
 def place_of(function: Callable[..., Any]) -> tuple[str, int]:
-    """Return file and first line of a function; no file and 0 for what is not written in Python."""
+    """Return file and first line of a function, decorators apart; no file and 0 for what is not written in Python."""
     code = _code(function)
-    return (code.co_filename, code.co_firstlineno) if code is not None else ("", 0)
+    if code is None:
+        return "", 0
+    line = code.co_firstlineno
+    while linecache.getline(code.co_filename, line).lstrip().startswith("@"):
+        line += 1
+    return code.co_filename, line
 
 
 def described(function: Callable[..., Any]) -> str:
