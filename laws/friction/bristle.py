@@ -78,6 +78,11 @@ class Bristle(TractionLaw):
         """Bristles that stand upright, z = 0 [m]."""
         return (0.0, 0.0)
 
+    @property
+    def state_scale(self) -> tuple[float, ...]:
+        """The bending in slow slip [m]."""
+        return (self.static_friction / self.stiffness,) * 2
+
     def is_fulfilled(
         self,
         motion: tuple[float, float, float, float, float],

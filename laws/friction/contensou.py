@@ -66,10 +66,8 @@ class CoulombContensou(TractionLaw):
     friction: float = parameter(doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0))
     drilling_radius: float = parameter(0.0, doc="drilling radius c", unit="m", minimum=0.0, usual=(1e-6, 0.1))
     rolling_length: float = parameter(0.0, doc="rolling length rho", unit="m", minimum=0.0, usual=(1e-7, 1e-2))
-    presliding: float = parameter(1e-5, doc="slip that bends the bristles", unit="m", above=0.0, usual=(1e-8, 1e-3))
-    prerolling: float = parameter(
-        1e-3, doc="turn that bends those of rolling", unit="rad", above=0.0, usual=(1e-6, 0.1)
-    )
+    presliding: float = parameter(1e-6, doc="slip that bends the bristles", unit="m", above=0.0, usual=(1e-8, 1e-3))
+    prerolling: float = parameter(1e-3, doc="the same of rolling", unit="rad", above=0.0, usual=(1e-6, 0.1))
     relaxation: float = parameter(0.0, doc="damping time of the bristles", unit="s", minimum=0.0, usual=(1e-7, 1e-1))
 
     @property
@@ -81,6 +79,11 @@ class CoulombContensou(TractionLaw):
     def initial_state(self) -> tuple[float, ...]:
         """Bristles that stand upright: slip along both tangents [m], rolling [rad], drilling [m]."""
         return (0.0, 0.0, 0.0, 0.0, 0.0)
+
+    @property
+    def state_scale(self) -> tuple[float, ...]:
+        """The bending in steady motion, in the order of the states."""
+        return (self.presliding, self.presliding, self.prerolling, self.prerolling, self.presliding)
 
     def is_fulfilled(
         self,

@@ -68,6 +68,11 @@ class RateAndState(StatefulFrictionLaw):
         """A fresh contact."""
         return (0.0,)
 
+    @property
+    def state_scale(self) -> tuple[float, ...]:
+        """The age after which the logarithm begins to count."""
+        return (self.length / self.reference_speed,)
+
     def is_fulfilled(
         self,
         slip: tuple[float, float],

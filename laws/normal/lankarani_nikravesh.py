@@ -17,9 +17,9 @@ def _force(
     if indentation <= 0.0:
         return 0.0
     if closing_rate <= 0.0:
-        return stiffness * indentation**exponent
+        return float(stiffness * indentation**exponent)
     damping = 0.75 * (1.0 - restitution * restitution) / closing_rate
-    return stiffness * indentation**exponent * max(0.0, 1.0 + damping * rate)
+    return float(stiffness * indentation**exponent) * max(0.0, 1.0 + damping * rate)
 
 
 @final

@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.interfaces import FrictionLaw, ImpactLaw, NormalLaw
+from nonsmooth.interfaces import ImpactLaw, NormalLaw, TangentialLaw
 from nonsmooth.parameters import from_all_words, rules
 from nonsmooth.plugins.file import find
 
-ROLES: dict[str, type] = {"normal": NormalLaw, "friction": FrictionLaw, "impact": ImpactLaw}
+ROLES: dict[str, type] = {"normal": NormalLaw, "friction": TangentialLaw, "impact": ImpactLaw}
 """The laws of a contact, by the name that the option has for them."""
 
 HELP = (

@@ -216,7 +216,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
         k[S.member + c] = 0
         k[S.mode_agreed + c] = OPEN
         if k[S.normal_function + c] != 0:
-            _expect_compliant(S, w, k, c, 1 if c == contact else 0, cause)
+            _expect_compliant(S, w, k, c, contact, cause)
         elif k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
             k[S.member + c] = 1
             # a slip about to start from rest is found anew, not remembered
@@ -234,15 +234,16 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
-def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, caused: int, cause: int) -> None:
+def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, contact: int, cause: int) -> None:
     """Guess the mode of a compliant contact, which is its mode where its friction is no question."""
-    if cause == LIFT_OFF and caused == 1:
+    if cause == LIFT_OFF and c == contact:
         k[S.touching + c] = 0
     if k[S.touching + c] == 0:
         return
     speed = _speed(S, w, k, c)
     slides = speed > S.velocity_tolerance or k[S.traction_function + c] != 0
-    k[S.mode_agreed + c] = SLIDE if slides or (cause == STICK_TO_SLIP and caused == 1) else STICK
+    breaks = cause == STICK_TO_SLIP and (c == contact or k[S.tied + c] + k[S.tied + contact] == 2)
+    k[S.mode_agreed + c] = SLIDE if slides or breaks else STICK
     k[S.member + c] = 1 - rubs_unasked(S, w, k, c)
     for i in range(2):
         w[S.direction_agreed + 2 * c + i] = w[S.direction + 2 * c + i]

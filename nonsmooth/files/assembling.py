@@ -11,12 +11,12 @@ from nonsmooth import placing
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files.components import Table, component, naming
 from nonsmooth.files.keys import check_keys, number, tables_in, words
-from nonsmooth.interfaces import Body, FrictionLaw, Guard, ImpactLaw, Joint, Load, NormalLaw
+from nonsmooth.interfaces import Body, Guard, ImpactLaw, Joint, Load, NormalLaw, TangentialLaw
 from nonsmooth.plugins import file, registry
 from nonsmooth.system.materials import ContactLaws, Materials
 from nonsmooth.system.system import System
 
-_ROLES: dict[str, type] = {"normal": NormalLaw, "friction": FrictionLaw, "impact": ImpactLaw}
+_ROLES: dict[str, type] = {"normal": NormalLaw, "friction": TangentialLaw, "impact": ImpactLaw}
 _PLACES = ("touching", "at_height", "resting")
 
 

@@ -11,6 +11,7 @@ from nonsmooth.interfaces.motion import Motion
 from nonsmooth.interfaces.normal_law import CompliantNormalLaw, NormalLaw, RigidNormalLaw
 from nonsmooth.interfaces.scenario import Scenario
 from nonsmooth.interfaces.shape import Shape
+from nonsmooth.interfaces.tangential_law import TangentialLaw
 from nonsmooth.interfaces.traction_law import TractionLaw
 
 __all__ = [
@@ -31,5 +32,6 @@ __all__ = [
     "Scenario",
     "Shape",
     "StatefulFrictionLaw",
+    "TangentialLaw",
     "TractionLaw",
 ]

@@ -6,10 +6,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Literal
 
-from nonsmooth.parameters import Component
+from nonsmooth.interfaces.tangential_law import TangentialLaw
 
 
-class FrictionLaw(Component, ABC):
+class FrictionLaw(TangentialLaw, ABC):
     """Friction that opposes slip, bounded by a disc while sticking.
 
     The contract:
@@ -86,3 +86,8 @@ class StatefulFrictionLaw(FrictionLaw, ABC):
     @abstractmethod
     def initial_state(self) -> tuple[float, ...]:
         """The values of point 5."""
+
+    @property
+    @abstractmethod
+    def state_scale(self) -> tuple[float, ...]:
+        """A usual size of every state, positive, to which the tolerance of the integration is relative."""

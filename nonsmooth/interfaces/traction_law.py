@@ -5,10 +5,10 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 
-from nonsmooth.parameters import Component
+from nonsmooth.interfaces.tangential_law import TangentialLaw
 
 
-class TractionLaw(Component, ABC):
+class TractionLaw(TangentialLaw, ABC):
     """Friction without a stick mode, by force and moment: bristles, lubricants, rolling and drilling resistance.
 
     It asks for a compliant normal law: the normal force must be known before the friction, and there is no impact in
@@ -34,6 +34,11 @@ class TractionLaw(Component, ABC):
     @abstractmethod
     def initial_state(self) -> tuple[float, ...]:
         """The values of point 3."""
+
+    @property
+    @abstractmethod
+    def state_scale(self) -> tuple[float, ...]:
+        """A usual size of every state, positive, to which the tolerance of the integration is relative."""
 
     @abstractmethod
     def is_fulfilled(

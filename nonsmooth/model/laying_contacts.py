@@ -14,10 +14,11 @@ from nonsmooth.interfaces import (
     ImpactMap,
     ImpactProcess,
     StatefulFrictionLaw,
+    TangentialLaw,
     TractionLaw,
 )
 from nonsmooth.model.laying import Places
-from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS
+from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
 from nonsmooth.model.memory import Heap, Memory
 from nonsmooth.parameters import Value
 from nonsmooth.plugins.compile import bind, parameter_names, vector_place
@@ -30,10 +31,13 @@ _FORCE_AND_MOMENT = 5
 
 def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places: Places) -> None:
     """Lay the contacts, and reserve the Jacobians of the slots."""
-    first_state = 0
+    first_state, first = 0, int(memory.scalars["n_q"][0] + memory.scalars["n_u"][0]) + N_ACCOUNTS
     for number, contact in enumerate(contacts):
         _lay_contact(memory, heap, number, contact, places, first_state)
-        first_state += len(initial_state(contact))
+        scales = state_scale(contact)
+        n_y = int(memory.scalars["n_y"][0])
+        memory.array("y_scale", n_y)[first + first_state : first + first_state + len(scales)] = scales
+        first_state += len(scales)
     widths = [places[id(body)].linkage_nu for contact in contacts for body in (contact.first, contact.second)]
     for slot in range(int(memory.scalars["n_slots"][0])):
         for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
@@ -44,6 +48,12 @@ def initial_state(contact: Contact) -> tuple[float, ...]:
     """Return the inner states from which the friction of a contact starts."""
     law = contact.friction
     return law.initial_state if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
+
+
+def state_scale(contact: Contact) -> tuple[float, ...]:
+    """Return the usual sizes of the inner states of the friction of a contact."""
+    law = contact.friction
+    return law.state_scale if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
 
 
 def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, places: Places, first_state: int) -> None:
@@ -86,12 +96,13 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
     floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach
 
 
-def _friction_functions(law: FrictionLaw | TractionLaw) -> list[_Function]:
+def _friction_functions(law: TangentialLaw) -> list[_Function]:
     if isinstance(law, TractionLaw):
         return [("traction", law.traction, "traction", law.parameters())]
     if isinstance(law, StatefulFrictionLaw):
         offered = {**law.parameters(), "state": law.initial_state}
         return [("friction", law.coefficient, "scalar", offered), ("rates", law.rates, "rates", law.parameters())]
+    assert isinstance(law, FrictionLaw)
     return [("friction", law.coefficient, "scalar", law.parameters())]
 
 

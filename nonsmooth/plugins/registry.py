@@ -15,7 +15,6 @@ from nonsmooth.errors import PluginError, UnknownName
 from nonsmooth.interfaces import (
     Body,
     ContactKinematics,
-    FrictionLaw,
     Guard,
     ImpactLaw,
     Joint,
@@ -24,12 +23,12 @@ from nonsmooth.interfaces import (
     NormalLaw,
     Scenario,
     Shape,
-    TractionLaw,
+    TangentialLaw,
 )
 
 GROUPS: dict[str, tuple[type, ...]] = {
     "bodies": (Body,),
-    "laws": (NormalLaw, FrictionLaw, TractionLaw, ImpactLaw),
+    "laws": (NormalLaw, TangentialLaw, ImpactLaw),
     "scenarios": (Scenario,),
     "kinematics": (ContactKinematics,),
     "joints": (Joint,),

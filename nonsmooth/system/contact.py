@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, Joint, Load, NormalLaw, TractionLaw
+from nonsmooth.interfaces import (
+    Body,
+    ContactKinematics,
+    ImpactLaw,
+    Joint,
+    Load,
+    NormalLaw,
+    TangentialLaw,
+)
 from nonsmooth.system.materials import ContactLaws
 
 
@@ -24,7 +32,7 @@ class Contact:
         Geometry of the pair of shapes.
     extents : tuple of float
         Radius about its frame's origin that holds either shape [m].
-    normal, friction : NormalLaw, FrictionLaw or TractionLaw
+    normal, friction : NormalLaw, TangentialLaw
         The laws of sustained contact.
     impact : ImpactLaw or None
         The law of impacts; None for a compliant contact, which has none.
@@ -37,7 +45,7 @@ class Contact:
     kinematics: ContactKinematics
     extents: tuple[float, float]
     normal: NormalLaw
-    friction: FrictionLaw | TractionLaw
+    friction: TangentialLaw
     impact: ImpactLaw | None
 
     @property

@@ -9,11 +9,11 @@ from typing import final
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import (
     CompliantNormalLaw,
-    FrictionLaw,
     ImpactLaw,
     ImpactMap,
     ImpactProcess,
     NormalLaw,
+    TangentialLaw,
     TractionLaw,
 )
 
@@ -25,7 +25,7 @@ class ContactLaws:
 
     Attributes
     ----------
-    normal, friction : NormalLaw, FrictionLaw or TractionLaw
+    normal, friction : NormalLaw, TangentialLaw
         The laws of sustained contact.
     impact : ImpactLaw, optional
         The law of impacts, which a compliant contact does without.
@@ -37,7 +37,7 @@ class ContactLaws:
     """
 
     normal: NormalLaw
-    friction: FrictionLaw | TractionLaw
+    friction: TangentialLaw
     impact: ImpactLaw | None = None
 
     def __post_init__(self) -> None:
@@ -116,11 +116,11 @@ class Materials:
         return self.default
 
 
-def check_laws(where: str, normal: NormalLaw, friction: FrictionLaw | TractionLaw, impact: ImpactLaw | None) -> None:
+def check_laws(where: str, normal: NormalLaw, friction: TangentialLaw, impact: ImpactLaw | None) -> None:
     """Raise InvalidInput, naming ``where``, unless the laws are of their kinds and go with one another."""
     if not isinstance(normal, NormalLaw):
         raise InvalidInput(where, "needs a NormalLaw", normal, "See `nonsmooth list laws`.")
-    if not isinstance(friction, (FrictionLaw, TractionLaw)):
+    if not isinstance(friction, TangentialLaw):
         raise InvalidInput(where, "needs a FrictionLaw or TractionLaw", friction, "See `nonsmooth list laws`.")
     if isinstance(normal, CompliantNormalLaw):
         if impact is not None:

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw, ImpactLaw, NormalLaw, TractionLaw
+from nonsmooth.interfaces import (
+    CompliantNormalLaw,
+    ImpactLaw,
+    NormalLaw,
+    TangentialLaw,
+)
 from nonsmooth.system.system import System
 
 
@@ -11,7 +16,7 @@ def with_laws(
     system: System,
     *,
     normal: NormalLaw | None = None,
-    friction: FrictionLaw | TractionLaw | None = None,
+    friction: TangentialLaw | None = None,
     impact: ImpactLaw | None = None,
 ) -> System:
     """Return a system of the same bodies, starts, joints, loads and guards, with other laws in all of its contacts.
@@ -20,7 +25,7 @@ def with_laws(
     ----------
     system : System
         Stays as it is.
-    normal, friction, impact : NormalLaw, FrictionLaw or TractionLaw, ImpactLaw, optional
+    normal, friction, impact : NormalLaw, TangentialLaw, ImpactLaw, optional
         The laws to put in; a law that is left out stays, but a compliant normal law takes the place of an impact law.
 
     Raises

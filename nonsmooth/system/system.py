@@ -12,14 +12,13 @@ import numpy as np
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     Body,
-    FrictionLaw,
     Guard,
     ImpactLaw,
     ImpactProcess,
     Joint,
     Load,
     NormalLaw,
-    TractionLaw,
+    TangentialLaw,
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
@@ -27,6 +26,7 @@ from nonsmooth.plugins import registry
 from nonsmooth.system.contact import Contact, Declaration, Tie
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws
 from nonsmooth.system.selection import Side, select
+from nonsmooth.system.sharing import check_sharing
 
 _LARGEST_GRAVITY = 1e4
 _Pair: TypeAlias = frozenset[int]
@@ -192,7 +192,7 @@ class System:
         second: Body,
         *,
         normal: NormalLaw,
-        friction: FrictionLaw | TractionLaw,
+        friction: TangentialLaw,
         impact: ImpactLaw | None = None,
         shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
     ) -> tuple[Contact, ...]:
@@ -202,7 +202,7 @@ class System:
         ----------
         first, second : Body
             The bodies.
-        normal, friction : NormalLaw, FrictionLaw or TractionLaw
+        normal, friction : NormalLaw, TangentialLaw
             The laws of sustained contact.
         impact : ImpactLaw, optional
             The law of impacts; a compliant normal law does without one, a rigid one needs it.
@@ -250,6 +250,7 @@ class System:
         added: list[Contact] = []
         for one, other in itertools.product(*sides):
             added += self._pair(one, other, len(added), normal, friction, impact)
+        check_sharing("System.contact", added)
         self._contacts += added
         chosen = tuple(None if numbers is None else tuple(numbers) for numbers in shapes)
         laws = ContactLaws(normal, friction, impact)
@@ -336,7 +337,7 @@ class System:
         second: Side,
         n_added: int,
         normal: NormalLaw,
-        friction: FrictionLaw | TractionLaw,
+        friction: TangentialLaw,
         impact: ImpactLaw | None,
     ) -> list[Contact]:
         known = registry.load_all("kinematics").values()
