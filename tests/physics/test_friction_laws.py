@@ -81,7 +81,8 @@ def _along(law: Anisotropic | Directional, slip: np.ndarray, angle: float) -> np
     forward, backward, across = law.ratios
     ratios = np.array([forward if v[0] > 0.0 else backward, across])
     counted = ratios * v
-    return -law.parameters()["strongest"] * e.T @ (ratios * counted) / np.linalg.norm(counted)
+    strongest = max(law.numbers()[name] for name in law.numbers())
+    return np.asarray(-strongest * e.T @ (ratios * counted) / np.linalg.norm(counted))
 
 
 def _slip(solution: ns.Solution) -> np.ndarray:
