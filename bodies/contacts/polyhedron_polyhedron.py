@@ -73,7 +73,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, edge_a: Floats, edge_b: Floats,
         if minus < plus:
             nx, ny, nz, gap = -nx, -ny, -nz, -gap
             plus, minus = minus, plus
-        if gap < 0.0 and minus <= -_BLUNT * gap / min(edge_a[6], edge_b[6]):
+        if gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
             # edges of thin wedges, which are as well on the other side of each other
             nx, ny, nz, gap = -nx, -ny, -nz, -gap
             plus = minus
