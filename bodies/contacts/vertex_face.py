@@ -54,6 +54,16 @@ def _past(faces: Floats, n_faces: float, face: int, height: float, x: float, y: 
 
 
 @compiled
+def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
+    """Return the height of a point of the world over the highest of the planes of the faces: negative inside."""
+    x, y, z = vector_in_body(frame, x - frame[0], y - frame[1], z - frame[2])
+    highest = -1e300
+    for i in range(int(n_faces)):
+        highest = max(highest, _height(faces, FACE * i, x, y, z))
+    return highest
+
+
+@compiled
 def nearest_face(
     frame: Floats,
     other: Floats,
