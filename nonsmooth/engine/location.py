@@ -326,7 +326,9 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         first = first_fired(S, w, k, closed, S.trigger)
     i = S.trigger
     step = theta * h
-    if S.step_error <= _NEGLIGIBLE:
+    # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
+    jumps = 1 if i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and is_gap(S, w, k, i) == 0 else 0
+    if S.step_error <= _NEGLIGIBLE or jumps == 1:
         dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
         return step
     for _iteration in range(10):
