@@ -141,6 +141,17 @@ class DiceThrow(Scenario):
                 "energy lost over losses booked", (start - end) / account.loss, 1.0, 1e-6, "balance of energy"
             )
         ]
+        mass = self.density * self.edge**3
+        weights = mass * _GRAVITY * float(np.sum(self.heights(solution)[0]))
+        found.append(
+            Criterion.near(
+                "potential energy at the start over weights times heights",
+                account.potential_start / weights,
+                1.0,
+                1e-9,
+                "mass of a cube",
+            )
+        )
         if self.on_a_face(solution):
             lowest = float(np.max(np.abs(self.heights(solution)[-1] / (0.5 * self.edge) - 1.0)))
             tilt = float(np.max(1.0 - np.max(np.abs(self.upright(solution)), axis=1)))

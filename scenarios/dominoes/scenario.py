@@ -149,19 +149,13 @@ class Dominoes(Scenario):
         length = 0.5 * math.hypot(self.thickness, self.height)
         rate = 1.5 * _GRAVITY / length
         end = math.asin(self.spacing / self.height) - self.balance
-        # b = a + x^2 takes the root of the rate out of the start
-        return float(
-            quad(
-                lambda x: (
-                    2.0 * x / math.sqrt(2.0 * rate * math.sin(self.lean + 0.5 * x * x) * math.sin(0.5 * x * x))
-                    if x > 0.0
-                    else 2.0 / math.sqrt(rate * math.sin(self.lean))
-                ),
-                0.0,
-                math.sqrt(max(end - self.lean, 0.0)),
-                epsabs=1e-13,
-            )[0]
-        )
+
+        def slowness(x: float) -> float:
+            # b = a + x^2 takes the root of the rate out of the start
+            square = rate * math.sin(self.lean + 0.5 * x * x) * (math.sin(0.5 * x * x) / (x * x) if x > 0.0 else 0.5)
+            return 2.0 / math.sqrt(2.0 * square)
+
+        return float(quad(slowness, 0.0, math.sqrt(max(end - self.lean, 0.0)), epsabs=1e-13)[0])
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return tilt_1 ... tilt_n [rad] over the samples."""

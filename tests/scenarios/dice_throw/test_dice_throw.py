@@ -1,0 +1,33 @@
+"""Dice: they end on a face, the books balance, the same throw is the same."""
+
+from __future__ import annotations
+
+import pytest
+
+import nonsmooth as ns
+from scenarios.dice_throw.scenario import DiceThrow
+
+
+@pytest.mark.parametrize("throw", [2.0, 3.0, 7.0, 8.0])
+def test_dice_come_to_rest_on_a_face(throw: float) -> None:
+    dice = DiceThrow(throw=throw)
+    solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval)
+    assert dice.on_a_face(solution)
+    criteria = dice.acceptance(solution)
+    assert len(criteria) == 4
+    assert all(one.fulfilled for one in criteria)
+    assert all(1 <= eyes <= 6 for eyes in dice.eyes(solution))
+    again = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval)
+    assert again.q_end.tolist() == solution.q_end.tolist()
+
+
+def test_figures() -> None:
+    pytest.importorskip("matplotlib")
+    dice = DiceThrow(number=1.0, t_end=0.5)
+    solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval)
+    assert set(dice.figures(solution)) == {"throw"}
+
+
+def test_half_a_die_is_refused() -> None:
+    with pytest.raises(ns.InvalidInput, match="whole number"):
+        DiceThrow(number=1.5)
