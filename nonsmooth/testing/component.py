@@ -161,10 +161,12 @@ def _check_round_trip(component: Any) -> None:
         for field in dataclasses.fields(component)
         if field.init and field.name not in declared
     }
-    words = {name: str(value) for name, value in declared.items() if value is not None}
+    # words and numbers go as words; a tuple comes out of JSON as a list
+    words = {name: str(value) for name, value in declared.items() if isinstance(value, (int, float, str))}
+    others = rest | {name: value for name, value in declared.items() if name not in words}
     routes: dict[str, Callable[[], Any]] = {
-        "JSON": lambda: owner(**json.loads(json.dumps(declared)), **rest),
-        "words": lambda: owner(**dict.fromkeys(declared) | from_words(owner, words, owner.__name__), **rest),
+        "JSON": lambda: owner(**{n: _as_tuple(v) for n, v in json.loads(json.dumps(declared)).items()}, **rest),
+        "words": lambda: owner(**others, **from_words(owner, words, owner.__name__)),
         "a scenario file": lambda: _through_file(component),
     }
     for route, read in routes.items():
@@ -178,6 +180,10 @@ def _check_round_trip(component: Any) -> None:
                 )
         if again != component or dict(again.parameters()) != dict(component.parameters()):
             raise Broken(f"made anew from {route}, it is not equal", "parameters()", dict(again.parameters()))
+
+
+def _as_tuple(value: Any) -> Any:
+    return tuple(map(_as_tuple, value)) if isinstance(value, list) else value
 
 
 def _through_file(component: Any) -> Any:
