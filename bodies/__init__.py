@@ -34,6 +34,8 @@ from bodies.loads.bushing import Bushing
 from bodies.loads.function_load import FunctionLoad
 from bodies.loads.spring import Spring
 from bodies.loads.torsion_spring import TorsionSpring
+from bodies.meshes.mesh_file import MeshFile
+from bodies.meshes.triangles import Triangles
 from bodies.motions.constant_velocity import ConstantVelocity
 from bodies.motions.function_motion import FunctionMotion
 from bodies.motions.harmonic import Harmonic
@@ -85,6 +87,7 @@ __all__ = [
     "Harmonic",
     "Hinge",
     "LineBody",
+    "MeshFile",
     "Part",
     "PlanarBody",
     "Plane",
@@ -107,5 +110,6 @@ __all__ = [
     "Spring",
     "Table",
     "TorsionSpring",
+    "Triangles",
     "TurningFrame",
 ]
