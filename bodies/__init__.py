@@ -14,6 +14,7 @@ from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
+from bodies.contacts.plane_mesh import PlaneMesh
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.contacts.sphere_sphere import SphereSphere
@@ -34,6 +35,8 @@ from bodies.loads.bushing import Bushing
 from bodies.loads.function_load import FunctionLoad
 from bodies.loads.spring import Spring
 from bodies.loads.torsion_spring import TorsionSpring
+from bodies.mesh_body import MeshBody
+from bodies.meshes.decomposition import Decomposition
 from bodies.meshes.mesh_file import MeshFile
 from bodies.meshes.triangles import Triangles
 from bodies.motions.constant_velocity import ConstantVelocity
@@ -53,6 +56,7 @@ from bodies.shapes.ellipsoid import Ellipsoid
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.sphere import Sphere
+from bodies.shapes.triangle_mesh import TriangleMesh
 
 __all__ = [
     "Ball",
@@ -71,6 +75,7 @@ __all__ = [
     "Cylinder",
     "CylinderBody",
     "CylinderSphere",
+    "Decomposition",
     "Disc",
     "DiscBody",
     "DiscSphere",
@@ -87,6 +92,7 @@ __all__ = [
     "Harmonic",
     "Hinge",
     "LineBody",
+    "MeshBody",
     "MeshFile",
     "Part",
     "PlanarBody",
@@ -96,6 +102,7 @@ __all__ = [
     "PlaneCylinder",
     "PlaneDisc",
     "PlaneEllipsoid",
+    "PlaneMesh",
     "PlaneSphere",
     "PlaneVertex",
     "Plate",
@@ -110,6 +117,7 @@ __all__ = [
     "Spring",
     "Table",
     "TorsionSpring",
+    "TriangleMesh",
     "Triangles",
     "TurningFrame",
 ]

@@ -15,9 +15,9 @@ FLATNESS = 1e-6
 """Depth of a dent that counts as none, over the largest extent: files with few digits have such dents in flat faces."""
 _SINGLE = 5e-7
 """The same over the largest coordinate: single precision, of bodies that lie far from the origin."""
-_SAME_PLANE = 1e-7
-"""Angle between facets about a point that is taken for no corner [rad]: there, leaving it out moves the surface by less
-than this part of its edges."""
+_NO_CORNER = 2e-7
+"""A point of the hull is left out where that moves the surface by less than this part of its largest coordinate: one in
+a face or on an edge, shifted by single precision."""
 
 
 @final
@@ -49,19 +49,25 @@ def hull_of(name: str, vertices: Vector) -> Hull:
         raise InvalidInput(
             f"mesh {name}", "must not be flat", str(error).split("\n")[0], "A body has a volume."
         ) from error
-    kept = _corners(found.simplices, found.equations[:, :3])
+    shallow = _NO_CORNER * max(scale, float(np.max(np.abs(vertices)))) / scale
+    kept = _corners((vertices - middle) / scale, found.simplices, found.equations[:, :3], shallow)
     return Hull(vertices[kept], float(found.volume) * scale**3)
 
 
-def _corners(facets: Integers, normals: Vector) -> Integers:
-    """Return the points about which the facets have normals that span space; others lie in a face or on an edge."""
+def _corners(points: Vector, facets: Integers, normals: Vector, shallow: float) -> Integers:
+    """Return the points that stand out of what is about them; others lie in a face or on an edge.
+
+    The normals about a point in a face lie on a line, those about one on an edge in a plane, to an angle that makes
+    the height of the point when multiplied by the distance of its neighbours.
+    """
     kept = []
     order = np.argsort(facets, axis=None, kind="stable")
-    points, starts = np.unique(facets.ravel()[order], return_index=True)
-    for point, about in zip(points.tolist(), np.split(order // 3, starts[1:]), strict=True):
-        singular = np.linalg.svd(normals[about], compute_uv=False)
-        if len(singular) == 3 and singular[2] > _SAME_PLANE:
-            kept.append(point)
+    numbers, starts = np.unique(facets.ravel()[order], return_index=True)
+    for number, about in zip(numbers.tolist(), np.split(order // 3, starts[1:]), strict=True):
+        angles = np.linalg.svd(normals[about], compute_uv=False)
+        distance = np.max(np.linalg.norm(points[facets[about].ravel()] - points[number], axis=1))
+        if len(angles) == 3 and angles[2] * distance > shallow:
+            kept.append(number)
     return np.array(kept, dtype=np.int64)
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 
 from bodies.meshes.mesh import Mesh
 
 
+@dataclass(frozen=True)
 class Surface(ABC):
     """A component that gives a checked mesh; subclasses are final frozen dataclasses of numbers and words.
 

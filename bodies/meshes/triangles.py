@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, final
 
@@ -35,8 +34,8 @@ class Triangles(Surface):
         If a shape is wrong or a rule of a closed surface is broken.
     """
 
-    vertices: Sequence[Any]
-    faces: Sequence[Any]
+    vertices: Any
+    faces: Any
     name: str = "of triangles"
     repair: tuple[str, ...] = ()
     _mesh: Mesh = field(init=False, repr=False, compare=False)
