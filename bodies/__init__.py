@@ -15,8 +15,11 @@ from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
 from bodies.contacts.plane_mesh import PlaneMesh
+from bodies.contacts.plane_polyhedron import PlanePolyhedron
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_vertex import PlaneVertex
+from bodies.contacts.polyhedron_point import PolyhedronPoint
+from bodies.contacts.polyhedron_polyhedron import PolyhedronPolyhedron
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
@@ -25,6 +28,7 @@ from bodies.dumbbell import Dumbbell
 from bodies.ellipsoid_body import EllipsoidBody
 from bodies.free import FreeBody
 from bodies.generalised import Coordinate, GeneralisedBody, PointFrame, TurningFrame
+from bodies.hull_body import HullBody
 from bodies.joints.ball_joint import BallJoint
 from bodies.joints.distance import Distance
 from bodies.joints.fixed import Fixed
@@ -53,8 +57,10 @@ from bodies.shapes.capsule import Capsule
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
+from bodies.shapes.hull import ConvexHull
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
+from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.triangle_mesh import TriangleMesh
 
@@ -71,6 +77,7 @@ __all__ = [
     "CapsuleSphere",
     "Compound",
     "ConstantVelocity",
+    "ConvexHull",
     "Coordinate",
     "Cylinder",
     "CylinderBody",
@@ -91,6 +98,7 @@ __all__ = [
     "GeneralisedBody",
     "Harmonic",
     "Hinge",
+    "HullBody",
     "LineBody",
     "MeshBody",
     "MeshFile",
@@ -103,11 +111,15 @@ __all__ = [
     "PlaneDisc",
     "PlaneEllipsoid",
     "PlaneMesh",
+    "PlanePolyhedron",
     "PlaneSphere",
     "PlaneVertex",
     "Plate",
     "Point",
     "PointFrame",
+    "Polyhedron",
+    "PolyhedronPoint",
+    "PolyhedronPolyhedron",
     "Rest",
     "RigidBody",
     "Rod",

@@ -14,6 +14,8 @@ from bodies.inertia import check_mass, mass_of
 from bodies.meshes.decomposition import Decomposition
 from bodies.meshes.mesh import Mesh
 from bodies.meshes.surface import Surface
+from bodies.shapes.hull import ConvexHull
+from bodies.shapes.polytope import MOST_VERTICES
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
@@ -111,9 +113,19 @@ class MeshBody(FreeBody):
     @functools.cached_property
     def _shapes(self) -> tuple[Shape, ...]:
         x, y, z = (-self.centre).tolist()
-        return (TriangleMesh(self.surface, x, y, z),)
+        mesh = self.mesh
+        if self.decomposition is not None:
+            pieces = self.decomposition.of(mesh)
+        elif mesh.is_convex and len(mesh.hull.corners) <= MOST_VERTICES:
+            pieces = (mesh.hull.corners,)
+        else:
+            return (TriangleMesh(self.surface, x, y, z),)
+        return tuple(ConvexHull(tuple(map(tuple, (piece - self.centre).tolist()))) for piece in pieces)
 
     @property
     def shapes(self) -> tuple[Shape, ...]:
-        """The convex hull of a convex mesh, the pieces of one that is cut, else the mesh itself."""
+        """The convex hull of a convex mesh, the pieces of one that is cut, else the mesh itself.
+
+        A convex mesh with more corners than a hull may have stays a mesh: it touches planes only.
+        """
         return self._shapes

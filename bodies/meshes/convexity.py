@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -15,9 +15,9 @@ FLATNESS = 1e-6
 """Depth of a dent that counts as none, over the largest extent: files with few digits have such dents in flat faces."""
 _SINGLE = 5e-7
 """The same over the largest coordinate: single precision, of bodies that lie far from the origin."""
-_NO_CORNER = 2e-7
-"""A point of the hull is left out where that moves the surface by less than this part of its largest coordinate: one in
-a face or on an edge, shifted by single precision."""
+_SHALLOW = 2e-7
+"""Facets of the hull that stand out of a plane by less than this part of the largest coordinate are one face: they are
+bent by single precision."""
 
 
 @final
@@ -31,10 +31,13 @@ class Hull:
         Its corners [m], shape [n, 3].
     volume : float
         Its volume [m^3].
+    moved : float
+        By how much corners were moved to make faces flat that single precision had bent [m].
     """
 
     corners: Vector
     volume: float
+    moved: float
 
 
 def hull_of(name: str, vertices: Vector) -> Hull:
@@ -49,26 +52,77 @@ def hull_of(name: str, vertices: Vector) -> Hull:
         raise InvalidInput(
             f"mesh {name}", "must not be flat", str(error).split("\n")[0], "A body has a volume."
         ) from error
-    shallow = _NO_CORNER * max(scale, float(np.max(np.abs(vertices)))) / scale
-    kept = _corners((vertices - middle) / scale, found.simplices, found.equations[:, :3], shallow)
-    return Hull(vertices[kept], float(found.volume) * scale**3)
+    shallow = _SHALLOW * max(scale, float(np.max(np.abs(vertices)))) / scale
+    unit = found.points[_corners(found, shallow)]
+    flat = flattened(unit, shallow)
+    moved = float(np.max(np.linalg.norm(flat - unit, axis=1))) * scale
+    return Hull(flat * scale + middle, float(found.volume) * scale**3, moved)
 
 
-def _corners(points: Vector, facets: Integers, normals: Vector, shallow: float) -> Integers:
-    """Return the points that stand out of what is about them; others lie in a face or on an edge.
+def flattened(corners: Vector, shallow: float) -> Vector:
+    """Return the corners of a hull, moved so that faces of more than three that are flat to ``shallow`` are flat.
 
-    The normals about a point in a face lie on a line, those about one on an edge in a plane, to an angle that makes
-    the height of the point when multiplied by the distance of its neighbours.
+    Every corner goes to the nearest point on the planes fitted to those faces; where more than three of them meet in
+    it, planes and corners are fitted in turn.
     """
-    kept = []
-    order = np.argsort(facets, axis=None, kind="stable")
-    numbers, starts = np.unique(facets.ravel()[order], return_index=True)
-    for number, about in zip(numbers.tolist(), np.split(order // 3, starts[1:]), strict=True):
-        angles = np.linalg.svd(normals[about], compute_uv=False)
-        distance = np.max(np.linalg.norm(points[facets[about].ravel()] - points[number], axis=1))
-        if len(angles) == 3 and angles[2] * distance > shallow:
-            kept.append(number)
-    return np.array(kept, dtype=np.int64)
+    from scipy.spatial import ConvexHull
+
+    hull = ConvexHull(corners)
+    groups = [face for face in _faces(hull, shallow) if len(np.unique(hull.simplices[face])) > 3]
+    for _ in range(10):
+        planes: dict[int, list[tuple[Vector, float]]] = {}
+        for face in groups:
+            about = np.unique(hull.simplices[face])
+            normal = _normal(corners, hull.simplices[face], hull.equations[face, :3])
+            for corner in about.tolist():
+                planes.setdefault(corner, []).append((normal, float(np.mean(corners[about] @ normal))))
+        before, corners = corners, corners.copy()
+        for corner, own in planes.items():
+            normals, heights = np.array([n for n, _ in own]), np.array([h for _, h in own])
+            corners[corner] += np.linalg.lstsq(normals, heights - normals @ corners[corner], rcond=1e-6)[0]
+        if np.max(np.abs(corners - before)) < 1e-16:
+            break
+    return corners
+
+
+def _normal(corners: Vector, triangles: Integers, outward: Vector) -> Vector:
+    """Return the unit normal of triangles in one plane, weighted by their areas."""
+    a, b, c = (corners[triangles[:, i]] for i in range(3))
+    crosses = np.cross(b - a, c - a)
+    normal = np.sum(crosses * np.sign(np.einsum("ni,ni->n", crosses, outward))[:, None], axis=0)
+    return np.asarray(normal / np.linalg.norm(normal))
+
+
+def _faces(hull: Any, shallow: float) -> list[list[int]]:
+    """Return the groups of facets of which no corner is farther than ``shallow`` from the plane of the largest."""
+    corners, facets = hull.points, hull.simplices
+    areas = np.linalg.norm(
+        np.cross(corners[facets[:, 1]] - corners[facets[:, 0]], corners[facets[:, 2]] - corners[facets[:, 0]]), axis=1
+    )
+    free, groups = np.ones(len(facets), dtype=bool), []
+    for seed in np.argsort(-areas).tolist():
+        if not free[seed]:
+            continue
+        free[seed] = False
+        group, heap = [seed], [seed]
+        while heap:
+            for other in hull.neighbors[heap.pop()].tolist():
+                heights = corners[facets[other]] @ hull.equations[seed, :3] + hull.equations[seed, 3]
+                if free[other] and np.max(np.abs(heights)) <= shallow:
+                    free[other] = False
+                    group.append(other)
+                    heap.append(other)
+        groups.append(group)
+    return groups
+
+
+def _corners(hull: Any, shallow: float) -> Integers:
+    """Return the points at which at least three faces meet; others lie in a face or on an edge."""
+    met: dict[int, int] = {}
+    for face in _faces(hull, shallow):
+        for point in np.unique(hull.simplices[face]).tolist():
+            met[point] = met.get(point, 0) + 1
+    return np.array(sorted(point for point, count in met.items() if count >= 3), dtype=np.int64)
 
 
 def is_convex(vertices: Vector, faces: Integers) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import tempfile
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
@@ -14,7 +15,12 @@ import numpy as np
 from bodies.meshes.mesh import Mesh
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.parameters import Component, parameter
+from nonsmooth.parameters import Component, UnusualValue, parameter
+
+_FAR_OFF = 0.1
+"""Part of the volume by which the pieces may miss it before a warning says so."""
+_SLIVER = 1e-6
+"""Part of the volume below which a piece is left out."""
 
 
 @final
@@ -59,27 +65,54 @@ class Decomposition(Component):
 
     def _cut(self, mesh: Mesh) -> tuple[Vector, ...]:
         try:
-            from vhacdx import compute_vhacd
+            import vhacdx  # noqa: F401
+            from trimesh import Trimesh
+            from trimesh.decomposition import convex_decomposition
         except ImportError:
             raise MissingPackagesError(
                 f'The decomposition of the mesh {mesh.name} needs vhacdx: pip install "nonsmooth[meshes]"'
             ) from None
         middle, scale = mesh.vertices.mean(axis=0), mesh.extent
-        found = compute_vhacd(
-            (mesh.vertices - middle) / scale,
-            mesh.faces.astype(np.uint32),
+        found = convex_decomposition(
+            Trimesh((mesh.vertices - middle) / scale, mesh.faces, process=False),
             maxConvexHulls=int(self.pieces),
             resolution=int(self.voxels),
             minimumVolumePercentErrorAllowed=self.error,
             maxNumVerticesPerCH=int(self.corners),
             asyncACD=False,  # pieces must not depend on how threads are scheduled
         )
-        pieces = tuple(np.asarray(points, dtype=float) * scale + middle for points, _ in found if len(points) >= 4)
+        points = [np.asarray(piece["vertices"], dtype=float) for piece in found]
+        volumes = np.array([_hull_volume(own) for own in points]) * scale**3
+        pieces = tuple(
+            own * scale + middle for own, volume in zip(points, volumes, strict=True) if volume > _SLIVER * mesh.volume
+        )
+        _check_volume(mesh, float(np.sum(volumes)), len(pieces))
         if not pieces:
             raise InvalidInput(
                 f"mesh {mesh.name}", "must have convex pieces", 0, "Give Decomposition(voxels=...) more voxels."
             )
         return pieces
+
+
+def _hull_volume(points: Vector) -> float:
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        return float(ConvexHull(points).volume)
+    except (QhullError, ValueError):
+        return 0.0
+
+
+def _check_volume(mesh: Mesh, volume: float, count: int) -> None:
+    """Warn if the pieces together have another volume than the body."""
+    if abs(volume / mesh.volume - 1.0) > _FAR_OFF:
+        warnings.warn(
+            f"mesh {mesh.name}: its {count} convex pieces have {volume / mesh.volume:.3f} of its volume, so that it "
+            "touches where there is nothing, or does not where there is something. Give more pieces, more voxels or a "
+            "smaller error in Decomposition(...). Mass and inertia are those of the mesh in any case.",
+            UnusualValue,
+            stacklevel=2,
+        )
 
 
 def _folder() -> Path:

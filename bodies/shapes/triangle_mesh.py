@@ -11,6 +11,7 @@ import numpy as np
 from bodies.meshes.surface import Surface
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.placement import with_axes
+from bodies.shapes.polytope import MOST_VERTICES
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
@@ -74,8 +75,14 @@ class TriangleMesh(Shape):
 
     @property
     def advice(self) -> str:
-        """How far from convex it is, and that a decomposition helps."""
+        """How far from convex it is, and that a decomposition helps; or that it has too many corners."""
         mesh = self.surface.mesh
+        if mesh.is_convex:
+            return (
+                f"The mesh {mesh.name} is convex but has {len(mesh.hull.corners)} corners; only up to {MOST_VERTICES} "
+                "make a convex hull that touches other bodies than planes. Take a coarser mesh, or a shape in closed "
+                "form if it stands for a rounded body."
+            )
         return (
             f"The mesh {mesh.name} has {mesh.volume_ratio:.1%} of the volume of its convex hull, and surfaces that are "
             "not convex touch planes only: give its body a decomposition into convex pieces, "

@@ -38,15 +38,18 @@ def poses(scenario: MeshDrop, solution: Solution) -> Figure:
     middle = 0.5 * (
         np.min([np.min(v, axis=0) for v in views], axis=0) + np.max([np.max(v, axis=0) for v in views], axis=0)
     )
-    half = 0.55 * max(np.max(np.abs(view[:, 0] - middle[0])) * 2.0 for view in views)
-    top = max(np.max(view[:, 1]) for view in views)
+    wide, top = (
+        float(np.max([np.max(np.abs(view - shift), axis=0)[i] for view in views]))
+        for i, shift in enumerate((middle, 0.0))
+    )
+    half = max(1.1 * wide, 0.55 * top)
     for axis, i, view in zip(axes, numbers, views, strict=True):
         _ground(axis, middle[0], half)
         _part(axis, scenario, view)
         axis.set_title("start" if i == 0 else f"t = {solution.t[i]:.3f} s", fontsize=10)
         axis.set_aspect("equal")
         axis.set_xlim(middle[0] - half, middle[0] + half)
-        axis.set_ylim(-0.45 * half, top + 0.08 * half)
+        axis.set_ylim(-0.4 * half, top + 0.08 * half)
     for axis in axes[3:]:
         axis.set_xlabel("across [mm]")
     for axis in axes[::3]:

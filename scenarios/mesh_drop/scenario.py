@@ -70,7 +70,7 @@ class MeshDrop(Scenario):
         usual=(1e-12, 1e-2),
         law="impact",
     )
-    t_end: float = parameter(0.6, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
+    t_end: float = parameter(0.3, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
     _body: MeshBody = field(init=False, repr=False, compare=False)
 
     def _check(self) -> None:

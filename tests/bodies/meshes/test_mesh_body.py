@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,22 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, BoxBody, Compound, Decomposition, MeshBody, MeshFile, Part, Plate, TriangleMesh, Triangles
+from bodies import (
+    Ball,
+    BoxBody,
+    Compound,
+    ConvexHull,
+    Decomposition,
+    MeshBody,
+    MeshFile,
+    Part,
+    Plate,
+    TriangleMesh,
+    Triangles,
+)
 from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.errors import MissingPackagesError
+from nonsmooth.model.assembly import assemble
 from nonsmooth.parameters import UnusualValue
 from tests.bodies.meshes import parts
 
@@ -60,6 +75,18 @@ def _dropped(build: Any, body: ns.System | Any, t_end: float) -> ns.Solution:
     turn = np.array([0.9, 0.2, -0.3, 0.1])
     ns.at_height(system, body, 0.01, orientation=turn / np.linalg.norm(turn), angular_velocity=(1.0, 2.0, -3.0))
     return ns.simulate(system, t_end)
+
+
+def test_a_convex_mesh_is_its_hull() -> None:
+    """About the mass centre; with more corners than a hull may have it stays a mesh, which touches planes."""
+    (shape,) = MeshBody(Triangles(*parts.box(at=(0.1, -0.2, 0.3)))).shapes
+    assert isinstance(shape, ConvexHull)
+    np.testing.assert_allclose(sorted(shape.polytope.vertices), sorted(parts.box()[0].tolist()), atol=1e-15)
+    trimesh = pytest.importorskip("trimesh")
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    (shape,) = MeshBody(Triangles(0.01 * ball.vertices, ball.faces, "ball")).shapes
+    assert isinstance(shape, TriangleMesh)
+    assert "ball is convex but has 642 corners" in shape.advice
 
 
 @pytest.mark.skipif(PLAIN, reason="minutes in plain mode")
@@ -146,6 +173,47 @@ def test_a_file_of_a_system_names_the_mesh(tmp_path: Path, build: Any, monkeypat
     assert "part.stl" in text
     again = ns.load_system("system.toml").system.bodies[1]
     assert again == body
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return an empty cache of decompositions."""
+    from bodies.meshes import decomposition
+
+    monkeypatch.setattr(decomposition, "_folder", lambda: tmp_path / "cache")
+    return tmp_path / "cache"
+
+
+def test_without_the_package_a_decomposition_says_what_to_install(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "vhacdx", None)
+    with pytest.raises(MissingPackagesError, match=r'bracket needs vhacdx: pip install "nonsmooth\[meshes\]"'):
+        _ = MeshBody(BRACKET, decomposition=Decomposition()).shapes
+
+
+def test_a_decomposition_covers_the_body_and_is_kept(cache: Path, monkeypatch: pytest.MonkeyPatch, build: Any) -> None:
+    """Pieces have the volume of the body to some percent, the mass is the body's own, and the second time is a look-up.
+
+    A ball in the corner of the L meets its two arms, not the hull.
+    """
+    pytest.importorskip("vhacdx")
+    body = MeshBody(BRACKET, 1000.0, decomposition=Decomposition(pieces=8.0))
+    pieces = [shape for shape in body.shapes if isinstance(shape, ConvexHull)]
+    assert 2 <= len(pieces) == len(body.shapes) <= 8
+    assert sum(piece.volume for piece in pieces) == pytest.approx(BRACKET.mesh.volume, rel=0.05)
+    np.testing.assert_allclose(body.inertia, MeshBody(BRACKET, 1000.0).inertia)
+    assert len(list(cache.iterdir())) == 1
+    monkeypatch.setitem(sys.modules, "vhacdx", None)
+    again = MeshBody(BRACKET, 1000.0, decomposition=Decomposition(pieces=8.0))
+    assert again.shapes == body.shapes
+    ball = Ball(0.003)
+    system = ns.System([ball, body])
+    system.contact(ball, body, **build.laws())
+    corner = np.array([0.013, 0.013, 0.0075]) - body.centre
+    system.place(ball, position=tuple(corner + [0.001, 0.001, 0.0]))
+    solution = ns.simulate(system, 1e-9)
+    gaps = assemble(system, ns.Options()).gaps()
+    assert solution.status == "done"
+    assert np.min(gaps) == pytest.approx(0.001, abs=5e-4)
 
 
 def test_fields_of_a_body_are_its_words() -> None:

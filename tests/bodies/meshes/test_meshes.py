@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bodies import MeshFile, Triangles
+from bodies import ConvexHull, MeshFile, Triangles
+from bodies.meshes.convexity import hull_of
 from bodies.meshes.integrals import mass_properties, winding_number
 from tests.bodies.meshes import parts
 
@@ -109,7 +110,24 @@ def test_a_box_of_many_flat_triangles_has_eight_corners(tmp_path: Path) -> None:
     assert mesh.is_convex
     assert len(mesh.hull.corners) == 8
     exact = parts.turned(parts.box(), shift=(0.3, 0.2, -0.1))[0]
-    np.testing.assert_allclose(sorted(mesh.hull.corners.tolist()), sorted(exact.tolist()), atol=2e-8)
+    np.testing.assert_allclose(sorted(mesh.hull.corners.tolist()), sorted(exact.tolist()), atol=4e-8)
+
+
+@pytest.mark.parametrize("name", ["box", "octagon"])
+def test_faces_that_single_precision_bends_are_made_flat(name: str) -> None:
+    """Corners moved by no more than the precision; a hull with the faces of the body, none of them cut."""
+    corners, n_faces = parts.box()[0], 6
+    if name == "octagon":
+        # a double pyramid cut off below and above, with eight sides: four faces meet in no corner, three in all
+        ring = np.array([(math.cos(a), math.sin(a), 0.0) for a in np.linspace(0.0, 2.0 * np.pi, 9)[:-1]])
+        corners, n_faces = 0.01 * np.concatenate([ring + [0, 0, 1], 2.0 * ring, ring - [0, 0, 1]]), 18
+    rough = parts.turned((corners, np.zeros(0)), 1.1)[0].astype(np.float32).astype(float)
+    hull = hull_of(name, rough)
+    assert len(ConvexHull(rough.tolist()).polytope.faces) > n_faces
+    flat = ConvexHull(hull.corners.tolist()).polytope
+    assert len(flat.faces) == n_faces
+    assert len(flat.vertices) == len(corners)
+    assert 0.0 < hull.moved < 1e-8
 
 
 def test_surfaces_are_compared_and_shown_by_what_they_are_made_of(tmp_path: Path) -> None:
