@@ -21,6 +21,8 @@ from bodies import (
     MeshFile,
     Part,
     Plate,
+    Point,
+    RigidBody,
     TriangleMesh,
     Triangles,
 )
@@ -193,7 +195,7 @@ def test_without_the_package_a_decomposition_says_what_to_install(cache: Path, m
 def test_a_decomposition_covers_the_body_and_is_kept(cache: Path, monkeypatch: pytest.MonkeyPatch, build: Any) -> None:
     """Pieces have the volume of the body to some percent, the mass is the body's own, and the second time is a look-up.
 
-    A ball in the corner of the L meets its two arms, not the hull.
+    A point in the corner of the L is as far from its arms as it is, not inside of a hull.
     """
     pytest.importorskip("vhacdx")
     body = MeshBody(BRACKET, 1000.0, decomposition=Decomposition(pieces=8.0))
@@ -205,15 +207,13 @@ def test_a_decomposition_covers_the_body_and_is_kept(cache: Path, monkeypatch: p
     monkeypatch.setitem(sys.modules, "vhacdx", None)
     again = MeshBody(BRACKET, 1000.0, decomposition=Decomposition(pieces=8.0))
     assert again.shapes == body.shapes
-    ball = Ball(0.003)
-    system = ns.System([ball, body])
-    system.contact(ball, body, **build.laws())
-    corner = np.array([0.013, 0.013, 0.0075]) - body.centre
-    system.place(ball, position=tuple(corner + [0.001, 0.001, 0.0]))
-    solution = ns.simulate(system, 1e-9)
-    gaps = assemble(system, ns.Options()).gaps()
-    assert solution.status == "done"
-    assert np.min(gaps) == pytest.approx(0.001, abs=5e-4)
+    probe = RigidBody(0.1, (1e-6, 1e-6, 1e-6), (Point(0.0, 0.0, 0.0),))
+    system = ns.System([probe, body])
+    system.contact(probe, body, **build.laws())
+    # 2 mm over the lying arm and 3 mm from the standing one, well inside of the hull
+    place = np.array([0.013, 0.012, 0.0075]) - body.centre
+    system.place(probe, position=tuple(place.tolist()))
+    assert np.min(assemble(system, ns.Options()).gaps()) == pytest.approx(0.002, abs=3e-4)
 
 
 def test_fields_of_a_body_are_its_words() -> None:
