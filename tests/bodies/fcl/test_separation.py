@@ -53,7 +53,7 @@ def test_pairs(one: str, two: str) -> None:
                 for direction in rng.normal(size=(20, 3)):
                     assert direction @ own <= direction @ shape.support(direction) + 1e-10
     assert told >= 40
-    assert doubtful <= 2
+    assert doubtful <= (6 if "cylinder" in (one, two) else 0)
 
 
 CLOSED = {
