@@ -199,6 +199,7 @@ class MeshDrop(Scenario):
                     "t = sqrt(2 h / g)",
                 )
             )
+        if solution.energy.loss > 0.0:
             found.append(
                 Criterion.near(
                     "losses over the energy that height and speed gave",
