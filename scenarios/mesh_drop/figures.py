@@ -18,9 +18,10 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-_AZIMUTH, _ELEVATION = math.radians(-60.0), math.radians(20.0)
+_AZIMUTH, _ELEVATION = math.radians(30.0), math.radians(25.0)
 """Where the eye is."""
-_LIGHT = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
+_LIGHT = np.array([-0.48, 0.6, 0.64])
+"""Where the light is, as seen: right, up, towards the eye."""
 _SHARP = math.cos(math.radians(20.0))
 """Edges at which the surface turns by more are drawn."""
 
@@ -113,7 +114,7 @@ def _part(axis: Axes, scenario: MeshDrop, seen: Floats) -> None:
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     front = np.flatnonzero(normals[:, 2] > 0.0)
     order = front[np.argsort(np.mean(corners[front, :, 2], axis=1))]
-    shade = 0.45 + 0.5 * np.maximum(normals @ _seen(_LIGHT), 0.0)
+    shade = 0.45 + 0.5 * np.maximum(normals @ _LIGHT, 0.0)
     pairs = neighbours(faces)
     sharp = np.einsum("ni,ni->n", normals[pairs[:, 0] // 3], normals[pairs[:, 1] // 3]) < _SHARP
     drawn = {int(half) for half in pairs[sharp].ravel()}
