@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, final
 
 import numpy as np
 
+from bodies.ball import Ball
 from bodies.free import FreeBody
 from bodies.inertia import parallel_axis, tensor_of
 from bodies.moved import moved
@@ -61,6 +63,11 @@ class Compound(FreeBody):
     parts: tuple[Part, ...]
     _tensor: Any = field(init=False, repr=False, compare=False)
     _shapes: tuple[Shape, ...] = field(init=False, repr=False, compare=False)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return two balls of different size."""
+        return {"parts": (Part(Ball(0.01)), Part(Ball(0.02), (0.03, 0.0, -0.01)))}
 
     def _check(self) -> None:
         remedy = "Give parts, for example (Part(Ball(0.01)), Part(Ball(0.02), (0.03, 0.0, 0.0)))."

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 from bodies.carried import check_carried
 from bodies.driven import Driven
+from bodies.motions.harmonic import Harmonic
+from bodies.shapes.sphere import Sphere
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 
@@ -25,6 +28,11 @@ class DrivenBody(Driven):
     """
 
     carried: tuple[Shape, ...] = ()
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a sphere that vibrates."""
+        return {"motion": Harmonic(1e-3, 25.0), "carried": (Sphere(0.1),)}
 
     def _check(self) -> None:
         object.__setattr__(self, "carried", check_carried("DrivenBody.carried", self.carried))

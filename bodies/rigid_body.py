@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, final
 
 from bodies.carried import check_carried
 from bodies.free import FreeBody
 from bodies.inertia import read_tensor
+from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 
@@ -37,6 +38,14 @@ class RigidBody(FreeBody):
     mass: float = parameter(doc="mass", unit="kg", above=0.0)
     tensor: Sequence[Any] = field()  # type: ignore[misc]
     carried: tuple[Shape, ...] = ()
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a full tensor and two spheres."""
+        return {
+            "tensor": ((0.03, -0.004, 0.002), (-0.004, 0.025, 0.005), (0.002, 0.005, 0.04)),
+            "carried": (Sphere(0.05, x=0.1), Sphere(0.04, y=-0.1)),
+        }
 
     def _check(self) -> None:
         tensor = read_tensor("RigidBody.tensor", self.tensor)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 from bodies.free import FreeBody
 from bodies.inertia import check_mass, mass_of
@@ -46,6 +47,11 @@ class Rod(FreeBody):
         None, doc="density; 7800 without a mass", unit="kg/m^3", above=0.0, usual=(10.0, 3e4)
     )
     mass: float | None = parameter(None, doc="mass, instead of the density", unit="kg", above=0.0)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a slender one."""
+        return {"length": 0.2, "radius": 0.005}
 
     def _check(self) -> None:
         check_mass("Rod", self.mass, self.density)

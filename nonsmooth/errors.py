@@ -55,6 +55,10 @@ class PluginError(NonsmoothError):
     """A law, body or scenario from a plug-in that cannot be loaded or compiled."""
 
 
+class MissingPackagesError(NonsmoothError):
+    """Optional packages that a request needs and that are not installed."""
+
+
 class RunFailed(NonsmoothError, RuntimeError):
     """A run that could not go on.  What was computed until then is in ``solution``."""
 

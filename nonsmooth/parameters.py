@@ -120,6 +120,15 @@ class Component:
     def _check(self) -> None:
         """Check what no single parameter can tell; nothing by default."""
 
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return values of fields with which ``nonsmooth check`` can look at the class; none by default.
+
+        Those that no number or word can give: shapes, tensors, functions.  Required numbers take some value of their
+        range by themselves.
+        """
+        return {}
+
     def parameters(self) -> Mapping[str, Value]:
         """Return what the component's compiled functions may ask for, by name."""
         return self.numbers()

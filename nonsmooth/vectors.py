@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
 
 from nonsmooth.errors import InvalidInput
 
 _UNIT = 1e-9
 _ROUND_OFF = 1e-15
+UNIT_PART: Mapping[str, Any] = MappingProxyType({"minimum": -1.0 - 0.5 * _UNIT, "maximum": 1.0 + 0.5 * _UNIT})
+"""Bounds of a component of a unit vector, some round-off included."""
 
 
 def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[float, ...]:

@@ -16,6 +16,7 @@ import numpy as np
 from bodies.generalised.checks import check_equations
 from bodies.generalised.coordinate import Coordinate
 from bodies.generalised.equations import Equations, evaluator
+from bodies.generalised.example import cart_pendulum
 from bodies.generalised.frames import Function, MovingFrame
 from bodies.generalised.sample import Sampler, check_signatures
 from bodies.values import Word, read_start
@@ -79,6 +80,11 @@ class GeneralisedBody(Body):
     forcing_period: float | None = parameter(
         None, doc="shortest time over which the forces change by themselves", unit="s", above=0.0
     )
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a cart with a pendulum."""
+        return cart_pendulum()
 
     def _check(self) -> None:
         object.__setattr__(self, "coordinates", _members("coordinates", self.coordinates, Coordinate))

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import final
+from typing import Any, final
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Load
 from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def _pull(t: float, a: Floats, b: Floats, out: Floats, force: float) -> None:
+    distance = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
+    for i in range(3):
+        out[i] = -force * (b[i] - a[i]) / distance
+        out[3 + i] = b[i]
+        out[6 + i] = 0.0
 
 
 @final
@@ -29,6 +39,11 @@ class FunctionLoad(Load):
 
     function: Callable[..., None]
     constants: Mapping[str, Value] = field(default_factory=dict)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a force that pulls the two frames together."""
+        return {"function": _pull, "constants": {"force": 2.0}}
 
     def _check(self) -> None:
         if not callable(self.function):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias, final
 
@@ -43,6 +44,31 @@ def _turning(translation: Evaluator, orientation: Function, velocity: Function, 
     return evaluate
 
 
+def _swing(t: float) -> tuple[float, float, float]:
+    return 0.1 * math.sin(t), 0.0, 0.02 * math.cos(t)
+
+
+def _swing_rate(t: float) -> tuple[float, float, float]:
+    return 0.1 * math.cos(t), 0.0, -0.02 * math.sin(t)
+
+
+def _swing_bias(t: float) -> tuple[float, float, float]:
+    return -0.1 * math.sin(t), 0.0, -0.02 * math.cos(t)
+
+
+def _rock(t: float) -> tuple[float, float, float, float]:
+    half = 0.1 * math.sin(t)
+    return math.cos(half), 0.0, math.sin(half), 0.0
+
+
+def _rock_rate(t: float) -> tuple[float, float, float]:
+    return 0.0, 0.2 * math.cos(t), 0.0
+
+
+def _rock_bias(t: float) -> tuple[float, float, float]:
+    return 0.0, -0.2 * math.sin(t), 0.0
+
+
 @final
 @dataclass(frozen=True)
 class FunctionMotion(Motion):
@@ -79,6 +105,20 @@ class FunctionMotion(Motion):
     angular_velocity: Function | None = None
     angular_acceleration: Function | None = None
     _evaluator: Evaluator = field(init=False, repr=False, compare=False)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a body that swings and rocks."""
+        return {
+            "position": _swing,
+            "velocity": _swing_rate,
+            "acceleration": _swing_bias,
+            "orientation": _rock,
+            "angular_velocity": _rock_rate,
+            "angular_acceleration": _rock_bias,
+            "duration": 2.0 * math.pi,
+            "shortest_change": 2.0 * math.pi,
+        }
 
     def _check(self) -> None:
         span = self.duration, self.shortest_change

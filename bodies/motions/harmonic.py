@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 def _evaluate(
@@ -44,14 +44,17 @@ class Harmonic(Motion):
     amplitude: float = parameter(doc="amplitude A_z", unit="m", minimum=0.0, usual=(1e-7, 1.0))
     frequency: float = parameter(doc="frequency f", unit="Hz", above=0.0, usual=(1e-2, 1e4))
     phase: float = parameter(0.0, doc="initial phase phi_0", unit="rad", usual=(0.0, 2.0 * math.pi))
-    axis_x: float = parameter(0.0, doc="axis of the vibration, first component")
-    axis_y: float = parameter(0.0, doc="axis of the vibration, second component")
-    axis_z: float = parameter(1.0, doc="axis of the vibration, third component")
+    axis_x: float = parameter(0.0, doc="axis of the vibration, first component", **UNIT_PART)
+    axis_y: float = parameter(0.0, doc="axis of the vibration, second component", **UNIT_PART)
+    axis_z: float = parameter(1.0, doc="axis of the vibration, third component", **UNIT_PART)
 
     def _check(self) -> None:
-        norm = math.hypot(self.axis_x, self.axis_y, self.axis_z)
-        if abs(norm - 1.0) > 1e-12:
-            raise InvalidInput("Harmonic axis", "must have unit length", norm, "Divide it by its length.")
+        self.parameters()
+
+    def parameters(self) -> dict[str, float]:
+        """Return the numbers, the axis to the last bit of unit length."""
+        axis = unit_vector("Harmonic axis", (self.axis_x, self.axis_y, self.axis_z))
+        return {**self.numbers(), **dict(zip(("axis_x", "axis_y", "axis_z"), axis, strict=True))}
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -128,6 +128,15 @@ class Table(Motion):
     _coefficients: tuple[float, ...] = field(init=False, repr=False, compare=False)
     _time_scale: float = field(init=False, repr=False, compare=False)
 
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a loop around three corners."""
+        return {
+            "times": (0.0, 0.1, 0.3, 0.5),
+            "positions": ((0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.0, 0.1), (0.0, 0.0, 0.0)),
+            "periodic": True,
+        }
+
     def _check(self) -> None:
         from scipy.interpolate import CubicSpline
 

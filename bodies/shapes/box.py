@@ -10,7 +10,7 @@ from typing import final
 from bodies.shapes.placement import turned
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
-from nonsmooth.vectors import unit_vector
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 @final
@@ -24,10 +24,10 @@ class Box(Shape):
     x: float = parameter(0.0, doc="centre, first coordinate", unit="m")
     y: float = parameter(0.0, doc="centre, second coordinate", unit="m")
     z: float = parameter(0.0, doc="centre, third coordinate", unit="m")
-    orientation_w: float = parameter(1.0, doc="quaternion from its axes to the body's, scalar part")
-    orientation_x: float = parameter(0.0, doc="quaternion, first component")
-    orientation_y: float = parameter(0.0, doc="quaternion, second component")
-    orientation_z: float = parameter(0.0, doc="quaternion, third component")
+    orientation_w: float = parameter(1.0, doc="quaternion from its axes to the body's, scalar part", **UNIT_PART)
+    orientation_x: float = parameter(0.0, doc="quaternion, first component", **UNIT_PART)
+    orientation_y: float = parameter(0.0, doc="quaternion, second component", **UNIT_PART)
+    orientation_z: float = parameter(0.0, doc="quaternion, third component", **UNIT_PART)
 
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z

@@ -8,7 +8,7 @@ from typing import final
 
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
-from nonsmooth.vectors import unit_vector
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 @final
@@ -23,9 +23,9 @@ class Capsule(Shape):
     x: float = parameter(0.0, doc="centre, first coordinate", unit="m")
     y: float = parameter(0.0, doc="centre, second coordinate", unit="m")
     z: float = parameter(0.0, doc="centre, third coordinate", unit="m")
-    axis_x: float = parameter(0.0, doc="unit axis in the body frame, first component")
-    axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component")
-    axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component")
+    axis_x: float = parameter(0.0, doc="unit axis in the body frame, first component", **UNIT_PART)
+    axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component", **UNIT_PART)
+    axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component", **UNIT_PART)
 
     def _check(self) -> None:
         unit_vector("Capsule axis", (self.axis_x, self.axis_y, self.axis_z))

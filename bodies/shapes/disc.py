@@ -10,7 +10,7 @@ from bodies.shapes.feet import check_feet, feet_on
 from bodies.shapes.placement import farthest_on_circle
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
-from nonsmooth.vectors import unit_vector
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 @final
@@ -26,9 +26,9 @@ class Disc(Shape):
     x: float = parameter(0.0, doc="centre, first coordinate", unit="m")
     y: float = parameter(0.0, doc="centre, second coordinate", unit="m")
     z: float = parameter(0.0, doc="centre, third coordinate", unit="m")
-    axis_x: float = parameter(0.0, doc="unit axis in the body frame, first component")
-    axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component")
-    axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component")
+    axis_x: float = parameter(0.0, doc="unit axis in the body frame, first component", **UNIT_PART)
+    axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component", **UNIT_PART)
+    axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component", **UNIT_PART)
     foot_height: float = parameter(0.0, doc="height of the feet on either face; 0 for none", unit="m", minimum=0.0)
 
     def _check(self) -> None:

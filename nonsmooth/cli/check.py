@@ -21,10 +21,10 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser(
         "check",
-        help="look whether a law, body, kinematics or scenario has the properties that it must have",
+        help="look whether a component has the properties that it must have",
         allow_abbrev=False,
     )
-    command.add_argument("name", metavar="NAME", help="a law, body, kinematics or scenario of `nonsmooth list`")
+    command.add_argument("name", metavar="NAME", help="any name of `nonsmooth list`")
     command.add_argument(
         "--set",
         action="append",
@@ -50,11 +50,11 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 def _look(name: str, words: dict[str, str]) -> list[dict[str, Any]]:
     # imported when asked for: the other commands start faster without it
-    from nonsmooth.testing.registered import GROUPS, check_registered
+    from nonsmooth.testing.registered import check_registered
 
-    groups = [group for group in GROUPS if name in registry.names(group)]
+    groups = [group for group in registry.GROUPS if name in registry.names(group)]
     if not groups:
-        raise UnknownName("component", name, {known for group in GROUPS for known in registry.names(group)})
+        raise UnknownName("component", name, {known for group in registry.GROUPS for known in registry.names(group)})
     return [
         {
             "name": name,

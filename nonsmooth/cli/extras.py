@@ -5,14 +5,10 @@ from __future__ import annotations
 import importlib.util
 from collections.abc import Iterable
 
-from nonsmooth.errors import NonsmoothError
+from nonsmooth.errors import MissingPackagesError
 
 PICTURES = ("matplotlib",)
 RESULTS = ("matplotlib", "xarray", "h5netcdf", "h5py")
-
-
-class MissingPackagesError(NonsmoothError):
-    """Optional packages that a request needs and that are not installed."""
 
 
 def require(packages: Iterable[str]) -> None:

@@ -8,9 +8,8 @@ from collections.abc import Sequence
 from importlib.metadata import version
 
 from nonsmooth.cli import check, figures, list, new, run, save, show
-from nonsmooth.cli.extras import MissingPackagesError
 from nonsmooth.cli.messages import complain, warn_plainly
-from nonsmooth.errors import InvalidInput, NonsmoothError
+from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError
 from nonsmooth.parameters import UnusualValue
 from nonsmooth.plugins.registry import BrokenPlugin
 

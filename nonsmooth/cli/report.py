@@ -37,6 +37,7 @@ def as_json(report: Report) -> str:
 def as_text(report: Report) -> str:
     """Return a short summary to read."""
     rounded = json.loads(as_json(report), parse_float=lambda number: float(f"{float(number):.6g}"))
+    rounded["acceptance"] = json.loads(as_json(report)).get("acceptance")
     head = f"{rounded['scenario']}: {rounded['status']}"
     if rounded["t_end"] is None:
         return head
@@ -48,7 +49,22 @@ def as_text(report: Report) -> str:
     rows.append(("energy residual", _spell(rounded["energy_residual"])))
     modes = rounded["mode_words"].items()
     rows += [("time in modes" * (i == 0), f"{word} {share:7.2%}") for i, (word, share) in enumerate(modes)]
-    return "\n".join([head, *lines(rows), "SI units, radians"])
+    judged = rounded.get("acceptance")
+    table = [] if judged is None else ["", *_judged(judged), ""]
+    return "\n".join([head, *lines(rows), *table, "SI units, radians"])
+
+
+def _judged(criteria: list[dict[str, Any]]) -> list[str]:
+    """Return a line per criterion: whether it holds, the value, its bounds, where they are from."""
+    rows = [
+        ("accepted" if all(one["fulfilled"] for one in criteria) else "not accepted", "", "value", "range", "source")
+    ]
+    for one in criteria:
+        lower, upper = ("" if one[bound] is None else f"{one[bound]:.9g}" for bound in ("lower", "upper"))
+        value = "none" if one["value"] is None else f"{one['value']:.9g}"
+        word = "holds" if one["fulfilled"] else "fails"
+        rows.append((word, one["name"], value, f"{lower} .. {upper}".strip(), one["source"]))
+    return lines(rows)
 
 
 def _plain(report: Report) -> Any:

@@ -9,7 +9,8 @@ from typing import Any
 
 from nonsmooth.cli import law
 from nonsmooth.errors import InvalidInput
-from nonsmooth.files.reading import SUFFIX, read
+from nonsmooth.files.formats import SUFFIXES
+from nonsmooth.files.reading import read
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Scenario
 from nonsmooth.model.options import Options
@@ -84,7 +85,7 @@ def job(name: str, words: Iterable[str], laws: Iterable[str] = ()) -> Job:
     """
     values = assignments(words)
     replaced = law.laws(laws)
-    if name.endswith(SUFFIX):
+    if name.endswith(SUFFIXES):
         setup = read(Path(name), values)
         return Job(FileScenario(setup), setup.options, replaced)
     owner = file.load("run", (Scenario,), name) if file.is_file(name) else registry.load("scenarios", name)

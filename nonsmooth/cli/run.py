@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any, cast
 
-from nonsmooth.cli import extras, law, report, request, results
+from nonsmooth.cli import acceptance, extras, law, report, request, results
 from nonsmooth.cli.interrupt import Interrupt
 from nonsmooth.cli.messages import complain, say, tell
 from nonsmooth.cli.progress import on_standard_error
@@ -25,7 +25,9 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("run", help="run a scenario", allow_abbrev=False)
     command.add_argument(
-        "scenario", metavar="SCENARIO", help="a name of `nonsmooth list scenarios`, a FILE.toml, or FILE.py:CLASS"
+        "scenario",
+        metavar="SCENARIO",
+        help="a name of `nonsmooth list scenarios`, a FILE.toml or FILE.yaml, or FILE.py:CLASS",
     )
     command.add_argument(
         "--set",
@@ -36,6 +38,9 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--out", type=Path, metavar="DIR", help="save results and figures there")
+    command.add_argument(
+        "--accept", action="store_true", help="judge the run by the scenario's own criteria; exit status 1 if one fails"
+    )
     command.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
     command.set_defaults(execute=execute)
 
@@ -46,12 +51,15 @@ def execute(arguments: argparse.Namespace) -> bool:
     with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints: standard output is for the result
         outcome = _perform(arguments, troubles)
     say(report.as_json(outcome) if arguments.json else report.as_text(outcome))
-    return outcome["status"] == "done" and not troubles
+    accepted = not arguments.accept or acceptance.passed(outcome)
+    return outcome["status"] == "done" and not troubles and accepted
 
 
 def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Report:
     job = request.job(arguments.scenario, arguments.set, arguments.law)
     scenario = job.scenario
+    if arguments.accept:
+        acceptance.check_request(job)
     head = {"scenario": arguments.scenario, **job.head()}
     system = job.build()
     if arguments.out is not None:
@@ -72,6 +80,9 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
         outcome["final"] = dict(scenario.final(solution))
     with results.noting(troubles, f"{type(scenario).__name__}.summarise"):
         outcome["summary"] = dict(scenario.summarise(solution))
+    if arguments.accept:
+        with results.noting(troubles, f"{type(scenario).__name__}.acceptance"):
+            outcome["acceptance"] = acceptance.judged(scenario, solution)
     if arguments.out is not None:
         results.save_text(report.as_json(outcome), arguments.out / "summary.json", troubles)
         _save_figures(job, solution, arguments.out, troubles)

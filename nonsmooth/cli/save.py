@@ -8,8 +8,6 @@ from typing import Any
 
 from nonsmooth.cli import law, request
 from nonsmooth.cli.messages import tell
-from nonsmooth.errors import InvalidInput
-from nonsmooth.files.reading import SUFFIX
 from nonsmooth.files.writing import save_system
 
 
@@ -17,7 +15,7 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("save", help="write a scenario to a file that `run` reads", allow_abbrev=False)
     command.add_argument("scenario", metavar="SCENARIO", help="see `nonsmooth list scenarios`")
-    command.add_argument("file", type=Path, metavar="FILE.toml", help="the file to write")
+    command.add_argument("file", type=Path, metavar="FILE", help="the file to write, .toml or .yaml")
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.set_defaults(execute=execute)
@@ -25,8 +23,6 @@ def add_to(commands: Any) -> None:
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Write the file; tell where it is."""
-    if arguments.file.suffix != SUFFIX:
-        raise InvalidInput("save", f"needs a file name that ends in {SUFFIX}", str(arguments.file), "Rename it.")
     job = request.job(arguments.scenario, arguments.set, arguments.law)
     scenario = job.scenario
     save_system(

@@ -1,1 +1,1 @@
-"""Systems as plain files: TOML tables of bodies, laws, contacts and starts."""
+"""Systems as plain files: TOML or YAML tables of bodies, laws, contacts and starts."""

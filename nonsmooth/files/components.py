@@ -5,6 +5,7 @@ from __future__ import annotations
 import collections.abc
 import contextlib
 import dataclasses
+import inspect
 import types
 import typing
 from collections.abc import Iterator, Mapping
@@ -14,8 +15,10 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.files import named
 from nonsmooth.plugins import file, registry
 
+_BASES = tuple(base for bases in registry.GROUPS.values() for base in bases)
 TYPE = "type"
 """The key that says of which class a component is."""
 
@@ -37,12 +40,14 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
     Raises
     ------
     InvalidInput
-        If its class is not installed, or it holds a function or another object that no file can hold.
+        If its class is not installed, or it holds a function that nobody can import or another object that no file
+        can hold.
     """
     owner = type(component)
     table: Table = {}
     if declared is not owner:
-        name = registry.name_of(owner)
+        # the classes of helpers have no installed names
+        name = registry.name_of(owner) if issubclass(owner, _BASES) else named.name_of(thing, owner)
         if name is None:
             raise InvalidInput(
                 thing,
@@ -76,12 +81,13 @@ def _plain(value: Any, thing: str, hint: Any) -> Any:
         return {key: _plain(one, f"{thing}.{key}", Any) for key, one in value.items()}
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return table_of(value, thing, _own_class(hint))
-    what = getattr(value, "__qualname__", repr(value))
+    if inspect.isfunction(value):
+        return named.name_of(thing, value)
     raise InvalidInput(
         thing,
-        "must be made of numbers, words and components to be written to a file",
-        what,
-        "A system with Python functions lives in a Python scenario; write one, or a class with an entry point.",
+        "must be made of numbers, words, components and plain functions to be written to a file",
+        repr(value),
+        "A system with other objects lives in a Python scenario; write one, or a class with an entry point.",
     )
 
 
@@ -111,6 +117,8 @@ def component(thing: str, value: Any, base: type, folder: Path) -> Any:
         raise InvalidInput(thing, "must be a table or a name", value, f'For example {{ {TYPE} = "..." }}.')
     if TYPE not in table and _concrete(base):
         return _made(thing, base, table, folder)
+    if not issubclass(base, _BASES):
+        return _helper(thing, base, table, folder)
     group = next(group for group, bases in registry.GROUPS.items() if issubclass(base, bases))
     if not isinstance(table.get(TYPE), str):
         raise InvalidInput(
@@ -121,6 +129,17 @@ def component(thing: str, value: Any, base: type, folder: Path) -> Any:
         )
     with naming(f"{thing}.{TYPE}"):
         owner = file.find(registry.KINDS[group], group, base, table[TYPE], folder)
+    return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, folder)
+
+
+def _helper(thing: str, base: type, table: Table, folder: Path) -> Any:
+    """Return an object of one of several classes that have no installed names: their names are those of Python."""
+    word = table.get(TYPE)
+    if not named.is_name(word):
+        raise InvalidInput(f"{thing}.{TYPE}", "must be the name of a class", word, 'For example "bodies:PointFrame".')
+    owner = named.find(f"{thing}.{TYPE}", str(word))
+    if not (isinstance(owner, type) and issubclass(owner, base) and _concrete(owner)):
+        raise InvalidInput(f"{thing}.{TYPE}", f"must name a class of the kind {base.__name__}", word, "Take another.")
     return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, folder)
 
 
@@ -153,6 +172,8 @@ def _value(thing: str, value: Any, hint: Any, folder: Path) -> Any:
         return tuple(_value(f"{thing}[{i}]", one, hints[i], folder) for i, one in enumerate(value))
     if base is not None and isinstance(value, (dict, str)):
         return component(thing, value, base, folder)
+    if isinstance(value, str) and any(typing.get_origin(one) is collections.abc.Callable for one in _options(hint)):
+        return named.function(thing, value)
     if isinstance(value, dict):
         return {key: _value(f"{thing}.{key}", one, Any, folder) for key, one in value.items()}
     return value
@@ -195,9 +216,8 @@ def _abstract(owner: type) -> bool:
 
 def _component_class(hint: Any) -> Any:
     """Return the class of components that a hint allows, None where it allows none."""
-    bases = tuple(base for bases in registry.GROUPS.values() for base in bases)
     for one in _options(hint):
-        if isinstance(one, type) and (issubclass(one, bases) or _concrete(one)):
+        if isinstance(one, type) and (issubclass(one, _BASES) or dataclasses.is_dataclass(one)):
             return one
     return None
 

@@ -1,20 +1,15 @@
-"""TOML text to tables, and changes of single values."""
+"""Files to tables, and changes of single values."""
 
 from __future__ import annotations
 
 import copy
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.files import formats
 from nonsmooth.files.components import Table
-
-if sys.version_info >= (3, 11):
-    from tomllib import TOMLDecodeError, loads
-else:
-    from nonsmooth.files.toml import TOMLDecodeError, loads
 
 
 def parse(path: Path) -> Table:
@@ -23,16 +18,19 @@ def parse(path: Path) -> Table:
     Raises
     ------
     InvalidInput
-        If it cannot be read or is no TOML.
+        If it cannot be read or is no text of the format that its name ends in.
+    MissingPackagesError
+        If its format needs a package that is not installed.
     """
+    form = formats.of(path)
     try:
-        return loads(path.read_text(encoding="utf-8"))
+        return form.parse(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InvalidInput(
             "scenario file", "must be a file that can be read", str(path), f"{error.strerror}."
         ) from error
-    except (TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{path}", "must be TOML text", str(error), "Correct the place it names.") from error
+    except ValueError as error:
+        raise InvalidInput(f"{path}", f"must be {form.name} text", str(error), "Correct the place it names.") from error
 
 
 def changed(tables: Table, changes: Mapping[str, str], path: Path) -> Table:
@@ -69,6 +67,6 @@ def _inside(place: Any, step: str, key: str, path: Path) -> Any:
 def value(text: str) -> Any:
     """Return what a text means as a TOML value, itself where it means none."""
     try:
-        return loads(f"value = {text}")["value"]
-    except TOMLDecodeError:
+        return formats.toml(f"value = {text}")["value"]
+    except ValueError:
         return text

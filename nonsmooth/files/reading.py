@@ -15,9 +15,6 @@ from nonsmooth.files.parsing import changed, parse
 from nonsmooth.model.options import Options
 from nonsmooth.system.system import System
 
-SUFFIX = ".toml"
-"""What the name of a scenario file ends in."""
-
 _NO_CHANGES: Mapping[str, str] = {}
 _KEYS = (
     "title",
@@ -89,8 +86,8 @@ def load_system(path: str | Path) -> Setup:
     Raises
     ------
     InvalidInput
-        If there is no such file, it is no TOML, or anything in it breaks a rule: file, key, rule, value and remedy
-        are named.
+        If there is no such file, it is no TOML or YAML, or anything in it breaks a rule: file, key, rule, value and
+        remedy are named.
     PluginError
         If a class that it names cannot be loaded.
     """

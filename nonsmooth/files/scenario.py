@@ -9,7 +9,7 @@ from typing import Any, ClassVar, final
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.parsing import value
 from nonsmooth.files.reading import Setup
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -62,6 +62,10 @@ class FileScenario(Scenario):
         """Return how the energy was lost [J]."""
         energy = solution.energy
         return {"restitution_loss": energy.restitution_loss, "friction_loss": energy.friction_loss}
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return none: a file says what runs, not what comes of it."""
+        return ()
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return none."""

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.files import formats
 from nonsmooth.files.components import TYPE, Table, table_of
-from nonsmooth.files.text import text_of
 from nonsmooth.interfaces import Body
 from nonsmooth.model.options import Options
 from nonsmooth.plugins import registry
@@ -27,16 +27,16 @@ def save_system(
     title: str = "",
     names: Sequence[str] = (),
 ) -> None:
-    """Write a system to a TOML file that :func:`load_system` and ``nonsmooth run`` read.
+    """Write a system to a TOML or YAML file that :func:`load_system` and ``nonsmooth run`` read.
 
     Numbers come back to the last bit, so that a run from the file is the same run.
 
     Parameters
     ----------
     system : System
-        All of its components must be of installed classes and without Python functions.
+        All of its components must be of installed classes, and its functions importable by name.
     path : str or Path
-        The file, ending in .toml.
+        The file, ending in .toml, .yaml or .yml.
     t_end, sample_interval : float, optional
         End time and time between samples [s].
     options : Options, optional
@@ -49,10 +49,13 @@ def save_system(
     Raises
     ------
     InvalidInput
-        If a component cannot be written; it is named, and no file is written.
+        If the name ends in none of these, or a component cannot be written; it is named, and no file is written.
+    MissingPackagesError
+        If the file is YAML and PyYAML is not installed.
     FileError
         If the file cannot be written.
     """
+    form = formats.of(Path(path))
     tables: Table = {"title": title} if title else {}
     times = {"t_end": t_end, "sample_interval": sample_interval}
     tables |= {name: float(value) for name, value in times.items() if value is not None}
@@ -68,7 +71,7 @@ def save_system(
     for kind, ties in (("joints", system.joints), ("loads", system.loads)):
         tables[kind] = [_tie(tie, known, f"{kind}[{i}]") for i, tie in enumerate(ties)]
     tables["guards"] = [table_of(guard, f"guards[{i}]") for i, guard in enumerate(system.guards)]
-    text = text_of({name: value for name, value in tables.items() if value not in ([], {})})
+    text = form.write({name: value for name, value in tables.items() if value not in ([], {})})
     with replacing(Path(path)) as part:
         part.write_text(text, encoding="utf-8")
 

@@ -2,6 +2,7 @@
 
 from nonsmooth.interfaces.body import Body
 from nonsmooth.interfaces.contact_kinematics import ContactKinematics
+from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
@@ -19,6 +20,7 @@ __all__ = [
     "Body",
     "CompliantNormalLaw",
     "ContactKinematics",
+    "Criterion",
     "FrictionLaw",
     "Guard",
     "ImpactLaw",

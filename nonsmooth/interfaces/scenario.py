@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.parameters import Component
 
 if TYPE_CHECKING:
@@ -20,7 +21,8 @@ class Scenario(Component, ABC):
 
     1. Parameters are dataclass fields declared with :func:`nonsmooth.parameters.parameter`.
     2. ``build`` returns a new System; ``t_end`` says how long to run it.
-    3. ``summarise``, ``coordinates`` and ``figures`` only read the solution.
+    3. ``summarise``, ``coordinates``, ``figures`` and ``acceptance`` only read the solution.
+    4. A full run of the default parameters has at least one criterion, and fulfils all.
     """
 
     title: ClassVar[str]
@@ -54,6 +56,10 @@ class Scenario(Component, ABC):
     @abstractmethod
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return the numbers that say what happened."""
+
+    @abstractmethod
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the numbers by which a finished run is judged; those that hold for these parameters."""
 
     @abstractmethod
     def figures(self, solution: Solution) -> Mapping[str, Any]:

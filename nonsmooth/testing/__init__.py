@@ -1,4 +1,4 @@
-"""The conformance kit: what must hold of a law, a body, a contact's kinematics or a scenario, as named properties.
+"""The conformance kit: what must hold of laws, bodies, contact kinematics, scenarios and the rest, as named properties.
 
 Each ``check_...`` returns a list of :class:`Property`; nothing runs before a property is called::
 
@@ -9,11 +9,16 @@ Each ``check_...`` returns a list of :class:`Property`; nothing runs before a pr
 
 from nonsmooth.testing.body import check_body
 from nonsmooth.testing.friction import check_friction_law
+from nonsmooth.testing.guard import check_guard
 from nonsmooth.testing.impact import check_impact_law
+from nonsmooth.testing.joint import check_joint
 from nonsmooth.testing.kinematics import check_contact_kinematics
+from nonsmooth.testing.load import check_load
+from nonsmooth.testing.motion import check_motion
 from nonsmooth.testing.normal import check_normal_law
 from nonsmooth.testing.property import Departs, NotChecked, Property, PropertyFailed
 from nonsmooth.testing.scenario import check_scenario
+from nonsmooth.testing.shape import check_shape
 
 __all__ = [
     "Departs",
@@ -23,7 +28,12 @@ __all__ = [
     "check_body",
     "check_contact_kinematics",
     "check_friction_law",
+    "check_guard",
     "check_impact_law",
+    "check_joint",
+    "check_load",
+    "check_motion",
     "check_normal_law",
     "check_scenario",
+    "check_shape",
 ]

@@ -16,7 +16,8 @@ from nonsmooth.plugins.compile import bind, parameter_names
 
 Array = NDArray[np.float64]
 Caller = Callable[..., Any]
-_POINTERS = {"body": 4, "pair": 4, "map": 4, "scalar": 1}
+_POINTERS = {"body": 4, "load": 4, "pair": 4, "map": 4, "guard": 3, "scalar": 1}
+_RETURNING = ("scalar", "guard")
 
 
 def plain_caller(function: Callable[..., Any], form: str, values: Mapping[str, Any]) -> Caller:
@@ -72,14 +73,13 @@ def compiled_map(function: Callable[..., Any], vectors: Mapping[str, Array], own
 
 
 def _native(address: int, form: str, numbers: Array) -> Caller:
-    result = ctypes.c_double if form == "scalar" else None
-    heads: dict[str, list[Any]] = {"scalar": [ctypes.c_double], "body": [ctypes.c_double], "map": [ctypes.c_int64]}
-    first = heads.get(form, [])
+    result = ctypes.c_double if form in _RETURNING else None
+    first: list[Any] = {"pair": [], "map": [ctypes.c_int64]}.get(form, [ctypes.c_double])
     native: Any = ctypes.CFUNCTYPE(result, *first, *[ctypes.c_void_p] * _POINTERS[form])(address)
 
     def call(*arguments: Any) -> Any:
         given = [a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments]
-        if form == "scalar":
+        if form in _RETURNING:
             return native(*given, numbers.ctypes.data)
         # the engine hands the parameters over before what is to be written
         return native(*given[:-1], numbers.ctypes.data, given[-1])

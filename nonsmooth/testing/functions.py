@@ -211,7 +211,7 @@ def _finite(function: Function) -> None:
 
 
 def _inside(function: Function) -> None:
-    for words, value in function.inputs if function.form != "scalar" else ():
+    for words, value in function.inputs if function.form not in ("scalar", "guard") else ():
         if np.any(np.asarray(function.plain(value))[-ROOM:] != OLD):
             raise Broken(f"{function.title}({words}) writes beyond its block", *described(function.owner))
 

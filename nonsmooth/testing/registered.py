@@ -5,23 +5,50 @@ from __future__ import annotations
 import dataclasses
 import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body, ContactKinematics, FrictionLaw, ImpactLaw, NormalLaw, Scenario
+from nonsmooth.interfaces import (
+    Body,
+    ContactKinematics,
+    FrictionLaw,
+    Guard,
+    ImpactLaw,
+    Joint,
+    Load,
+    Motion,
+    NormalLaw,
+    Scenario,
+    Shape,
+)
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.plugins import registry
 from nonsmooth.testing.body import check_body
 from nonsmooth.testing.friction import check_friction_law
+from nonsmooth.testing.guard import check_guard
 from nonsmooth.testing.impact import check_impact_law
+from nonsmooth.testing.joint import check_joint
 from nonsmooth.testing.kinematics import check_contact_kinematics
+from nonsmooth.testing.load import check_load
+from nonsmooth.testing.motion import check_motion
 from nonsmooth.testing.normal import check_normal_law
 from nonsmooth.testing.property import Property
 from nonsmooth.testing.scenario import check_scenario
+from nonsmooth.testing.shape import check_shape
 
-GROUPS = ("laws", "bodies", "kinematics", "scenarios")
-"""Groups of the registry whose members the kit looks at."""
+_CHECKS: tuple[tuple[Any, Callable[[Any], list[Property]]], ...] = (
+    (NormalLaw, check_normal_law),
+    (FrictionLaw, check_friction_law),
+    (ImpactLaw, check_impact_law),
+    (Body, check_body),
+    (Joint, check_joint),
+    (Load, check_load),
+    (Motion, check_motion),
+    (Shape, check_shape),
+    (Guard, check_guard),
+    (Scenario, check_scenario),
+)
 
 
 def check_registered(group: str, name: str, words: Mapping[str, str]) -> list[Property]:
@@ -32,12 +59,13 @@ def check_registered(group: str, name: str, words: Mapping[str, str]) -> list[Pr
     group, name : str
         Where it is installed.
     words : mapping of str to str
-        Parameters; those that are required and not given take a value inside of their range.
+        Parameters; those that are required and not given are those of the class's example, or take a value inside of
+        their range.
 
     Raises
     ------
     InvalidInput
-        If a value is wrong, or it cannot be made from numbers and words alone.
+        If a value is wrong, or a field without default is no declared number and not in the example.
     PluginError
         If it cannot be loaded.
     """
@@ -45,18 +73,7 @@ def check_registered(group: str, name: str, words: Mapping[str, str]) -> list[Pr
     if issubclass(owner, ContactKinematics):
         return _of_pair(owner, name, words)
     component = make(owner, name, words)
-    found: list[Property] = []
-    if isinstance(component, NormalLaw):
-        found += check_normal_law(component)
-    if isinstance(component, FrictionLaw):
-        found += check_friction_law(component)
-    if isinstance(component, ImpactLaw):
-        found += check_impact_law(component)
-    if isinstance(component, Body):
-        found += check_body(component)
-    if isinstance(component, Scenario):
-        found += check_scenario(component)
-    return found
+    return [prop for base, check in _CHECKS if isinstance(component, base) for prop in check(component)]
 
 
 def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]) -> list[Property]:
@@ -68,15 +85,15 @@ def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]
     return check_contact_kinematics(owner.between(first, second)[0], first, second)
 
 
-def make(owner: type, name: str, words: Mapping[str, str]) -> Any:
-    """Return a component with the parameters given, and with some value for others that have no default.
+def make(owner: Any, name: str, words: Mapping[str, str]) -> Any:
+    """Return a component with the parameters given, those of its example, and some value for others without default.
 
     Raises
     ------
     InvalidInput
-        If a value is wrong or a field without default is no declared number.
+        If a value is wrong, or a field without default is no declared number and not in the example.
     """
-    values = from_words(owner, words, name)
+    values = {**owner.example(), **from_words(owner, words, name)}
     for field in dataclasses.fields(owner):
         if field.name in values or not field.init or field.default is not field.default_factory:
             continue
@@ -84,9 +101,9 @@ def make(owner: type, name: str, words: Mapping[str, str]) -> Any:
         if rule.unit == "" and not rule.choices:
             raise InvalidInput(
                 f"{name}.{field.name}",
-                "must be given from Python",
+                "must have a value to be looked at with",
                 None,
-                f"Make a {owner.__name__} and pass it to the function of nonsmooth.testing for its kind.",
+                f"Let {owner.__name__}.example return one, or pass an object to the function of nonsmooth.testing.",
             )
         values[field.name] = rule.choices[0] if rule.choices else _typical(rule)
     with warnings.catch_warnings():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import importlib.util
 import json
 import math
@@ -15,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import rules
 from nonsmooth.simulate import simulate
 from nonsmooth.solution import files
@@ -49,9 +50,10 @@ def check_scenario(scenario: Scenario, *, t_end: float | None = None) -> list[Pr
         ("summary", "`summarise` returns numbers and words by name, the same each time", look.summary),
         ("coordinates", "`coordinates` returns an array over the samples for each name", look.coordinates),
         ("final state", "`final` returns finite lists q and u", look.final),
+        ("acceptance", "a full run has criteria, each with a finite number, and fulfils all", look.acceptance),
         ("figures", "`figures` returns figures by file name, and they can be drawn", look.figures),
         ("results can be saved", "solution and coordinates can be written to files", look.files),
-        ("only reads", "summary, coordinates and figures leave the solution as it is", look.only_reads),
+        ("only reads", "summary, coordinates and criteria leave the solution as it is", look.only_reads),
     ]
     return properties(scenario, [*component_rows(scenario), *rows])
 
@@ -151,6 +153,24 @@ class _Look:
             if not isinstance(values, list) or not values or not np.all(np.isfinite(values)):
                 raise Broken("it must be a list of finite numbers", name, values)
 
+    def acceptance(self) -> None:
+        scenario = self._scenario
+        if isinstance(self._solution, Exception):
+            raise NotChecked(f"not checked, as it does not run: {self._solution}") from self._solution
+        solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
+        criteria = scenario.acceptance(solution)
+        if not isinstance(criteria, tuple) or not all(isinstance(one, Criterion) for one in criteria):
+            raise Broken("it must be a tuple of Criterion", "acceptance", criteria)
+        if not criteria and not _is_default(scenario):
+            raise NotChecked("there is no criterion for these parameters")
+        if not criteria:
+            raise Broken("there is no criterion for the default parameters", "acceptance", criteria)
+        for one in criteria:
+            if not one.fulfilled:
+                raise Broken(
+                    f"it must lie between {one.lower:.9g} and {one.upper:.9g}: {one.source}", one.name, one.value
+                )
+
     def figures(self) -> None:
         if importlib.util.find_spec("matplotlib") is None:
             raise NotChecked("not checked, as matplotlib is not installed")
@@ -175,9 +195,16 @@ class _Look:
         self._scenario.summarise(self.solution)
         self._scenario.coordinates(self.solution)
         self._scenario.final(self.solution)
+        self._scenario.acceptance(self.solution)
         for name, then, now in zip("tqu", before, (self.solution.t, self.solution.q, self.solution.u), strict=True):
             if not np.array_equal(then, now, equal_nan=True):
                 raise Broken("the solution is changed", name, "")
+
+
+def _is_default(scenario: Scenario) -> bool:
+    """Tell whether all parameters that have a default have that value."""
+    given = {name: (getattr(scenario, name), field.default) for name, (field, _) in rules(type(scenario)).items()}
+    return all(value == default for value, default in given.values() if default is not dataclasses.MISSING)
 
 
 _PARTS = ("bodies", "starts", "contacts", "joints", "loads", "guards", "gravity")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bodies import Ball, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body, Scenario
+from nonsmooth.interfaces import Body, Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
@@ -198,6 +198,32 @@ class BallBox(Scenario):
             "height": float(np.max(solution.q_end.reshape(-1, 7)[:, 2])) + self.radius,
             "energy_residual": solution.energy.residual,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the least distance over all samples, and losses over the energy that heights and speeds gave."""
+        account, r = solution.energy, self.radius
+        q_end, u_end = solution.q_end.reshape(-1, 7), solution.u_end[None]
+        fallen = self.mass * _GRAVITY * float(np.sum(self.places()[:, 2] - q_end[:, 2]))
+        given = fallen + float(self.kinetic_energy(solution)[0] - self._kinetic(u_end)[0])
+        apart = min(self._least_distance(places) for places in self.positions(solution))
+        return (
+            Criterion("least distance of two bodies over the radius", apart / r, -1e-6, math.inf, "unilateral contact"),
+            Criterion.near(
+                "losses over the energy that heights and speeds gave",
+                account.loss / given,
+                1.0,
+                1e-6,
+                "balance of energy",
+            ),
+        )
+
+    def _least_distance(self, places: Floats) -> float:
+        """Return the least distance of balls, floor and walls at one instant [m]."""
+        one, two = np.triu_indices(len(places), 1)
+        balls = np.linalg.norm(places[one] - places[two], axis=1) - 2.0 * self.radius
+        walls = 0.5 * self.box_width - self.radius - np.abs(places[:, :2])
+        floor = places[:, 2] - self.radius
+        return float(min(np.min(balls, initial=math.inf), np.min(walls), np.min(floor)))
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the pile at the end and what led to it over time."""

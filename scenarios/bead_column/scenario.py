@@ -14,7 +14,7 @@ from bodies import Ball, Plate, Rest
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
@@ -117,6 +117,26 @@ class BeadColumn(Scenario):
             "impacts": solution.counters.impacts,
             "restitution_loss": account.restitution_loss,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the time of the first impact, and what its energy or the rebound of one bead must be."""
+        times = solution.events.time[solution.events.cause == IMPACT]
+        fall = self.fall_speed / _GRAVITY
+        first = float(times[0]) if len(times) else None
+        found = [Criterion.near("time of the first impact [s]", first, fall, 1e-9, "free fall, sqrt(2 h / g)")]
+        after = self.rebound(solution) / self.fall_speed
+        if self.restitution == 1.0:
+            kept = float(np.mean(after**2))
+            name = "energy after the first impact over that before"
+            found.append(Criterion.near(name, kept, 1.0, 1e-6, "nothing is lost where e = 1"))
+        if self.n_beads == 1.0:
+            source = "one contact gives back e of the speed"
+            found.append(
+                Criterion.near(
+                    "speed after the first impact over that before", after[0], self.restitution, 1e-6, source
+                )
+            )
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the heights of all beads over time."""

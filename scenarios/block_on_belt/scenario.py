@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bodies import ConstantVelocity, PlanarBody, Plate, Point, Rest, Spring
 from laws import EnergeticImpact, Stribeck, Unilateral
 from nonsmooth.engine.modes import SLIP_TO_STICK, STICK_TO_SLIP
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
@@ -123,6 +123,25 @@ class BlockOnBelt(Scenario):
             "largest_q": float(solution.q[:, 0].max()),
             "friction_loss": solution.energy.friction_loss,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return when slip starts first, for a block that starts with the belt, and where it starts each time."""
+        source = "Leine et al. (1998): it sticks until the spring and damper pull with F_s"
+        place = (self.static_force - self.damping * self.belt_speed) / self.stiffness
+        events = solution.events
+        places, found = events.q[events.cause == STICK_TO_SLIP, 0], []
+        for name, value in (("first", places[:1]), ("last", places[-1:])):
+            at = float(value[0]) if len(value) else None
+            found.append(
+                Criterion.near(f"elongation at the {name} breakaway [m]", at, place, 1e-6 * self.reach, source)
+            )
+        way = place - self.elongation
+        if self.start_velocity == self.belt_speed and way > 0.0:
+            times = self.breakaways(solution)
+            first = float(times[0]) if len(times) else None
+            time = way / self.belt_speed
+            found.append(Criterion.near("time of the first breakaway [s]", first, time, 1e-6 * time, source))
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return phase portrait and elongation over time."""

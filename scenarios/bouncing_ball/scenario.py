@@ -14,7 +14,7 @@ from bodies import Ball, Harmonic, Plate
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.modes import CLOSING, IMPACT
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
@@ -184,6 +184,35 @@ class BouncingBall(Scenario):
             "first_rest": float(closings[0]) if len(closings) > 0 else None,
             "resting_share": float(resting),
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the flight of a stable orbit that it starts on, or when a drop on a table at rest is over."""
+        if self.height is not None:
+            return self._acceptance_of_drop(solution, self.height)
+        n, e = int(self.orbit), self.restitution
+        on_orbit = self.speed is None and self.start_phase is None
+        if not (on_orbit and orbits.existence(e, n) < self.gamma < orbits.stability(e, n)):
+            return ()
+        flights, phases = self.flights(solution), self.phases(solution)
+        flight, phase = (float(values[-1]) if len(values) else None for values in (flights, phases))
+        angle = orbits.impact_phase(self.gamma, e, n) / (2.0 * math.pi)
+        source = "Holmes (1982): cos(phase) = n pi (1 - e) / ((1 + e) Gamma)"
+        return (
+            Criterion.near("last flight [table periods]", flight, self.orbit, 1e-6, "the stable orbit of n periods"),
+            Criterion.near("phase of the table at the last impact [turns]", phase, angle, 1e-6, source),
+        )
+
+    def _acceptance_of_drop(self, solution: Solution, height: float) -> tuple[Criterion, ...]:
+        e, fall = self.restitution, math.sqrt(2.0 * height / GRAVITY)
+        if self.gamma > 0.0 or e == 1.0 or (1.0 + e) / (1.0 - e) * fall >= self.t_end:
+            return ()
+        rest = (1.0 + e) / (1.0 - e) * fall
+        closings = solution.events.time[solution.events.cause == CLOSING]
+        found = float(closings[0]) if len(closings) else math.nan
+        # the bounces that the contact time cuts off
+        cut = 2.1 * self.contact_time / (1.0 - e) + 1e-9
+        source = "the sum of all flights, (1 + e) / (1 - e) sqrt(2 h / g), less those that rule (33) cuts off"
+        return (Criterion("time at rest [s]", found, rest - cut, rest + 1e-9, source),)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the last of the motion."""

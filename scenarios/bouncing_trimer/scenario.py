@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from bodies import Ball, Compound, Harmonic, Part, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.engine.modes import IMPACT
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
@@ -162,6 +163,30 @@ class BouncingTrimer(Scenario):
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return the regime and its numbers over the second half of the run: see :mod:`.motion`."""
         return {**summary(self.motion(solution)), "impacts": solution.counters.impacts}
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return how well the first impact is hit, and by how much an impulse leaves the cone of friction."""
+        events = solution.events
+        impacts = np.flatnonzero(events.cause == IMPACT)
+        gap = math.nan
+        if len(impacts) > 0:
+            t = float(events.time[impacts[0]])
+            gap = self.height - 0.5 * GRAVITY * t * t - float(self.plate(np.array([t]))[0])
+        ratio = 0.0
+        for i in impacts:
+            normal, *across = events.impulse[i].T
+            pressed = normal > 0.0
+            ratio = max(ratio, float(np.max(np.hypot(*across)[pressed] / normal[pressed], initial=0.0)))
+        return (
+            Criterion.near("gap of the lowest ball at the first impact [m]", gap, 0.0, 1e-9, "free fall on a sine"),
+            Criterion(
+                "largest ratio of tangential to normal impulse",
+                ratio,
+                0.0,
+                self.friction * (1.0 + 1e-6) + 1e-9,
+                "Coulomb: no more than mu",
+            ),
+        )
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return path and heading, and the gaps over the last plate periods."""

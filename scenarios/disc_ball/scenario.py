@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from bodies import Ball
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.disc_ball.closed_forms import half_angle
+from scenarios.disc_ball.closed_forms import half_angle, symmetric
 
 Floats = NDArray[np.float64]
 
@@ -152,6 +152,29 @@ class DiscBall(Scenario):
             "energy_kept": account.kinetic_end / account.kinetic_start,
             "impacts": solution.counters.impacts,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the momenta, and all speeds of a symmetric strike."""
+        after = self.velocities(solution)
+        momenta = np.array([self.mass_ratio, 1.0, 1.0]) @ after
+        found = [
+            Criterion.near(
+                f"momentum along {axis} over that of a ball at the speed of the disc",
+                value,
+                self.mass_ratio * direction,
+                1e-9,
+                "balance of momentum",
+            )
+            for axis, value, direction in zip("xy", momenta, self.direction, strict=True)
+        ]
+        if self.offset == 0.0 and self.incidence == 0.0 and self.stiffness_ratio == 1.0:
+            disc, ball = symmetric(self.mass_ratio, self.radius_ratio, self.restitution)
+            source = "one impulse for both contacts: P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha"
+            found.append(Criterion.near("velocity of the disc after over before", after[0, 1], disc, 1e-6, source))
+            for name, velocity in (("left", after[1]), ("right", after[2])):
+                speed = float(np.hypot(*velocity))
+                found.append(Criterion.near(f"speed of the {name} ball over that before", speed, ball, 1e-6, source))
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the bodies before and after, with their velocities."""

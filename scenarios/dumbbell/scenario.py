@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from bodies import Dumbbell, Harmonic, Plate
 from laws import Coulomb, Unilateral, closing_time, plane_strain_modulus
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ImpactLaw, Scenario
+from nonsmooth.interfaces import Criterion, ImpactLaw, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
 from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.dumbbell import attractor, coordinates
+from scenarios.dumbbell.acceptance import criteria
 from scenarios.dumbbell.impact import impact_law
 from scenarios.dumbbell.modes import GRAVITY, defaults
 
@@ -29,6 +30,9 @@ Part = TypeVar("Part")
 _SAMPLES_PER_PERIOD = 40
 _FEWEST_PER_PERIOD = 4
 _SAMPLES = 20000
+
+_GRID = 20001
+"""Points of a plate period, among which the largest gap is found to 1e-9 of it."""
 
 
 @final
@@ -272,6 +276,25 @@ class DumbbellScenario(Scenario):
             length,
             2.0 * math.pi * self.frequency * length,
         )
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return what the paper and the orbits of a ball say of a settled run of this mode."""
+        return criteria(self.mode, self._is_nominal(), self.summarise(solution), solution, self.orbit_gap())
+
+    def _is_nominal(self) -> bool:
+        free = ("mode", "t_end", "transverse_velocity")
+        return all(
+            getattr(self, name) == field.default for name, (field, _) in rules(type(self)).items() if name not in free
+        )
+
+    def orbit_gap(self) -> float:
+        """Return the largest gap [m] of a ball that flies one plate period from impact to impact."""
+        used, f = self.resolved(), self.frequency
+        e = used["restitution"]
+        phase = math.acos(min(1.0, math.pi * (1.0 - e) / ((1.0 + e) * self.gamma))) if self.gamma > 0.0 else 0.0
+        t = np.linspace(0.0, 1.0 / f, _GRID)
+        plate = self.amplitude * (np.sin(phase + 2.0 * math.pi * f * t) - math.sin(phase))
+        return float(np.max(GRAVITY / (2.0 * f) * t - 0.5 * GRAVITY * t**2 - plate))
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the published figures of this mode, drawn from this run."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, ClassVar, final
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from bodies import Ball
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
@@ -22,6 +23,15 @@ from nonsmooth.system.system import System
 Floats = NDArray[np.float64]
 
 _SAMPLES = 400
+
+_ON_SPRINGS: Mapping[tuple[float, float], tuple[float, ...]] = MappingProxyType(
+    {
+        (3.0, 1.5): (-0.07095235, 0.07640304, 0.99454931),
+        (3.0, 1.0): (-0.13026170, 0.15022957, 0.98003213),
+        (5.0, 1.5): (-0.07108502, -0.03027376, -0.01446363, 0.12704499, 0.98877742),
+    }
+)
+"""Velocities after one ball struck others at rest, by number of balls and exponent, to eight digits."""
 
 
 @final
@@ -118,6 +128,31 @@ class NewtonsCradle(Scenario):
             "energy_kept": account.kinetic_end / account.kinetic_start,
             "impacts": solution.counters.impacts,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the momentum and, of one ball that strikes two or four others like it without loss, all velocities."""
+        after = self.velocities(solution) / self.speed
+        masses = np.where(np.arange(len(after)) < self.n_strikers, self.mass_ratio, 1.0)
+        total, before = float(masses @ after), self.mass_ratio * self.n_strikers
+        found = [
+            Criterion.near(
+                "momentum over that of a struck ball at the speed",
+                total,
+                before,
+                1e-9,
+                "balance of momentum",
+            )
+        ]
+        if self.restitution == 1.0:
+            kept = float(masses @ after**2) / before
+            found.append(Criterion.near("energy kept", kept, 1.0, 1e-6, "nothing is lost where e = 1"))
+        alike = (self.n_strikers, self.mass_ratio, self.stiffness_ratio, self.restitution) == (1.0, 1.0, 1.0, 1.0)
+        for i, value in enumerate(_ON_SPRINGS.get((self.n_balls, self.exponent), ()) if alike else ()):
+            source = "springs k x^eta in real time, whatever their stiffness"
+            found.append(
+                Criterion.near(f"velocity of ball {i + 1} over that of the striker", after[i], value, 1e-7, source)
+            )
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the velocities after the strike."""

@@ -60,3 +60,23 @@ def amplitudes(alpha: float, tilt: float, n: int) -> Floats:
     rise = (math.cos(alpha - tilt) - math.cos(alpha)) * velocity_ratio(alpha) ** (2.0 * np.arange(n))
     peaks: Floats = alpha - np.arccos(math.cos(alpha) + rise)
     return peaks
+
+
+def frictionless_fall(base: float, height: float, tilt: float, gravity: float = 9.81) -> tuple[float, float]:
+    """Return time [s] and rate of the tilt [rad/s] at which a frictionless block lies flat, let go at ``tilt``.
+
+    No force moves its mass centre sideways, at the height f = (L sin(tilt) + H cos(tilt)) / 2.  So the energy gives the
+    rate, (J/m + f'^2) rate^2 = 2 g (f_0 - f), and its quadrature the time.
+    """
+    from scipy.integrate import quad
+
+    def rate(angle: float) -> float:
+        slope = 0.5 * (base * math.cos(angle) - height * math.sin(angle))
+        # the difference of the heights, without cancellation
+        middle, half = 0.5 * (tilt + angle), 0.5 * (tilt - angle)
+        fallen = math.sin(half) * (base * math.cos(middle) - height * math.sin(middle))
+        return math.sqrt(2.0 * gravity * fallen / ((base**2 + height**2) / 12.0 + slope**2))
+
+    # tilt - angle = s^2: the integrand has no pole at the start
+    time, _ = quad(lambda s: 2.0 * s / rate(tilt - s * s), 0.0, math.sqrt(tilt), epsabs=1e-12, epsrel=1e-12)
+    return float(time), rate(0.0)

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from bodies import PlanarBody, Plate, Point, Rest
 from nonsmooth.engine.modes import IMPACT
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.rocking_block.contact_laws import laws_of
+from scenarios.rocking_block.housner import frictionless_fall
 
 Floats = NDArray[np.float64]
 
@@ -112,6 +113,24 @@ class RockingBlock(Scenario):
             "restitution_loss": solution.energy.restitution_loss,
             "friction_loss": solution.energy.friction_loss,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return when and how fast a block without friction lies flat, whose mass centre falls along a vertical."""
+        if self.friction > 0.0 or self.base * math.cos(self.tilt) <= self.height * math.sin(self.tilt):
+            return ()
+        time, rate = frictionless_fall(self.base, self.height, self.tilt, _GRAVITY)
+        first = self.summarise(solution)["first_impact"]
+        values = [(first[name] or [None])[0] for name in ("time", "tilt_rate_before", "velocity_before")]
+        source = "energy of the fall without friction"
+        found = [
+            Criterion.near("time of the first impact [s]", values[0], time, 1e-7, f"quadrature of the {source}"),
+            Criterion.near("tilt rate before it [rad/s]", values[1], -rate, 1e-6 * rate, source),
+            Criterion.near("velocity before it [m/s]", values[2], -0.5 * self.base * rate, 1e-6 * rate, source),
+        ]
+        if (self.base, self.height, self.tilt) == (1.0, 0.5, math.pi / 3):
+            source = "published case of a flat impact of two points"
+            found.append(Criterion.near("time of the first impact [s]", values[0], 0.58747797, 1e-8, source))
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the heights of the lower corners over time."""

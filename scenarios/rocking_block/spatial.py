@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import BoxBody, Plate, Rest
 from nonsmooth.engine.modes import IMPACT
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.placing import touching
 from nonsmooth.simulate import Progress, simulate
@@ -116,6 +116,31 @@ class RockingBlock3D(Scenario):
             "restitution_loss": solution.energy.restitution_loss,
             "friction_loss": solution.energy.friction_loss,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return how high the mass centre comes, and losses over the energy that height and speed gave."""
+        across = self.base * abs(math.cos(self.direction)) + self.depth * abs(math.sin(self.direction))
+        start = 0.5 * (self.height * math.cos(self.tilt) + across * math.sin(self.tilt))
+        moments = np.array(BoxBody(0.5 * self.base, 0.5 * self.depth, 0.5 * self.height, mass=self.mass).inertia)
+        u = solution.u_end
+        kinetic = 0.5 * float(self.mass * u[:3] @ u[:3] + moments @ u[3:] ** 2)
+        given = self.mass * _GRAVITY * (start - float(solution.q_end[2])) - kinetic
+        return (
+            Criterion(
+                "largest height of the mass centre over that at the start",
+                float(np.max(solution.q[:, 2])) / start,
+                0.0,
+                1.0 + 1e-8,
+                "no contact gives energy",
+            ),
+            Criterion.near(
+                "losses over the energy that height and speed gave",
+                solution.energy.loss / given,
+                1.0,
+                1e-5,
+                "balance of energy",
+            ),
+        )
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the path of the upright axis and the heights of the lower corners."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bodies import DiscBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
@@ -138,6 +138,31 @@ class RollingDisc(Scenario):
             "friction_loss": solution.energy.friction_loss,
             "air_loss": -solution.energy.load_work,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the precession at the end of slow settling, and the time that it took, over those of the theory."""
+        slow = 1e-2 * self.tilt**2
+        if self.pace != 1.0 or self.spin != 0.0 or self.viscosity > slow or self.tilt > 0.3:
+            return ()
+        steadiness = float(self.summarise(solution)["precession_over_steady"])
+        flat = steady.time_to_flat(self.tilt, self.radius, self.mass, self.viscosity)
+        exact = flat * (1.0 - (math.sin(self.end_tilt) / math.sin(self.tilt)) ** 3)
+        found = [
+            Criterion.near(
+                "precession at the end over that of steady rolling",
+                steadiness,
+                1.0,
+                0.01,
+                "Omega^2 sin(alpha) = 4 g / a",
+            )
+        ]
+        if exact < self.t_end:
+            source = "the power of the air (Moffatt 2000) in steady rolling; a rolling disc is slower by some alpha^2"
+            over = solution.t_end / exact
+            found.append(
+                Criterion("time to the tilt of the end over the theory", over, 0.999, 1.0 + 3.0 * self.tilt**2, source)
+            )
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return tilt over time with precession over tilt, and the paths on the table."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bodies import Coordinate, GeneralisedBody, Plate, Point, Rest, TurningFrame
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 from nonsmooth.engine.modes import IMPACT
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
@@ -128,6 +128,25 @@ class SliderCrank(Scenario):
             "turns": float(solution.q_end[0]) / (2.0 * math.pi),
             "crank_rate": float(solution.u_end[0]),
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return how many corners the first impact hits, and what Newton's law makes of it."""
+        events = solution.events
+        first = np.flatnonzero(events.cause == IMPACT)[:1]
+        hit, ratio, turning = (math.nan,) * 3
+        for i in first:
+            hit = float(np.sum(events.impulse[i, :, 0] > 0.0))
+            q, before, after = events.q[i], events.u_before[i], events.u_after[i]
+            row = np.array([self.crank_length * math.cos(q[0]), self.rod_length * math.cos(q[1]), 0.0])
+            ratio, turning = -float(row @ after) / float(row @ before), float(after[2])
+        source = "Flores, Leine, Glocker (2010): the slider is level until it hits"
+        found = [Criterion.near("corners that the first impact hits", hit, 2.0, 0.0, source)]
+        if self.law == "newton":
+            words = "Newton's law at both corners"
+            found.append(Criterion.near("speed of the slider after over before", ratio, self.restitution, 1e-6, words))
+            size = 1e-6 * abs(self.crank_rate)
+            found.append(Criterion.near("turning of the slider after it [rad/s]", turning, 0.0, size, words))
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the slider's height in its guide."""

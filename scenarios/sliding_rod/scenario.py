@@ -14,7 +14,7 @@ from bodies import Plate, Rest, RigidBody, Sphere
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.modes import JAM, LIFT_OFF, PAINLEVE
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
@@ -138,6 +138,29 @@ class SlidingRod(Scenario):
             "lift_off": first(LIFT_OFF),
             "events": events.causes(),
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return whether the start is a paradox, and the rate at which the rod then turns about its end if e = 0."""
+        if self.speed <= 0.0 or self.rod.free_acceleration(self.tilt, self.rate, GRAVITY) >= 0.0:
+            return ()
+        events, rod = solution.events, self.rod
+        paradox = self.friction > rod.critical_friction(self.tilt)
+        # the first event is the start itself, unless it is an impact
+        struck = float(len(events.cause) > 0 and events.cause[0] == PAINLEVE)
+        source = "Genot and Brogliato (1999): no force where mu > (1 + a + tan^2 phi) / (a tan phi), a = m s^2 / J"
+        found = [Criterion.near("impacts without collision at the start", struck, float(paradox), 0.0, source)]
+        if paradox and struck and self.restitution == 0.0:
+            ahead, below = rod.arm(self.tilt)
+            before, after = events.u_before[0], events.u_after[:1]
+            moment = rod.inertia * before[4] + rod.mass * (below * before[0] + ahead * before[2])
+            pivoting = moment / (rod.inertia + rod.mass * (ahead**2 + below**2))
+            source = "angular momentum about the end, which stops"
+            found.append(
+                Criterion.near("rate of the rod after it [rad/s]", after[0, 4], pivoting, 1e-6 * abs(pivoting), source)
+            )
+            slip = float(self.slips(events.q[:1], after)[0]) / self.speed
+            found.append(Criterion.near("slip after it over that before", slip, 0.0, 1e-8, source))
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return angle, slip and height of the lower end over time."""

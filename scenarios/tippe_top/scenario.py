@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from bodies import Plate, Rest, RigidBody, Sphere
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import FrictionLaw, Scenario
+from nonsmooth.interfaces import Criterion, FrictionLaw, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
@@ -24,6 +25,9 @@ Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
 _SAMPLES = 4000
+
+_INVERTED = 8.0
+"""After which the source's top stands on its stem [s]."""
 
 
 @final
@@ -200,6 +204,19 @@ class TippeTop(Scenario):
             "spin_axis": float(u[0, 5]),
             "energy_lost": solution.energy.loss,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return by how much Jellett's quantity changes before the stem touches and, of the source's top, its end."""
+        summary = self.summarise(solution)
+        before = solution.t < (math.inf if summary["stem_down"] is None else summary["stem_down"])
+        jellett = self.jellett(solution.q[before], solution.u[before])
+        change = float(np.ptp(jellett) / abs(jellett[0]))
+        source = "Jellett's integral: no moment along the line from the contact point to the mass centre"
+        found = [Criterion("change of Jellett's quantity before the stem touches", change, 0.0, 1e-7, source)]
+        if self.t_end >= _INVERTED and dataclasses.replace(self, t_end=_INVERTED) == TippeTop(t_end=_INVERTED):
+            source = "Leine and Glocker (2003): the top turns over"
+            found.append(Criterion("tilt at the end [rad]", summary["tilt"], math.pi - 0.1, math.pi, source))
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return tilt, spins, slip and energies over time."""

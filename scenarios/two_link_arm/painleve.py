@@ -58,3 +58,25 @@ def least_critical_friction(height_ratio: float, link_mass: float, link_length: 
         options={"xatol": 1e-10},
     )
     return float(found.fun), float(found.x)
+
+
+def impulse(
+    theta_1: float,
+    friction: float,
+    restitution: float,
+    slip: float,
+    height_ratio: float,
+    link_mass: float,
+    link_length: float,
+) -> float:
+    """Return the normal impulse of the impact without collision that stops a slip [N s], if friction then holds it.
+
+    The slip ends at P_1 with the tip pressed; it sticks to the end of compression, and e^2 of the work comes back.
+    """
+    g = mobility(theta_1, height_ratio, link_mass, link_length)
+    reduced = float(g[0, 0] - friction * g[0, 1])
+    first = slip / float(friction * g[1, 1] - g[0, 1])
+    pressed = reduced * first
+    held = float(g[0, 0] - g[0, 1] ** 2 / g[1, 1])
+    stored = -0.5 * reduced * first**2 + pressed**2 / (2.0 * held)
+    return first + (math.sqrt(2.0 * held * restitution**2 * stored) - pressed) / held

@@ -14,7 +14,7 @@ from bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Pl
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.modes import IMPACT, PAINLEVE
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
@@ -141,6 +141,30 @@ class TwoLinkArm(Scenario):
             "impacts": solution.events.count(IMPACT),
             "largest_gap": float(np.max(self.gap(solution))),
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the published numbers of the posture, whether it is a paradox, and the impulse that ends it."""
+        sizes = (self.height / self.link_length, self.link_mass, self.link_length)
+        found = []
+        if sizes == (5.0 / 3.0, 1.0, 1.0):
+            source = "Liu, Zhao, Chen (2007)"
+            least, _ = painleve.least_critical_friction(*sizes)
+            found.append(Criterion.near("least critical friction", least, 0.4807, 1e-4, source))
+            if (self.angle, self.friction) == (0.7, 0.5):
+                name = "reduced coefficient at the start [1/kg]"
+                found.append(Criterion.near(name, self.reduced_coefficient, -0.0167, 5e-5, source))
+        if self.belt_speed > 0.0:
+            events = solution.events
+            struck = float(len(events.cause) > 0 and events.cause[0] == PAINLEVE)
+            source = "no force exists where G_nn - mu G_nt < 0"
+            paradox = self.reduced_coefficient < 0.0
+            found.append(Criterion.near("impacts without collision at the start", struck, float(paradox), 0.0, source))
+            if paradox and struck:
+                exact = painleve.impulse(self.angle, self.friction, self.restitution, self.belt_speed, *sizes)
+                impulse = float(events.impulse[0, 0, 0])
+                source = "one contact, slip then stick, in its normal impulse"
+                found.append(Criterion.near("normal impulse of it [N s]", impulse, exact, 1e-5 * exact, source))
+        return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the gap over time."""

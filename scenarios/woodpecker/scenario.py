@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from bodies import Coordinate, GeneralisedBody, Plate, Point, PointFrame, Rest
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 from nonsmooth.engine.modes import IMPACT
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
@@ -26,6 +27,9 @@ _GRAVITY = 9.81
 _LAWS = {"newton": NewtonImpact, "energetic": EnergeticImpact}
 _BEAK = 0
 """Number of the beak's contact."""
+
+_SETTLED = 2.0
+"""After which the cycles are close to their limit [s]."""
 
 
 @final
@@ -146,6 +150,17 @@ class Woodpecker(Scenario):
             "cycle_duration": duration,
             "cycle_descent": descent,
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return duration and descent of the last cycle of the source's toy."""
+        if self.t_end < _SETTLED or dataclasses.replace(self, t_end=_SETTLED) != Woodpecker(t_end=_SETTLED):
+            return ()
+        duration, descent = self.cycle(solution)
+        source = "Glocker (1995): a limit cycle of about 0.146 s and 19.5 mm"
+        return (
+            Criterion.near("duration of the last cycle [s]", duration, 0.146, 5e-4, source),
+            Criterion.near("descent of the last cycle [m]", descent, 19.5e-3, 1e-4, source),
+        )
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return height and angles over the last cycles."""

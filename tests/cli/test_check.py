@@ -7,6 +7,9 @@ from collections.abc import Callable
 
 import pytest
 
+from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.plugins import registry
+
 Call = Callable[..., tuple[int, str, str]]
 
 
@@ -60,10 +63,26 @@ def test_every_kind_of_that_name(call: Call) -> None:
     ]
 
 
-@pytest.mark.parametrize("name", ["plane_sphere", "capsule_capsule", "box_sphere"])
-def test_pairs(call: Call, name: str) -> None:
-    """Shapes of some size are made for them."""
-    assert call("check", name)[0] == 0
+def _built_in() -> list[str]:
+    """Return the names of all built-ins, of every kind."""
+    return sorted({name for group in registry.GROUPS for name in registry.names(group)} - {"tiny"})
+
+
+@pytest.mark.skipif(PLAIN, reason="many minutes in plain mode")
+@pytest.mark.parametrize("name", _built_in())
+def test_every_built_in_can_be_checked(call: Call, name: str) -> None:
+    """By its name alone: what numbers cannot give is in the example of its class."""
+    status, output, _ = call("check", name)
+    assert status == 0, output
+    assert output.splitlines()[-1].split()[2:4] == ["0", "fail,"]
+
+
+def test_an_example_takes_parameters(call: Call) -> None:
+    """Those that are set come before those of the example."""
+    status, output, _ = call("check", "rod", "--set", "length=0.3", "--json")
+    assert status == 0
+    assert json.loads(output)["status"] == "holds"
+    assert "no principal moment" in call("check", "rod", "--set", "radius=0.5")[2]
 
 
 @pytest.mark.parametrize(
@@ -72,7 +91,7 @@ def test_pairs(call: Call, name: str) -> None:
         (("coulmb",), "Did you mean 'coulomb'"),
         (("coulomb", "--set", "frction=0.2"), "Did you mean 'friction'"),
         (("coulomb", "--set", "friction=-1"), "must be >= 0"),
-        (("rigid_body",), "rigid_body.tensor must be given from Python"),
+        (("rigid_body", "--set", "mass=-1"), "RigidBody.mass must be > 0"),
         (("plane_sphere", "--set", "radius_b=1"), "must be left out"),
     ],
 )

@@ -186,7 +186,7 @@ def test_what_cannot_be_saved_is_told(call: Call, law: str) -> None:
     assert "must be of an installed class" in errors
     status, _, errors = call("save", "dumbbell", "one.txt")
     assert status == 2
-    assert "ends in .toml" in errors
+    assert "must end in .toml, .yaml, .yml" in errors
     status, _, errors = call("run", "one.toml")
     assert status == 2
     assert "must be a file that can be read" in errors

@@ -13,7 +13,8 @@ import numpy as np
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.interfaces import Scenario
+from nonsmooth.engine.modes import IMPACT
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.testing import check_scenario
 from tests.testing.body_dummies import FAULTS
@@ -75,6 +76,12 @@ class Bounce(Scenario):
             solution.q[:] += 1.0
         return {"impacts": solution.counters.impacts, "highest": math.inf}
 
+    def acceptance(self, solution: ns.Solution) -> tuple[Criterion, ...]:
+        first = solution.events.time[solution.events.cause == IMPACT][:1]
+        time = float(first[0]) if len(first) and self.fault != "no number" else None
+        fall = math.sqrt(2.0 * (self.height - 0.01) / 9.81) + (0.01 if self.fault == "missed" else 0.0)
+        return (Criterion.near("time of the first impact [s]", time, fall, 1e-9, "free fall"),)
+
     def figures(self, solution: ns.Solution) -> Mapping[str, Any]:
         from matplotlib.figure import Figure
 
@@ -86,6 +93,14 @@ class Bounce(Scenario):
     @classmethod
     def gallery(cls, progress: Any) -> Mapping[str, Any]:
         return {}
+
+
+@dataclass(frozen=True)
+class Unjudged(Bounce):
+    """One without a criterion."""
+
+    def acceptance(self, solution: ns.Solution) -> tuple[Criterion, ...]:
+        return ()
 
 
 _NAMES = (
@@ -102,7 +117,12 @@ _NAMES = (
     "results can be saved",
     "only reads",
 )
-DUMMIES: list[tuple[str, Scenario]] = [(name, Bounce(name)) for name in _NAMES]
+DUMMIES: list[tuple[str, Scenario]] = [
+    *((name, Bounce(name)) for name in _NAMES),
+    ("acceptance", Unjudged()),
+    ("acceptance", Bounce("missed")),
+    ("acceptance", Bounce("no number")),
+]
 
 
 def checked(scenario: Scenario) -> Any:

@@ -11,6 +11,7 @@ from bodies import (
     Ball,
     Box,
     BoxBody,
+    Bushing,
     CapsuleBody,
     Compound,
     ConstantVelocity,
@@ -19,6 +20,8 @@ from bodies import (
     DrivenBody,
     Dumbbell,
     EllipsoidBody,
+    FunctionLoad,
+    FunctionMotion,
     Harmonic,
     LineBody,
     Part,
@@ -26,9 +29,13 @@ from bodies import (
     Plane,
     Plate,
     Point,
+    Rest,
     RigidBody,
     Rod,
     Sphere,
+    Spring,
+    Table,
+    TorsionSpring,
     TurningFrame,
 )
 from laws import (
@@ -48,7 +55,7 @@ from laws import (
     Viscous,
 )
 from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw, NormalLaw, Shape
+from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw, Load, Motion, NormalLaw, Shape
 from nonsmooth.plugins import registry
 from nonsmooth.testing import (
     Property,
@@ -56,12 +63,19 @@ from nonsmooth.testing import (
     check_contact_kinematics,
     check_friction_law,
     check_impact_law,
+    check_joint,
+    check_load,
+    check_motion,
     check_normal_law,
     check_scenario,
+    check_shape,
 )
+from nonsmooth.testing.registered import make
+from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.tippe_top.friction import SpinningCoulomb
 from tests.bodies.planar_functions import PART, planar
 from tests.bodies.test_contact_pairs import PAIRS
+from tests.bodies.test_joints import JOINTS
 
 TENSOR = ((0.03, -0.004, 0.002), (-0.004, 0.025, 0.005), (0.002, 0.005, 0.04))
 LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
@@ -100,6 +114,22 @@ BODIES: list[Body] = [
     Rod(0.2, 0.005),
 ]
 """One of every kind that is installed, and some more."""
+LOADS: list[Load] = [
+    AirFilm(2e-5, 0.1),
+    Bushing(50.0, 1.0, second=(0.0, 0.08, 0.0)),
+    make(FunctionLoad, "function_load", {}),
+    Spring(stiffness=50.0, length=0.2, damping=1.0, first=(0.05, 0.0, 0.0)),
+    TorsionSpring(2.0, 0.3, 0.5, axis=(0.6, 0.0, 0.8)),
+]
+MOTIONS: list[Motion] = [
+    ConstantVelocity((0.3, 0.1, -0.2)),
+    ConstantVelocity((0.3, 0.1, -0.2), 0.7, (0.6, 0.0, 0.8), (0.1, 0.2, 0.3), (0.5, 0.5, 0.5, 0.5), (0.2, 0.1, 0.0)),
+    make(FunctionMotion, "function_motion", {}),
+    Harmonic(1e-3, 25.0, 0.3, 0.6, 0.0, 0.8),
+    Rest(0.3, (1.0, 2.0, 3.0), (0.5, 0.5, 0.5, 0.5)),
+    Table((0.0, 0.1, 0.3), ((0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.0, 0.1)), orientation=(0.5, 0.5, 0.5, 0.5)),
+    make(Table, "table", {}),
+]
 SHAPES: list[tuple[Shape, Shape]] = [
     *((a, b) for a, b, _ in PAIRS.values()),
     (Plane(0.1), Point(0.1, -0.05, 0.07)),
@@ -131,7 +161,15 @@ def _all() -> Iterator[Property]:
         yield from check(law)
     for body in BODIES:
         yield from check_body(body)
+    for joint in JOINTS:
+        yield from check_joint(joint)
+    for load in LOADS:
+        yield from check_load(load)
+    for motion in MOTIONS:
+        yield from check_motion(motion)
     yield from _of_pairs()
+    for shape in {type(one): one for pair in SHAPES for one in pair}.values():
+        yield from check_shape(shape)
     for owner in registry.load_all("scenarios").values():
         yield from check_scenario(owner())
 
@@ -156,5 +194,9 @@ def test_all_are_there() -> None:
         assert all(issubclass(owner, base) for owner in installed)
         # the kit's problems have two contacts, or spin, which this one refuses
         assert installed - {StrongeImpact} <= given
+    others: list[tuple[str, list[Any]]] = [("joints", JOINTS), ("loads", LOADS), ("motions", MOTIONS)]
+    for group, objects in others:
+        assert {type(one) for one in objects} == set(registry.load_all(group).values())
+    assert {type(one) for pair in SHAPES for one in pair} == set(registry.load_all("shapes").values())
     pairs = {(type(first), type(second)) for first, second in SHAPES}
     assert {owner.pair for owner in registry.load_all("kinematics").values()} == pairs

@@ -1,4 +1,4 @@
-"""Every fault of a body, a pair or a scenario is caught by the property made for it, and by few others."""
+"""Every fault of what a system is made of is caught by the property made for it, and by few others."""
 
 from __future__ import annotations
 
@@ -8,9 +8,27 @@ from typing import Any
 import pytest
 
 from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.interfaces import Body, ContactKinematics, Scenario
-from nonsmooth.testing import check_body, check_contact_kinematics
-from tests.testing import body_dummies, friction_dummies, pair_dummies, scenario_dummies
+from nonsmooth.interfaces import Body, ContactKinematics, Guard, Joint, Load, Motion, Scenario, Shape
+from nonsmooth.testing import (
+    Departs,
+    NotChecked,
+    check_body,
+    check_contact_kinematics,
+    check_guard,
+    check_joint,
+    check_load,
+    check_motion,
+    check_shape,
+)
+from tests.testing import (
+    body_dummies,
+    friction_dummies,
+    joint_dummies,
+    load_dummies,
+    motion_dummies,
+    pair_dummies,
+    scenario_dummies,
+)
 from tests.testing.caught import assert_caught, failures
 from tests.testing.pair_dummies import FIRST, SECOND, Pair
 
@@ -29,6 +47,47 @@ def test_kinematics(name: str, thing: ContactKinematics) -> None:
     assert_caught(check_contact_kinematics(thing, FIRST, SECOND), name)
 
 
+@_cases(joint_dummies.DUMMIES)
+def test_joint(name: str, thing: Joint) -> None:
+    assert_caught(check_joint(thing), name)
+
+
+@_cases(load_dummies.DUMMIES)
+def test_load(name: str, thing: Load) -> None:
+    assert_caught(check_load(thing), name)
+
+
+@_cases(motion_dummies.MOTIONS)
+def test_motion(name: str, thing: Motion) -> None:
+    assert_caught(check_motion(thing), name)
+
+
+@_cases(motion_dummies.SHAPES)
+def test_shape(name: str, thing: Shape) -> None:
+    assert_caught(check_shape(thing), name)
+
+
+@_cases(motion_dummies.GUARDS)
+def test_guard(name: str, thing: Guard) -> None:
+    assert_caught(check_guard(thing), name)
+
+
+def test_a_load_that_is_tied_to_space() -> None:
+    """A weight turns with nobody; where that is said, of one or of its class, nothing fails."""
+    weight = load_dummies.FAULTS["frame invariance"]
+    assert set(failures(check_load(load_dummies.Pull(weight)))) == {"frame invariance"}
+    assert failures(check_load(load_dummies.Pull(weight), tied_to_space=True)) == {}
+    departed = []
+    for prop in check_load(load_dummies.Weight()):
+        try:
+            prop()
+        except Departs:
+            departed.append(prop.name)
+        except NotChecked:
+            continue
+    assert departed == ["frame invariance"]
+
+
 @pytest.mark.skipif(PLAIN, reason="runs take minutes in plain mode")
 @_cases(scenario_dummies.DUMMIES)
 def test_scenario(name: str, thing: Scenario) -> None:
@@ -42,8 +101,13 @@ def test_scenario(name: str, thing: Scenario) -> None:
         (check_body(body_dummies.Swing()), body_dummies.DUMMIES),
         (check_contact_kinematics(Pair(), FIRST, SECOND), pair_dummies.DUMMIES),
         (scenario_dummies.checked(scenario_dummies.Bounce()), scenario_dummies.DUMMIES),
+        (check_joint(joint_dummies.Point()), joint_dummies.DUMMIES),
+        (check_load(load_dummies.Pull()), load_dummies.DUMMIES),
+        (check_motion(motion_dummies.Swing()), motion_dummies.MOTIONS),
+        (check_shape(motion_dummies.Blob()), motion_dummies.SHAPES),
+        (check_guard(motion_dummies.Threshold()), motion_dummies.GUARDS),
     ],
-    ids=["free body", "driven body", "kinematics", "scenario"],
+    ids=["free body", "driven body", "kinematics", "scenario", "joint", "load", "motion", "shape", "guard"],
 )
 def test_sound_ones(properties: Any, dummies: Any) -> None:
     """Without a fault nothing is caught, and no property is there that no fault breaks."""

@@ -12,7 +12,8 @@ import numpy as np
 from bodies import Ball, Harmonic, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import Solution, System, simulate
-from nonsmooth.interfaces import FrictionLaw, RigidNormalLaw, Scenario
+from nonsmooth.engine.modes import IMPACT
+from nonsmooth.interfaces import Criterion, FrictionLaw, RigidNormalLaw, Scenario
 from nonsmooth.parameters import parameter
 
 NUMBER = 1.0
@@ -27,7 +28,10 @@ class Tiny(Scenario):
     t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0)
     radius: float = parameter(5e-3, doc="radius of the ball", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)
     mode: str = parameter(
-        "bounce", doc="what to do", unit="", choices=("bounce", "nan law", "bad figure", "bad summary")
+        "bounce",
+        doc="what to do",
+        unit="",
+        choices=("bounce", "nan law", "bad figure", "bad summary", "missed", "none"),
     )
 
     @property
@@ -69,6 +73,19 @@ class Tiny(Scenario):
             "count": np.int64(len(solution.events)),
             "flag": np.bool_(True),
         }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return how well the first impact is hit."""
+        if self.mode == "none":
+            return ()
+        times = solution.events.time[solution.events.cause == IMPACT][:1]
+        t = float(times[0]) if len(times) else math.nan
+        gap = self.radius - 0.5 * 9.81 * t * t - 3e-4 * math.sin(2.0 * math.pi * 25.0 * t)
+        wanted = 1e-3 if self.mode == "missed" else 0.0
+        return (
+            Criterion.near("gap at the first impact [m]", gap, wanted, 1e-9, "free fall on a sine"),
+            Criterion("impacts", float(solution.counters.impacts), 1.0, math.inf, "it falls on the plate"),
+        )
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the height over time."""

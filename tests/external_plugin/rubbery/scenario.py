@@ -12,7 +12,7 @@ import numpy as np
 from bodies import Plate, Rest
 from laws import EnergeticImpact, Unilateral
 from nonsmooth import Solution, System, simulate, touching
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 
 from .body import HollowBall
@@ -60,6 +60,14 @@ class HollowBallOnSlope(Scenario):
         """Return the acceleration downhill over g [1]."""
         speed = np.linalg.norm(solution.u_end[:3])
         return {"acceleration": float(speed / self.t_end / 9.81)}
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the acceleration: that of rolling up to the critical slope, that of sliding above it."""
+        rolls = 0.4 * math.tan(self.slope) <= self.friction
+        sliding = math.sin(self.slope) - self.friction * math.cos(self.slope)
+        expected = 0.6 * math.sin(self.slope) if rolls else sliding
+        found = self.summarise(solution)["acceleration"]
+        return (Criterion.near("acceleration downhill over g", found, expected, 1e-6, "rigid body on a slope"),)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the speed over time."""
