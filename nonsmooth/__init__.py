@@ -2,7 +2,7 @@
 
 from nonsmooth.contact import solve_contact
 from nonsmooth.contact_result import ContactResult
-from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFailed, UnknownName
+from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFailed, RunsInPython, UnknownName
 from nonsmooth.files.reading import Setup, load_system
 from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
@@ -24,6 +24,7 @@ __all__ = [
     "Options",
     "PluginError",
     "RunFailed",
+    "RunsInPython",
     "Setup",
     "Solution",
     "System",

@@ -15,7 +15,9 @@ from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
+from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.compile import bind
+from nonsmooth.plugins.law_failure import first_without_value, law_functions, without_value
 
 
 def solve_contact(
@@ -109,8 +111,13 @@ def solve_contact(
     memory.array("b", 3 * n)[:] = s.ravel() + columns.T @ free
     memory.scalars["acceleration_scale"] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
     memory.array("rate", 3 * n).reshape(n, 3)[:, 1:] = v
-    if call_room("solve_from_rates", memory) == 0:
-        raise RunFailed(f"The solver {solver!r} finds no contact forces that fulfil the laws.")
+    interpreted.forget()
+    solved = call_room("solve_from_rates", memory)
+    if interpreted.let_go():
+        raise KeyboardInterrupt
+    if solved == 0:
+        culprit = _culprit(memory, friction)
+        raise RunFailed(f"The solver {solver!r} finds no contact forces that fulfil the laws. {culprit}".strip())
     f = memory.array("f", 3 * n).reshape(n, 3).copy()
     return ContactResult(
         normal_force=f[:, 0],
@@ -120,6 +127,15 @@ def solve_contact(
         modes=tuple(MODES[mode] for mode in memory.array("mode_tried", n)),
         _memory=memory,
         _scaled=scaled,
+    )
+
+
+def _culprit(memory: Memory, friction: Sequence[FrictionLaw]) -> str:
+    starts = memory.array("friction_parameters", len(friction))
+    return first_without_value(
+        without_value(memory.floats[start:], part, (), f"contact {i}")
+        for i, (start, law) in enumerate(zip(starts, friction, strict=True))
+        for part in law_functions(law)
     )
 
 

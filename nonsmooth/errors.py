@@ -52,7 +52,11 @@ class UnknownName(InvalidInput):
 
 
 class PluginError(NonsmoothError):
-    """A law, body or scenario from a plug-in that cannot be loaded or compiled."""
+    """A law, body or scenario from a plug-in that cannot be loaded."""
+
+
+class RunsInPython(UserWarning):
+    """A function that the compiler refuses, which runs in Python: as right, but slow; where, why, at which cost."""
 
 
 class MissingPackagesError(NonsmoothError):

@@ -15,7 +15,9 @@ from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Heap, Memory, allocate
+from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.compile import bind
+from nonsmooth.plugins.law_failure import first_without_value, law_functions, without_value
 
 Floats = NDArray[np.float64]
 
@@ -130,9 +132,12 @@ def solve_impact(
     memory.array("impact_z0", 3 * n)[:] = rates
     outcome = FINISHED
     if np.any(rates[::3] < 0.0):
+        interpreted.forget()
         outcome = int(call_room("energetic_impact", memory))
+        if interpreted.let_go():
+            raise KeyboardInterrupt
     if outcome != FINISHED:
-        raise RunFailed("The impact did not end: a force or efficiency is not positive and finite.")
+        raise RunFailed(f"The impact did not end. {_culprit(memory, impact, friction)}")
     impulse = memory.array("impulse", 3 * n).reshape(n, 3).copy()
     return ImpactResult(
         velocity=u + response @ impulse.ravel(),
@@ -145,6 +150,15 @@ def solve_impact(
         steps=int(memory.scalars["impact_steps"][0]),
         truncated=bool(memory.scalars["truncated"][0]),
     )
+
+
+def _culprit(memory: Memory, impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw]) -> str:
+    findings = (
+        without_value(memory.floats[int(memory.array(f"{part.name}_parameters", i + 1)[i]) :], part, (), f"contact {i}")
+        for i, laws in enumerate(zip(friction, impact, strict=True))
+        for part in law_functions(*laws)
+    )
+    return first_without_value(findings) or "A force or efficiency is not positive."
 
 
 def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], tolerance: float) -> Memory:

@@ -15,6 +15,7 @@ from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.model import Model
 from nonsmooth.model.options import Options
+from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
@@ -80,10 +81,14 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     chunks: _Chunks = {}
     began = time.perf_counter()
     status, word, steps = PAUSED, "done", _STEPS_AT_ONCE
+    interpreted.forget()
     try:
         while status == PAUSED:
             called = time.perf_counter()
             status = int(call_room("advance", model.memory, steps))
+            if interpreted.let_go():
+                status = PAUSED
+                raise KeyboardInterrupt
             slow = time.perf_counter() - called > _SECONDS_AT_ONCE
             steps = max(1, steps // 4) if slow else min(2 * steps, _STEPS_AT_ONCE)
             _drain(model, chunks)

@@ -9,10 +9,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from nonsmooth.compiled import compiled
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.plugins.compile import bind
 
 Function: TypeAlias = Callable[[float], Any]
 _Rule: TypeAlias = Callable[[Vector, Vector, float], Vector]
@@ -39,7 +37,6 @@ def check_linear(functions: Sequence[Function], duration: float, scale: float) -
     readers = [_reader(label, f, 3) for label, f in zip(labels, functions, strict=True)]
     for read in readers:
         read(0.0)
-    _check_compiled(labels, functions)
     _check_chain(labels, readers, (_difference, _difference), duration, scale)
 
 
@@ -50,7 +47,6 @@ def check_turn(functions: Sequence[Any], duration: float, scale: float) -> None:
     readers = [_reader(label, f, size) for label, f, size in zip(labels, functions, (4, 3, 3), strict=True)]
     for read in readers:
         read(0.0)
-    _check_compiled(labels, functions)
     for t in _times(duration, scale):
         norm = float(np.linalg.norm(readers[0](float(t))))
         if abs(norm - 1.0) > 1e-9:
@@ -82,19 +78,6 @@ def _reader(label: str, function: Function, size: int) -> Callable[[float], Vect
         return np.array(value, dtype=float)
 
     return read
-
-
-def _check_compiled(labels: Sequence[str], functions: Sequence[Function]) -> None:
-    """Compile each function by itself, so that PluginError names it."""
-    for label, function in zip(labels, functions, strict=True):
-        bind(_first_of(compiled(function)), "scalar", {}, label)
-
-
-def _first_of(function: Function) -> Callable[[float], float]:
-    def first_of(t: float) -> float:
-        return float(function(t)[0])
-
-    return first_of
 
 
 def _is_number(x: Any) -> bool:

@@ -92,8 +92,6 @@ class FunctionMotion(Motion):
     ------
     InvalidInput
         If a function raises, returns something else than floats of the right number, or does not belong to the others.
-    PluginError
-        If a function cannot be compiled.
     """
 
     position: Function

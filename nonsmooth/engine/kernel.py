@@ -68,11 +68,8 @@ unshared: Callable[[Any], Any] = _half.unshared
 address_of: Callable[[Callable[..., Any], str, str], int] = _half.address_of
 """Compile a shim of a form of :data:`nonsmooth.plugins.compile.ROLES`, or find it under its key on disk, and
 return its address.  Without a key nothing is kept on disk."""
-COMPILATION_ERRORS: tuple[type[Exception], ...] = _half.COMPILATION_ERRORS
-"""What :func:`address_of` may raise."""
 
 __all__ = [
-    "COMPILATION_ERRORS",
     "PLAIN",
     "Floats",
     "Integers",

@@ -312,6 +312,3 @@ def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
         compiled = c_function(shim, _C_SIGNATURES[form], cache=bool(key))
     _alive.append(compiled)
     return int(compiled.address)
-
-
-COMPILATION_ERRORS: tuple[type[Exception], ...] = (numba.core.errors.NumbaError,)

@@ -106,6 +106,3 @@ def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
     """Register ``shim`` and return the number it answers to."""
     _functions.append(shim)
     return len(_functions)
-
-
-COMPILATION_ERRORS: tuple[type[Exception], ...] = ()

@@ -166,6 +166,9 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
         outcome = windowed_impact(S, w, k) if large else energetic_impact(S, w, k)
         if outcome != FINISHED:
             return IMPACT_ENDLESS if outcome == ENDLESS else NOT_FINITE
+    for i in range(3 * m):
+        if not abs(w[S.impulse + i]) < 1e300:
+            return NOT_FINITE
     add_response(S, w, k, S.impulse, S.y + S.n_q)
     for a in range(m):
         c = k[S.active + a]
@@ -175,8 +178,6 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
             impulse = w[S.impulse + 3 * a + r]
             w[S.event_impulse + 3 * c + r] = impulse
             w[S.event_head + 1] -= impulse * w[S.prescribed_rate + 3 * c + r]
-            if not abs(impulse) < 1e300:
-                return NOT_FINITE
         if k[S.oriented + c] == 1:
             unstretch_force(S, w, k, c, S.event_impulse + 3 * c)
     return RUNNING

@@ -21,7 +21,7 @@ from nonsmooth.model.laying import Places
 from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
 from nonsmooth.model.memory import Heap, Memory
 from nonsmooth.parameters import Value
-from nonsmooth.plugins.compile import bind, parameter_names
+from nonsmooth.plugins.compile import bind, parameter_names, vector_place
 from nonsmooth.system.contact import Contact
 
 _Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
@@ -68,9 +68,11 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
     if isinstance(impact, ImpactProcess):
         functions.append(("force", impact.force, "scalar", impact.parameters()))
         functions.append(("efficiency", impact.efficiency, "scalar", impact.parameters()))
+    owners = {"geometry": contact.kinematics, "normal": contact.normal, "force": impact, "efficiency": impact}
     fields: dict[str, int] = {"mode": OPEN}
     for name, function, form, available in functions:
-        address, values = bind(function, form, available, contact.name)
+        owner = type(owners.get(name, contact.friction)).__name__
+        address, values = bind(function, form, available, f"{owner} ({contact.name})")
         fields |= {f"{name}_function": address, f"{name}_parameters": heap.store(values)}
         if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
             fields["state_copy"] = fields["friction_parameters"] + _place_of_state(contact.friction, values)
@@ -113,7 +115,7 @@ def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
             names,
             "Write coefficient(speed, state, ...), or subclass FrictionLaw if there is no state.",
         )
-    return int(values[names.index("state")])
+    return vector_place(law.coefficient, "scalar", values, "state")
 
 
 def _lay_map(memory: Memory, heap: Heap, impact: ImpactMap) -> int:

@@ -27,8 +27,6 @@ def body_caller(
     ------
     UnknownName
         If the function asks for a parameter that nobody gives.
-    PluginError
-        If the function cannot be compiled.
     """
     address, heap = bind(function, "body", values, owner)
     numbers = np.array([*heap, 0.0])

@@ -7,15 +7,19 @@ import dis
 import functools
 import inspect
 import math
-from collections.abc import Callable, Mapping
-from typing import Any
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from nonsmooth.engine.kernel import COMPILATION_ERRORS, PLAIN, address_of, at, call_scalar, jit
-from nonsmooth.errors import PluginError, UnknownName
+from nonsmooth.engine.kernel import PLAIN, address_of, at, call_scalar, jit
+from nonsmooth.errors import RunsInPython, UnknownName
 from nonsmooth.parameters import Value
+from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.fingerprint import fingerprint
+from nonsmooth.plugins.refusal import Refusal, refusal
+from nonsmooth.plugins.source import described, name_of, place_of
 
 ROLES = {
     "scalar": ("x",),
@@ -31,23 +35,57 @@ ROLES = {
 """What the engine passes to a function of each form, before the function's own parameters."""
 
 _CALLS = {
-    "scalar": ("x, p", "return law(x{unpacked})", "return nan"),
-    "compliance": ("x, y, z, p", "return law(x, y, z{unpacked})", "return nan"),
+    "scalar": ("x, p", "v = float(law(x{unpacked}))", "v = nan"),
+    "compliance": ("x, y, z, p", "v = float(law(x, y, z{unpacked}))", "v = nan"),
     "traction": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
     "rates": ("t, a, b, p, out", "law(t, b, out{unpacked})", "out[0] = nan"),
-    "guard": ("t, q, u, p", "return law(t, q, u{unpacked})", "return nan"),
+    "guard": ("t, q, u, p", "return float(law(t, q, u{unpacked}))", "return nan"),
     "body": ("t, q, u, p, out", "law(t, q, u, out{unpacked})", "out[0] = nan"),
     "load": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
     "pair": ("a, b, p, out", "law(a, b, out{unpacked})", "out[0] = nan"),
     "map": ("n, delassus, rates, p, out", "law(n, delassus, rates, out{unpacked})", "out[0] = nan"),
 }
 """What the engine calls with, the call of the function, and what stands for an exception."""
-_PLAIN_SHIM = "def shim({arguments}):\n {call}"
-_GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}"
+_ENDINGS = {
+    "scalar": " if x - x == 0.0 and v - v != 0.0: p[0] = x\n return v\n",
+    "compliance": (" if x - x + y - y + z - z == 0.0 and v - v != 0.0: p[0], p[1], p[2] = x, y, z\n return v\n"),
+    "traction": (
+        " v = out[0] + out[1] + out[2] + out[3] + out[4]\n"
+        " s = t + a[0] + a[1] + a[2] + a[3] + a[4]\n"
+        " if s - s == 0.0 and v - v != 0.0:\n"
+        "  p[0] = t\n"
+        "  for i in range(5): p[1 + i] = a[i]\n"
+    ),
+    "rates": " if t - t == 0.0 and out[0] - out[0] != 0.0: p[0] = t\n",
+}
+"""What follows the call of a law: the numbers for which it has no value, before its parameters, for messages."""
+RECORDED = {"scalar": 1, "compliance": 3, "traction": 6, "rates": 1}
+"""How many numbers that are; none for other forms."""
+_SHIM = "def shim({arguments}):\n {call}\n{ending}"
+_GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
 """A compiled function cannot raise into the engine: an exception becomes a number that is not finite.
 
 Compiling the guard takes as long as compiling the function, so that it is left out where nothing raises.
 """
+_PYTHON_SHIM = """def shim({arguments}):
+ try: {call}
+ except (Exception, SystemExit) as error:
+  note(error)
+  {failure}
+"""
+_CALLED_SHIM = """ except KeyboardInterrupt:
+  if not hold(): return shim({arguments})
+  {failure}
+"""
+"""Behind the lines above, where the engine is compiled and an interruption cannot pass it."""
+
+
+class _Entry(NamedTuple):
+    """Where the engine calls a function; why it is not compiled and what a call costs, if it runs in Python."""
+
+    address: int
+    refusal: Refusal | None = None
+    shim: Callable[..., Any] | None = None
 
 
 def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
@@ -59,6 +97,8 @@ def bind(
     function: Callable[..., Any], form: str, values: Mapping[str, Value], owner: str
 ) -> tuple[int, tuple[float, ...]]:
     """Compile a law function and pick its parameters out of ``values`` by name.
+
+    A function that cannot be compiled runs in Python.  It makes a warning, once, with the reason.
 
     Parameters
     ----------
@@ -74,64 +114,117 @@ def bind(
     Returns
     -------
     tuple of int and tuple of float
-        The address, and what the function's parameters need on the heap: one number each, in the order of the
-        signature, then the tuples; the number of a tuple says where it begins.
+        The address, and what the function's parameters need on the heap: places for numbers that it has no value
+        for (``RECORDED``); one number for each parameter, in the order of the signature, then the tuples; the number
+        of a tuple says where it begins.
 
     Raises
     ------
     UnknownName
         If the function asks for a parameter that nobody gives.
-    PluginError
-        If the function cannot be compiled.
     """
     names = parameter_names(function, form)
     for name in names:
         if name not in values:
-            raise UnknownName(f"{owner}: {function.__qualname__} asks for a parameter whose", name, values)
+            raise UnknownName(f"{owner}: {described(function)}, asks for a parameter whose", name, values)
     vectors = tuple(isinstance(values[name], tuple) for name in names)
-    heap: list[float] = [0.0] * len(names)
-    for i, name in enumerate(names):
+    first = RECORDED.get(form, 0)
+    heap: list[float] = [math.nan] * first + [0.0] * len(names)
+    for i, name in enumerate(names, start=first):
         value = values[name]
         if isinstance(value, tuple):
             heap[i] = float(len(heap))
             heap += [float(x) for x in value]
         else:
             heap[i] = float(value)
-    try:
-        return _address(function, form, vectors), tuple(heap)
-    except COMPILATION_ERRORS as error:
-        raise PluginError(
-            f"{owner}: {function.__qualname__}({', '.join(ROLES[form] + names)}) cannot be compiled. "
-            f"Run with NONSMOOTH_PLAIN=1 to debug it as plain Python. {error}"
-        ) from error
+    entry = _entry(function, form, vectors)
+    if entry.refusal is not None and entry.shim is not None and entry.address not in _warned:
+        _warned.add(entry.address)
+        _warn(function, owner, entry.refusal, interpreted.cost(entry.shim, tuple(heap)))
+    return entry.address, tuple(heap)
+
+
+def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float], name: str) -> int:
+    """Return where a tuple begins in what :func:`bind` wants on the heap."""
+    return int(heap[RECORDED.get(form, 0) + parameter_names(function, form).index(name)])
+
+
+_warned: set[int] = set()
+
+
+def _warn(function: Callable[..., Any], owner: str, why: Refusal, cost: str) -> None:
+    file, line = place_of(function)
+    warnings.warn_explicit(
+        f"{owner}: {described(function)}, runs in Python, as numba cannot compile {why.describe(file)}. {cost}. "
+        "Numbers, tuples, math, branches, loops and functions under @compiled can be compiled.",
+        RunsInPython,
+        file or name_of(function),
+        line,
+    )
 
 
 @functools.cache
-def _address(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> int:
+def _entry(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> _Entry:
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
-    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items))
-    scope: dict[str, Any] = {"__name__": __name__, "law": jit(function), "at": at, "nan": math.nan}
+    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items, start=RECORDED.get(form, 0)))
     arguments, call, failure = _CALLS[form]
-    shim = _GUARDED_SHIM if PLAIN or _may_raise(function) else _PLAIN_SHIM
-    text = shim.format(arguments=arguments, call=call.format(unpacked=unpacked), failure=failure)
+    parts = {"arguments": arguments, "call": call.format(unpacked=unpacked), "failure": failure}
+    ending = _ENDINGS.get(form, "")
+    if PLAIN:
+        shim = _made(_PYTHON_SHIM.format(**parts) + ending, _scope_in_python(function))
+        return _Entry(address_of(shim, form, ""))
+    text = (_GUARDED_SHIM if _may_raise(function) else _SHIM).format(**parts, ending=ending)
+    try:
+        shim = _made(text, {"law": jit(function), "at": at})
+        return _Entry(address_of(shim, form, fingerprint(function, form + text)))
+    except Exception as error:  # the compiler's errors have no base of their own
+        shim = _made((_PYTHON_SHIM + _CALLED_SHIM).format(**parts) + ending, _scope_in_python(function))
+        return _Entry(interpreted.address(shim), refusal(function, error), shim)
+
+
+def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
+    scope |= {"__name__": __name__, "nan": math.nan}
     exec(text, scope)  # the shim's text is ours, never the user's
-    return address_of(scope["shim"], form, fingerprint(function, form + text))
+    shim: Callable[..., Any] = scope["shim"]
+    return shim
+
+
+def _scope_in_python(function: Callable[..., Any]) -> dict[str, Any]:
+    return {
+        "law": interpreted.in_python(function),
+        "at": interpreted.move,
+        "note": functools.partial(interpreted.note, function),
+        "hold": interpreted.hold,
+    }
+
+
+_RAISING = ("RAISE_VARARGS", "BUILD_LIST", "BUILD_MAP", "BUILD_SET")
+"""Statements that raise, and containers: what is not in them raises, too."""
 
 
 def _may_raise(function: Callable[..., Any]) -> bool:
-    """Return whether a function, or one that it names, has a statement that raises."""
+    """Return whether a function, or one that it names, may raise."""
     waiting, seen = [inspect.unwrap(function)], set()
     while waiting:
         one = waiting.pop()
-        if one in seen or not inspect.isfunction(one):
+        if not inspect.isfunction(one) or one in seen:
             continue
         seen.add(one)
-        if any(instruction.opname == "RAISE_VARARGS" for instruction in dis.get_instructions(one)):
+        closure = inspect.getclosurevars(one)
+        named = (*closure.globals.values(), *closure.nonlocals.values())
+        # an index into a tuple may be out of its range
+        if any(_is_table(value) for value in (*named, *one.__code__.co_consts)) or any(
+            instruction.opname in _RAISING for instruction in dis.get_instructions(one)
+        ):
             return True
-        named = inspect.getclosurevars(one)
-        waiting += [inspect.unwrap(v) for v in (*named.globals.values(), *named.nonlocals.values()) if callable(v)]
+        waiting += [inspect.unwrap(value) for value in named if callable(value)]
     return False
+
+
+def _is_table(value: Any) -> bool:
+    """Return whether a value is a tuple to look something up in; those of strings alone name arguments."""
+    return type(value) is tuple and any(not isinstance(item, str) for item in value)
 
 
 def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:

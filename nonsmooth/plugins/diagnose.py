@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
 
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.modes import NOT_FINITE, STEP_TOO_SMALL
-from nonsmooth.interfaces import FrictionLaw, ImpactMap, ImpactProcess
+from nonsmooth.interfaces import ImpactMap, Load
 from nonsmooth.interfaces.guard import guard_value
-from nonsmooth.model.layout import FRAME, GEOMETRY, LOAD
+from nonsmooth.model.layout import CATALOGUE, FRAME, GEOMETRY, LOAD, N_ACCOUNTS
 from nonsmooth.model.model import Model
-from nonsmooth.plugins.compile import bind, evaluate, parameter_names
-
-_PROBES = (0.0, *np.geomspace(1e-12, 1.0, 25).tolist())
-_REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can step through it."
+from nonsmooth.plugins import interpreted
+from nonsmooth.plugins.compile import parameter_names
+from nonsmooth.plugins.law_failure import REMEDY, Finding, first_without_value, law_functions, without_value
+from nonsmooth.plugins.source import described, raised
 
 
 def culprit(model: Model, status: int) -> str:
@@ -25,26 +24,24 @@ def culprit(model: Model, status: int) -> str:
     found = (_in_the_map(model) if status == NOT_FINITE else "") or _in_the_blocks(model)
     if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
         return found
-    slips = model.memory.array("rate", 3 * int(model.memory.scalars["n_contacts"][0])).reshape(-1, 3)[:, 1:]
-    speeds = (*_PROBES, *np.linalg.norm(slips, axis=1).tolist())
-    for contact in model.system.contacts:
-        laws: list[tuple[Any, Callable[..., float], tuple[float, ...]]] = []
-        if isinstance(contact.friction, FrictionLaw):
-            laws.append((contact.friction, contact.friction.coefficient, speeds))
-        if isinstance(contact.impact, ImpactProcess):
-            laws.append((contact.impact, contact.impact.force, _PROBES))
-            laws.append((contact.impact, contact.impact.efficiency, tuple(-p for p in _PROBES) + _PROBES))
-        for law, function, probes in laws:
-            found = _probe(law, function, probes)
-            if found:
-                return f"{found} ({contact.name})"
-    found = _guard_without_value(model)
+    found = first_without_value(_law_findings(model)) or _guard_without_value(model)
     if found:
         return found
     state = model.memory.array("y", model.n_y)
     if not np.all(np.isfinite(state)):
         return "The state itself is not finite: check the motions and the bodies."
     return ""
+
+
+def _law_findings(model: Model) -> Iterator[Finding | None]:
+    first_state = model.n_q + model.n_u + N_ACCOUNTS
+    for number, contact in enumerate(model.system.contacts):
+        row = model.memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
+        start, n = (int(row[CATALOGUE.index(name)]) for name in ("state", "n_state"))
+        state = model.memory.array("y", model.n_y)[first_state + start :][:n]
+        for part in law_functions(contact.friction, contact.impact, contact.normal):
+            parameters = int(row[CATALOGUE.index(f"{part.name}_parameters")])
+            yield without_value(model.memory.floats[parameters:], part, state, contact.name)
 
 
 def _in_the_blocks(model: Model) -> str:
@@ -55,32 +52,31 @@ def _in_the_blocks(model: Model) -> str:
         scalars["t"] = time
         call_room("evaluate_at", model.memory)
         scalars["t"] = t
-        for name, block in _blocks(model):
+        for name, function, block in _blocks(model):
             if not np.all(np.isfinite(block)):
-                return f"{name} raises or gives a number that is not finite at t = {time:.9g} s. {_REMEDY}"
+                what = interpreted.noted(function) or "raises or gives a number that is not finite"
+                return f"{name} {what} at t = {time:.9g} s. {REMEDY}"
     return ""
 
 
-def _blocks(model: Model) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield what every body, load and listed contact wrote, with a name for it; loads first, as bodies feel them."""
+def _blocks(model: Model) -> Iterator[tuple[str, Callable[..., None], np.ndarray]]:
+    """Yield what loads, bodies and listed contacts wrote, with their names and functions; bodies feel loads."""
     memory, system = model.memory, model.system
     for i, tie in enumerate(system.loads):
         start = int(memory.array("load_out", i + 1)[i])
-        yield f"{tie.name}: {_source(tie.component.evaluator)}", memory.floats[start : start + LOAD]
+        assert isinstance(tie.component, Load)
+        function = tie.component.evaluator
+        yield f"{tie.name}: {described(function)},", function, memory.floats[start : start + LOAD]
     for i, body in enumerate(system.bodies):
         start = int(memory.array("body_out", i + 1)[i])
         size = FRAME if body.n_u == 0 else int(memory.array("body_tail", i + 1)[i]) - start + body.n_q + body.n_u
-        yield f"{body!r}", memory.floats[start : start + size]
+        yield f"{body!r}", body.evaluator, memory.floats[start : start + size]
     n = int(memory.scalars["n_contacts"][0])
     geometry = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
     for number, block in zip(memory.array("identity", n), geometry, strict=True):
         contact = system.contacts[int(number)]
-        yield f"{contact.name}: {_source(contact.kinematics.evaluator)}", block
-
-
-def _source(function: Callable[..., Any]) -> str:
-    code = function.__code__
-    return f"{function.__qualname__} in {code.co_filename}, line {code.co_firstlineno},"
+        function = contact.kinematics.evaluator
+        yield f"{contact.name}: {described(function)},", function, block
 
 
 def _in_the_map(model: Model) -> str:
@@ -97,9 +93,13 @@ def _in_the_map(model: Model) -> str:
         law.impulses(n, delassus.copy(), rates.copy(), out, **dict(zip(names, given.copy(), strict=True)))
         what = "gives impulses that are not finite"
     except Exception as error:
-        what = f"refuses: {error}"
+        what = raised(law.impulses, error)
     among = [model.system.contacts[int(i)].name for i in memory.array("identity", n)[memory.array("active", n)]]
-    return f"{type(law).__name__}: {_source(law.impulses)} {what} ({n} in contact: {'; '.join(among)})."
+    before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
+    return (
+        f"{type(law).__name__}: {described(law.impulses)}, {what} for the rates {before} m/s "
+        f"({n} in contact: {'; '.join(among)})."
+    )
 
 
 def _guard_without_value(model: Model) -> str:
@@ -109,24 +109,6 @@ def _guard_without_value(model: Model) -> str:
     for guard in model.system.guards:
         value = guard_value(guard, float(scalars["t"] + scalars["h"]), q, u)
         if not isinstance(value, float) or not math.isfinite(value):
-            return (
-                f"{type(guard).__name__}: {guard.value.__qualname__} gives {value!r} within {float(scalars['h']):g} s."
-            )
+            what = raised(guard.value, value) if isinstance(value, Exception) else f"gives {value!r}"
+            return f"{type(guard).__name__}: {described(guard.value)}, {what} within {float(scalars['h']):g} s."
     return ""
-
-
-def _probe(law: Any, function: Callable[..., float], probes: tuple[float, ...]) -> str:
-    values = {name: law.parameters()[name] for name in parameter_names(function, "scalar")}
-    address, parameters = bind(function, "scalar", values, type(law).__name__)
-    for x in probes:
-        if not math.isfinite(evaluate(address, parameters, x)):
-            what = _outcome(function, x, values)
-            return f"{type(law).__name__}: {_source(function)} {what} at {x:g} with {values}. {_REMEDY}"
-    return ""
-
-
-def _outcome(function: Callable[..., float], x: float, values: dict[str, Any]) -> str:
-    try:
-        return f"returns {function(x, **values)!r}"
-    except Exception as error:
-        return f"raises {error!r}"

@@ -39,3 +39,35 @@ def test_there_are_examples() -> None:
     """The README and the first page have some, each with what it prints."""
     for page in PAGES[0], ROOT / "docs" / "pages" / "index.md":
         assert any(block["output"] for block in _blocks(page))
+
+
+EXTENSION_POINTS = (
+    "body",
+    "contact_kinematics",
+    "friction_law",
+    "guard",
+    "impact_law",
+    "joint",
+    "load",
+    "motion",
+    "scenario",
+)
+LONGEST = 25
+
+
+@pytest.mark.parametrize("name", EXTENSION_POINTS)
+def test_the_page_of_an_extension_point_is_complete_and_short(name: str) -> None:
+    """A contract as a numbered list, examples that fit on a screen, how to check and how to ship it."""
+    page = ROOT / "docs" / "pages" / "howto" / f"{name}.md"
+    text = page.read_text(encoding="utf-8")
+    codes = [block["code"] for block in _blocks(page)]
+    assert any("class " in code for code in codes)
+    for code in codes:
+        assert len(code.splitlines()) <= LONGEST, code
+    contract = re.search(r"^## The contract.*?(?=^## )", text, re.M | re.S)
+    assert contract is not None
+    points = [int(number) for number in re.findall(r"^(\d+)\. ", contract[0], re.M)]
+    assert points == list(range(1, len(points) + 1))
+    assert len(points) >= 3
+    assert re.search(r"^## Check it$.*`nonsmooth check \w+`.*check_\w+\(", text, re.M | re.S)
+    assert re.search(r"^## Ship it$.*entry-points\.\"nonsmooth\.\w+\"", text, re.M | re.S)

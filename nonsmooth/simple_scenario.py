@@ -1,0 +1,77 @@
+"""SimpleScenario: a scenario that says how its system is built; the rest follows from the solution."""
+
+from __future__ import annotations
+
+from abc import ABC
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import rules
+from nonsmooth.simulate import simulate
+from nonsmooth.solution.solution import Solution
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_SAMPLES = 1000
+
+
+class SimpleScenario(Scenario, ABC):
+    """A scenario whose coordinates are those of its bodies; subclasses are final and give title, t_end and build.
+
+    Its figure shows all coordinates over time, its summary the number of impacts and the energy account.  A scenario
+    with coordinates, numbers or figures of its own is a :class:`nonsmooth.interfaces.Scenario`.
+    """
+
+    @property
+    def sample_interval(self) -> float:
+        """A thousandth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return q_1, q_2, ... over the samples, in the order of the bodies."""
+        return {f"q_{i + 1}": column for i, column in enumerate(solution.q.T)}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return all coordinates and velocities at the end."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the number of impacts and what was lost [J]."""
+        account = solution.energy
+        return {
+            "impacts": solution.counters.impacts,
+            "restitution_loss": account.restitution_loss,
+            "friction_loss": account.friction_loss,
+        }
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the coordinates over time."""
+        return {"coordinates": self._draw(solution)}
+
+    @classmethod
+    def gallery(cls, progress: Any) -> Mapping[str, Any]:
+        """Run the scenario with the defaults of its parameters; return its figure."""
+        one = cls()
+        solution = simulate(
+            one.build(), one.t_end, sample_interval=one.sample_interval, options=None, progress=progress
+        )
+        return dict(one.figures(solution))
+
+    def _draw(self, solution: Solution) -> Figure:
+        from matplotlib.figure import Figure
+
+        names = list(self.coordinates(solution))
+        figure = Figure(figsize=(6.0, 1.0 + 1.2 * len(names)), layout="constrained")
+        axes = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
+        for name, values, one in zip(names, solution.q.T, axes, strict=True):
+            one.plot(solution.t, values)
+            one.set_ylabel(name)
+        axes[0].set_title(self.title)
+        axes[-1].set_xlabel("time [s]")
+        return figure
