@@ -22,6 +22,8 @@ ROOM = 4
 OLD = 7.0e3
 """What stands there, and must stay."""
 _SAME = 1e-9
+_RETURNING = ("scalar", "guard", "compliance")
+"""Forms that return a number and write nothing."""
 
 
 @final
@@ -211,7 +213,7 @@ def _finite(function: Function) -> None:
 
 
 def _inside(function: Function) -> None:
-    for words, value in function.inputs if function.form not in ("scalar", "guard") else ():
+    for words, value in function.inputs if function.form not in _RETURNING else ():
         if np.any(np.asarray(function.plain(value))[-ROOM:] != OLD):
             raise Broken(f"{function.title}({words}) writes beyond its block", *described(function.owner))
 
