@@ -111,9 +111,7 @@ def _force(law: CompliantNormalLaw) -> Function:
         call = compiled_caller(law.force, "compliance", offered, name)
         return lambda at: call(*at)
 
-    return Function(
-        law, "force", law.force, "compliance", offered, lambda at: _plain(law)(*at), compiled, inputs
-    )
+    return Function(law, "force", law.force, "compliance", offered, lambda at: _plain(law)(*at), compiled, inputs)
 
 
 def _plain(law: CompliantNormalLaw) -> Callable[..., Any]:
@@ -223,8 +221,9 @@ def _impact(law: CompliantNormalLaw, case: Case) -> str:
     given = -float(solution.q_end[2]) / depth, -float(solution.u_end[2]) / speed
     if abs(given[1] - rate) > _SAME or abs(given[0] - x) > _SAME * max(1.0, abs(x)):
         return (
-            f"{duration * unit:g} s after it has struck with {speed:g} m/s, a mass of {mass:g} kg is {given[0] * depth:.9g} m "
-            f"in at {given[1] * speed:.9g} m/s, by an independent integration {x * depth:.9g} m at {rate * speed:.9g} m/s"
+            f"{duration * unit:g} s after it has struck with {speed:g} m/s, a mass of {mass:g} kg is "
+            f"{given[0] * depth:.9g} m in, at {given[1] * speed:.9g} m/s; "
+            f"by an independent integration {x * depth:.9g} m, at {rate * speed:.9g} m/s"
         )
     return ""
 

@@ -234,11 +234,11 @@ def _raised_at(error: Exception) -> str:
     return f", at line {line}" if line else ""
 
 
-def scalar_function(owner: Any, name: str, function: Callable[..., Any], values: Sequence[float]) -> Function:
+def scalar_function(
+    owner: Any, name: str, function: Callable[..., Any], values: Sequence[float], offered: Mapping[str, Any]
+) -> Function:
     """Return a function of one number with numbers to try."""
     from nonsmooth.testing.callers import compiled_caller, plain_caller
-
-    offered = owner.parameters()
 
     def plain(x: float) -> Any:
         return plain_caller(function, "scalar", offered)(x)
