@@ -31,7 +31,7 @@ from nonsmooth.testing.examine import FEWEST, Trial, examine
 from nonsmooth.testing.functions import Function, Functions
 from nonsmooth.testing.property import Property, Row, properties
 from nonsmooth.testing.reference import Spring, point, problem, problem_space
-from nonsmooth.testing.stateful import rates_function, state_rows
+from nonsmooth.testing.stateful import rates_function, start_row, state_rows
 
 _DRAWS = 10
 _SLIGHT = 1e-6
@@ -104,13 +104,16 @@ def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None =
         ),
         limit_row(law, vanishing, _vanishes),
     ]
+    first = component_rows(law)
     if isinstance(law, StatefulFrictionLaw):
+        first.append(start_row(law))
         rows += state_rows(law)
-    return properties(law, [*component_rows(law), *functions.rows(), *functions.guarded(rows)])
+    return properties(law, [*first, *functions.rows(), *functions.guarded(rows)])
 
 
 def _functions(law: FrictionLaw) -> list[Function]:
-    return [coefficient_function(law), *([rates_function(law)] if isinstance(law, StatefulFrictionLaw) else [])]
+    # the rates first, which refuse states that are not in order
+    return [*([rates_function(law)] if isinstance(law, StatefulFrictionLaw) else []), coefficient_function(law)]
 
 
 def _certificate_slip(law: FrictionLaw, case: Case) -> str:

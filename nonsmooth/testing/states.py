@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -10,9 +11,11 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from nonsmooth.testing.functions import OLD, ROOM
+from nonsmooth.testing.property import NotChecked
 
 Array = NDArray[np.float64]
 _EXACT = 1e-10
+_MOST_CALLS = 50_000
 _STEP = 1e-6
 
 
@@ -27,6 +30,12 @@ def check_start(initial: Sequence[float], scale: Sequence[float]) -> str:
     return ""
 
 
+def require_start(initial: Sequence[float], scale: Sequence[float]) -> None:
+    """Raise NotChecked if something is wrong with them: nothing else can be looked at then."""
+    if found := check_start(initial, scale):
+        raise NotChecked(f"not checked, as {found}")
+
+
 def written(call: Callable[[Array], Any], size: int, old: float = 0.0) -> Array:
     """Return what a function writes into a block that holds ``old``, with some room behind it."""
     out = np.full(size + ROOM, OLD)
@@ -35,9 +44,13 @@ def written(call: Callable[[Array], Any], size: int, old: float = 0.0) -> Array:
     return out
 
 
-def left_over(call: Callable[[Array], Any], size: int) -> str:
-    """Return what is wrong where a function leaves something of the block as it was."""
-    for i in np.flatnonzero(written(call, size, 0.5) != written(call, size, -0.25)):
+def misplaced(call: Callable[..., Any], given: Sequence[Array], size: int) -> str:
+    """Return what is wrong where a function changes the vectors given, or leaves something of its block as it was."""
+    copies = [one.copy() for one in given]
+    one, other = (written(lambda out: call(*copies, out), size, old) for old in (0.5, -0.25))
+    if any(not np.array_equal(a, b) for a, b in zip(given, copies, strict=True)):
+        return "it changes what it is given, and may write to `out` only"
+    for i in np.flatnonzero(one != other):
         return f"number {i} of what it writes is left from the call before"
     return ""
 
@@ -46,8 +59,15 @@ def followed(
     slope: Callable[[Array], Array], start: Array, scale: Array, times: Sequence[float], stiff: bool = False
 ) -> Array:
     """Return y of y' = slope(y) at rising times from y(0) = start on, shape [n_times, n]."""
+    calls = itertools.count()
+
+    def counted(t: float, y: Array) -> Array:
+        if next(calls) > _MOST_CALLS:
+            raise ArithmeticError(f"{times[-1]:g} s of motion ask for more than {_MOST_CALLS} calls of the law")
+        return slope(y)
+
     found = solve_ivp(
-        lambda t, y: slope(y),
+        counted,
         (0.0, times[-1]),
         start,
         method="LSODA" if stiff else "DOP853",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -17,7 +18,7 @@ from nonsmooth.testing.functions import Function, Functions
 from nonsmooth.testing.jumps import jump
 from nonsmooth.testing.property import Property, Row, properties
 from nonsmooth.testing.puck import Array, Cushion, Puck, run
-from nonsmooth.testing.states import check_start, fastest, followed, left_over, written
+from nonsmooth.testing.states import check_start, fastest, followed, misplaced, require_start, written
 
 _DRAWS = 8
 _WRENCH = 5
@@ -52,9 +53,15 @@ def check_traction_law(law: TractionLaw) -> list[Property]:
     def row(name: str, says: str, trial: Trial, *space: Variable, fewest: int | None = None) -> Row:
         return name, says, lambda: examine(name, variants(law), space, trial, _DRAWS, fewest=fewest)
 
+    first = row("initial state", "initial states and scales are as many, finite, the scales positive", _starts)
     rows = [
-        row("initial state", "initial states and scales are as many, finite, the scales positive", _starts),
-        row("writes its block", "it writes force, moment and the rate of every state", _writes, _LOAD, *_MOTION),
+        row(
+            "writes its block",
+            "it writes force, moment and the rate of every state, and nothing else",
+            _writes,
+            _LOAD,
+            *_MOTION,
+        ),
         row(
             "no jumps",
             "force, moment and rates are continuous in load, motion and states",
@@ -90,7 +97,7 @@ def check_traction_law(law: TractionLaw) -> list[Property]:
             fewest=FEWEST,
         ),
     ]
-    return properties(law, [*component_rows(law), *functions.rows(), *functions.guarded(rows)])
+    return properties(law, [*component_rows(law), first, *functions.rows(), *functions.guarded(rows)])
 
 
 def _motion(case: Case, turn: float = 0.0) -> Array:
@@ -110,6 +117,7 @@ def _start(law: TractionLaw) -> Array:
 
 
 def _traction(law: TractionLaw) -> Function:
+    require_start(law.initial_state, law.state_scale)
     n, offered = _WRENCH + len(law.initial_state), law.parameters()
     motions = [np.zeros(_WRENCH), *(_motion(case) for case in draws(_MOTION, 4, "motions"))]
     states = [_start(law) + share * _scale(law) for share in (0.0, 0.7, -3.0)]
@@ -155,7 +163,7 @@ def _starts(law: TractionLaw, case: Case) -> str:
 def _writes(law: TractionLaw, case: Case) -> str:
     call, state, load = plain_caller(law.traction, "traction", law.parameters()), _start(law), case["normal_force"]
     for motion in (_motion(case), np.zeros(_WRENCH)):
-        if found := left_over(lambda out, at=motion: call(load, at, state, out), _WRENCH + len(state)):  # type: ignore[misc]
+        if found := misplaced(functools.partial(call, load), [motion, state], _WRENCH + len(state)):
             return found
     return ""
 
@@ -189,7 +197,7 @@ def _filling(law: TractionLaw, load: float, motion: Array) -> float:
 
 def _at(law: TractionLaw, load: float, motion: Array, t: float) -> Array:
     """Return the states after a steady motion."""
-    return _through(law, load, motion, [t])[-1] if t > 0.0 else _start(law)
+    return np.asarray(_through(law, load, motion, [t])[-1]) if t > 0.0 else _start(law)
 
 
 def _through(law: TractionLaw, load: float, motion: Array, times: Sequence[float]) -> Array:
