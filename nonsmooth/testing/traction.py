@@ -195,12 +195,8 @@ def _filling(law: TractionLaw, load: float, motion: Array) -> float:
     return float(np.max(_scale(law)[rates > 0.0] / rates[rates > 0.0], initial=0.0))
 
 
-def _at(law: TractionLaw, load: float, motion: Array, t: float) -> Array:
-    """Return the states after a steady motion."""
-    return np.asarray(_through(law, load, motion, [t])[-1]) if t > 0.0 else _start(law)
-
-
 def _through(law: TractionLaw, load: float, motion: Array, times: Sequence[float]) -> Array:
+    """Return the states through a steady motion, from the closing of the contact on, shape [n_times, n]."""
     return followed(lambda z: _look(law, load, motion, z)[1], _start(law), _scale(law), times, stiff=True)
 
 
@@ -222,15 +218,16 @@ def _turned(law: TractionLaw, case: Case) -> str:
     both = np.zeros((_WRENCH, _WRENCH))
     both[:2, :2] = both[2:4, 2:4] = [[c, -s], [s, c]]
     both[4, 4] = 1.0
-    for share in (_SHORT, _TIMES):
-        one, other = (
-            _look(law, load, motion, _at(law, load, motion, share * unit))[0]
-            for motion in (_motion(case), _motion(case, turn))
-        )
+    times = [_SHORT * unit, _TIMES * unit]
+    ways = [
+        (motion, _through(law, load, motion, times) if unit > 0.0 else [_start(law)])
+        for motion in (_motion(case), _motion(case, turn))
+    ]
+    for t, *states in zip(times, ways[0][1], ways[1][1], strict=False):
+        one, other = (_look(law, load, way[0], state)[0] for way, state in zip(ways, states, strict=True))
         if np.max(np.abs(both @ one - other)) > 1e-6 * (np.max(np.abs(one)) + np.max(np.abs(other))):
-            return (
-                f"after {share * unit:g} s force and moment are {one.tolist()}, with the motion turned {other.tolist()}"
-            )
+            told = f"{one.tolist()}, with the motion turned {other.tolist()}"
+            return f"after {t:g} s force and moment are {told}"
     return ""
 
 
