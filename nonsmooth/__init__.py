@@ -6,6 +6,7 @@ from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFaile
 from nonsmooth.files.reading import Setup, load_system
 from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
+from nonsmooth.interfaces import Criterion
 from nonsmooth.model.options import Options
 from nonsmooth.placing import at_height, resting, touching
 from nonsmooth.simulate import simulate
@@ -17,6 +18,7 @@ from nonsmooth.system.system import System
 __all__ = [
     "ContactLaws",
     "ContactResult",
+    "Criterion",
     "ImpactResult",
     "InvalidInput",
     "Materials",

@@ -18,7 +18,7 @@ _SAMPLES = 1000
 
 
 class SimpleScenario(Scenario, ABC):
-    """A scenario whose coordinates are those of its bodies; subclasses are final and give title, t_end and build.
+    """A scenario whose coordinates are those of its bodies; a final subclass gives title, t_end, build, acceptance.
 
     Its figure shows all coordinates over time, its summary the number of impacts and the energy account.  A scenario
     with coordinates, numbers or figures of its own is a :class:`nonsmooth.interfaces.Scenario`.

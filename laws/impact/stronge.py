@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 from laws.impact.power import duration_parameter
 from nonsmooth.compiled import compiled
@@ -83,15 +83,19 @@ def _impulses(
     if rate >= 0.0:
         return
     slip = math.sqrt(v1 * v1 + v2 * v2)
+    none = _PLANAR * (delassus[0] + delassus[4] + delassus[8])
     if slip <= _REST * -rate:
         slip = 0.0
-        # it can only start the way in which the normal impulse pushes
+        # it can only start the way in which the normal impulse pushes, and not where that pushes no way
         v1, v2 = delassus[3], delassus[6]
+        if math.sqrt(v1 * v1 + v2 * v2) <= none:
+            out[0] = -(1.0 + restitution[0]) * rate / delassus[0]
+            return
     size = math.sqrt(v1 * v1 + v2 * v2)
-    d1, d2 = (v1 / size, v2 / size) if size > 0.0 else (1.0, 0.0)
+    d1, d2 = v1 / size, v2 / size
     across = abs(delassus[6] * d1 - delassus[3] * d2)
     twist = abs((delassus[8] - delassus[4]) * d1 * d2 + delassus[5] * (d1 * d1 - d2 * d2))
-    if max(across, twist) > _PLANAR * (delassus[0] + delassus[4] + delassus[8]):
+    if max(across, twist) > none:
         raise ValueError("Stronge's closed form is planar; take EnergeticImpact where the direction of the slip turns")
     along = delassus[3] * d1 + delassus[6] * d2
     own = delassus[4] * d1 * d1 + 2.0 * delassus[5] * d1 * d2 + delassus[8] * d2 * d2
@@ -116,6 +120,8 @@ class StrongeImpact(ImpactMap):
     ----------
     W. J. Stronge, "Rigid body collisions with friction", Proc. R. Soc. Lond. A 431 (1990) 169-181.
     """
+
+    one_planar_contact: ClassVar[bool] = True
 
     restitution: float = parameter(doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
     duration: float = duration_parameter()

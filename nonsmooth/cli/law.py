@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.interfaces import ImpactLaw, NormalLaw, TangentialLaw
+from nonsmooth.interfaces import CompliantNormalLaw, ImpactLaw, NormalLaw, TangentialLaw
 from nonsmooth.parameters import from_all_words, rules
 from nonsmooth.plugins.file import find
 
@@ -52,17 +52,25 @@ def laws(words: Iterable[str]) -> dict[str, Any]:
     return made
 
 
+def replacements(laws: Mapping[str, Any]) -> dict[str, str]:
+    """Return the roles whose laws are replaced, each with the role of the law that does it."""
+    replaced = {role: role for role in laws}
+    if isinstance(laws.get("normal"), CompliantNormalLaw):
+        replaced["impact"] = "normal"
+    return replaced
+
+
 def described(law: Any) -> dict[str, Any]:
     """Return the class of a law and its parameters, for the report."""
     return {"law": type(law).__name__} | {name: getattr(law, name) for name in rules(type(law))}
 
 
-def check_not_ignored(owner: type, given: Iterable[str], roles: Iterable[str]) -> None:
-    """Raise InvalidInput if a parameter of a scenario was given that belongs to a law which is replaced."""
-    replaced, known = set(roles), rules(owner)
+def check_not_ignored(owner: type, given: Iterable[str], laws: Mapping[str, Any]) -> None:
+    """Raise InvalidInput if a parameter of a scenario was given whose law one of ``laws`` replaces."""
+    replaced, known = replacements(laws), rules(owner)
     for name in given:
         if name in known and known[name][1].law in replaced:
-            role = known[name][1].law
+            role = replaced[known[name][1].law]
             raise InvalidInput(
                 f"--set {name}",
                 f"must not be given with --law {role}, which replaces the law that it belongs to",

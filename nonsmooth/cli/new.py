@@ -21,7 +21,9 @@ _FILES = {
     "README.md": "README.md.txt",
     "{name}/__init__.py": "init.py.txt",
     "{name}/friction.py": "friction.py.txt",
+    "{name}/scenario.py": "scenario.py.txt",
     "tests/test_friction.py": "test_friction.py.txt",
+    "tests/test_scenario.py": "test_scenario.py.txt",
 }
 """Where each text goes."""
 
@@ -30,7 +32,9 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("new", help="write a package to start from", allow_abbrev=False)
     kinds = command.add_subparsers(title="kinds", required=True, metavar="KIND")
-    plugin = kinds.add_parser("plugin", help="a package with a friction law and its tests", allow_abbrev=False)
+    plugin = kinds.add_parser(
+        "plugin", help="a package with a friction law, a scenario, and their tests", allow_abbrev=False
+    )
     plugin.add_argument("name", metavar="NAME", help="of the package and of its law, in lower case")
     plugin.add_argument("--dir", type=Path, metavar="DIR", help="the folder to write it to, ./NAME by default")
     plugin.set_defaults(execute=execute)

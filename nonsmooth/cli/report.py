@@ -56,9 +56,10 @@ def as_text(report: Report) -> str:
 
 def _judged(criteria: list[dict[str, Any]]) -> list[str]:
     """Return a line per criterion: whether it holds, the value, its bounds, where they are from."""
-    rows = [
-        ("accepted" if all(one["fulfilled"] for one in criteria) else "not accepted", "", "value", "range", "source")
-    ]
+    if not criteria:
+        return ["  not accepted: no criterion for these parameters"]
+    word = "accepted" if all(one["fulfilled"] for one in criteria) else "not accepted"
+    rows = [(word, "", "value", "range", "source")]
     for one in criteria:
         lower, upper = ("" if one[bound] is None else f"{one[bound]:.9g}" for bound in ("lower", "upper"))
         value = "none" if one["value"] is None else f"{one['value']:.9g}"

@@ -68,7 +68,7 @@ class Job:
         resolved = {
             name: value
             for name, value in self.scenario.resolved().items()
-            if name not in declared or declared[name][1].law not in self.laws
+            if name not in declared or declared[name][1].law not in law.replacements(self.laws)
         }
         return {"parameters": resolved, "laws": {role: law.described(made) for role, made in self.laws.items()}}
 

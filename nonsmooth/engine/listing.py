@@ -31,7 +31,7 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     # the arrays of the catalogue's entries follow one another
     for i in range(_WIDTH):
         k[S.frame_a + i * S.n_slots + c] = k[row + i]
-    w[S.contact_time + c], w[S.reach + c] = w[floats], w[floats + 3]
+    w[S.contact_time + c], w[S.reach + c], w[S.closing_rate + c] = w[floats], w[floats + 3], w[floats + 4]
     w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = w[floats + 1], w[floats + 2]
     k[S.facing + c] = 1
     k[S.touching + c] = 0
@@ -54,6 +54,7 @@ def _leave(S: Scalars, w: Floats, k: Integers) -> None:
         k[S.catalogue + _WIDTH * declared + _MODE] = k[S.mode + c]
         for i in range(2):
             w[S.catalogue_floats + CATALOGUE_FLOATS * declared + 1 + i] = w[S.direction + 2 * c + i]
+        w[S.catalogue_floats + CATALOGUE_FLOATS * declared + 4] = w[S.closing_rate + c]
     S.n_contacts = 0
 
 

@@ -110,14 +110,14 @@ class _Reader:
                 raise UnknownName(f"{thing}: law", value, [*self.laws, *registry.names("laws")])
         return component(thing, value, base, self.path.parent)
 
-    def three(self, table: Table, thing: str) -> ContactLaws:
-        for role in _ROLES:
+    def contact_laws(self, table: Table, thing: str) -> ContactLaws:
+        for role in ("normal", "friction"):
             if role not in table:
                 remedy = "Write a name of [laws], an installed name, or a table with its type."
                 raise InvalidInput(f"{thing}.{role}", "must be given", None, remedy)
-        laws = [self.law(table[role], f"{thing}.{role}", base) for role, base in _ROLES.items()]
+        laws = {role: self.law(table[role], f"{thing}.{role}", base) for role, base in _ROLES.items() if role in table}
         with naming(thing):
-            return ContactLaws(*laws)
+            return ContactLaws(**laws)
 
     def tie(self, add: Callable[..., None], table: Table, thing: str, base: type) -> None:
         own = dict(table)
@@ -136,7 +136,7 @@ class _Reader:
         shapes = table.get("shapes", ["all", "all"])
         if isinstance(shapes, list):
             shapes = [None if one == "all" else one for one in shapes]
-        laws = self.three(table, thing)
+        laws = self.contact_laws(table, thing)
         with naming(thing):
             made.contact(first, second, normal=laws.normal, friction=laws.friction, impact=laws.impact, shapes=shapes)
 
@@ -149,11 +149,11 @@ class _Reader:
             one, two = words(f"{where}.between", pair["between"], 2)
             if (one, two) in pairs:
                 raise InvalidInput(where, "must name a pair once", [one, two], "Take one of the two out.")
-            pairs[one, two] = self.three(pair, where)
+            pairs[one, two] = self.contact_laws(pair, where)
         default = None
         if "default" in table:
             check_keys(f"{thing}.default", table["default"], tuple(_ROLES))
-            default = self.three(table["default"], f"{thing}.default")
+            default = self.contact_laws(table["default"], f"{thing}.default")
         left_out = table.get("exclude", [])
         if not isinstance(left_out, list):
             raise InvalidInput(f"{thing}.exclude", "must be a list of pairs", left_out, 'For example [["a", "b"]].')

@@ -128,7 +128,9 @@ def _contact(said: Declaration, known: dict[int, str], laws: _Laws, thing: str) 
     if said.shapes != (None, None):
         table["shapes"] = ["all" if chosen is None else list(chosen) for chosen in said.shapes]
     for role in ("normal", "friction", "impact"):
-        table[role] = laws.name(getattr(said.laws, role), f"{thing}.{role}")
+        law = getattr(said.laws, role)
+        if law is not None:
+            table[role] = laws.name(law, f"{thing}.{role}")
     return table
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from typing import ClassVar
 
 from nonsmooth.parameters import Component
 
@@ -53,7 +54,12 @@ class ImpactMap(ImpactLaw, ABC):
     contacts, the Delassus matrix [1/kg] (row by row, shape [3 n, 3 n], rows n, t1, t2 of each contact), the
     rates before [m/s, 3 n] and the impulses to be written [N s, 3 n]; ``friction`` and its further
     arguments, parameters of the law, are vectors over the contacts.
+
+    A closed form of one contact whose slip keeps to a line sets ``one_planar_contact`` and raises in its function where
+    it is given another impact; the conformance kit then asks it for no other.
     """
+
+    one_planar_contact: ClassVar[bool] = False
 
     @property
     @abstractmethod

@@ -94,8 +94,8 @@ CATALOGUE = (
     "mode",
 )
 """Integers of a declared contact; in a slot each of them is an array of its own."""
-CATALOGUE_FLOATS = 4
-"""Floats of a declared contact: contact time, slip direction, reach."""
+CATALOGUE_FLOATS = 5
+"""Floats of a declared contact: contact time, slip direction, reach, rate at which it closed."""
 ORIENTED = 7
 """Numbers of an anisotropic law: side of the body, its axis, friction forward, backward and across."""
 N_ACCOUNTS = 4

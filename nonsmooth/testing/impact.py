@@ -14,13 +14,13 @@ from nonsmooth.testing.component import accepted, component_rows, numbers_of, va
 from nonsmooth.testing.draws import Case, Variable
 from nonsmooth.testing.examine import FEWEST, Trial, examine
 from nonsmooth.testing.functions import Function, Functions, scalar_function
-from nonsmooth.testing.impact_map import map_function, map_rows
+from nonsmooth.testing.impact_map import is_planar, map_function, map_rows
 from nonsmooth.testing.impact_process import process_rows
 from nonsmooth.testing.property import Broken, NotChecked, Property, Row, properties
-from nonsmooth.testing.reference import Problem, point, problem, problem_space
+from nonsmooth.testing.reference import Problem, planar_space, point, problem, problem_space
 from nonsmooth.testing.respond import Response, respond
 
-_ONE, _TWO = problem_space(1), problem_space(2)
+_ONE, _TWO, _PLANE = problem_space(1), problem_space(2), planar_space()
 _MU = Variable("friction", 0.02, 0.6, 0.2)
 _ROUGH = Variable("friction", 0.02, 1.2, 0.2)
 _DRAWS = 10
@@ -55,32 +55,33 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
             raise NotChecked(f"{type(law).__name__}: it has no parameter {restitution!r}")
         examine(name, [at], [Variable("speed", 1e-2, 1e2, 1.0, log=True), _MU], trial, _DRAWS)
 
+    one, two = (_PLANE, _PLANE) if is_planar(law) else (_ONE, _TWO)
     speed = Variable("factor", 1e-2, 1e2, 2.0, log=True)
     rows = [
-        row("no approach after", "after the impact no contact approaches", _parts, [*_TWO, _MU]),
+        row("no approach after", "after the impact no contact approaches", _parts, [*two, _MU]),
         row(
             "cone",
             "normal impulses push, tangential ones lie in the cone of the friction coefficient",
             _cone,
-            [*_TWO, _MU],
+            [*two, _MU],
         ),
-        row("dissipation", "without friction no impact of approaching contacts gains energy", _dissipates, _TWO),
-        row("dissipation with friction", "nor does one with friction", _dissipates_rough, [*_TWO, _ROUGH]),
-        row("scaling of masses", "masses times c: the same velocities, impulses times c", _masses, [*_ONE, _MU, speed]),
-        row("scaling of velocities", "velocities times c before: times c after", _velocities, [*_TWO, _MU, speed]),
+        row("dissipation", "without friction no impact of approaching contacts gains energy", _dissipates, two),
+        row("dissipation with friction", "nor does one with friction", _dissipates_rough, [*two, _ROUGH]),
+        row("scaling of masses", "masses times c: the same velocities, impulses times c", _masses, [*one, _MU, speed]),
+        row("scaling of velocities", "velocities times c before: times c after", _velocities, [*two, _MU, speed]),
         row(
             "frame invariance",
             "turning the tangents of the contacts changes no velocity",
             _turned,
-            [*_TWO, _MU, Variable("turn", -3.1, 3.1, 1.0)],
+            [*two, _MU, Variable("turn", -3.1, 3.1, 1.0)],
         ),
         row(
             "permutation",
             "the order of the contacts does not matter",
             _permuted,
-            [*_TWO, _MU, Variable("other_friction", 0.02, 0.6, 0.4)],
+            [*two, _MU, Variable("other_friction", 0.02, 0.6, 0.4)],
         ),
-        row("limit mu -> 0", "without friction no tangential impulse; with next to none, next to none", _smooth, _TWO),
+        row("limit mu -> 0", "without friction no tangential impulse; with next to none, next to none", _smooth, two),
         row(
             "force and impact level",
             "an impact too slight to end the slip rubs as sustained contact does",
@@ -205,6 +206,8 @@ def _turned(law: ImpactLaw, case: Case) -> str:
 
 
 def _permuted(law: ImpactLaw, case: Case) -> str:
+    if is_planar(law):
+        raise NotChecked(f"{type(law).__name__}: it is a law of one contact")
     p, mu = _problem(case), (case["friction"], case["other_friction"])
     swapped = Problem(p.mass, p.normal[:, ::-1].copy(), p.tangential[:, ::-1].copy(), p.velocity)
     one, other = respond([law] * 2, mu, p), respond([law] * 2, mu[::-1], swapped)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.interfaces import ImpactMap
+from nonsmooth.interfaces import ImpactLaw, ImpactMap
 from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.testing.callers import compiled_map
 from nonsmooth.testing.component import variants
@@ -16,18 +16,28 @@ from nonsmooth.testing.draws import Case, Variable, draws
 from nonsmooth.testing.examine import examine
 from nonsmooth.testing.functions import OLD, ROOM, Function
 from nonsmooth.testing.property import Row
-from nonsmooth.testing.reference import Problem, problem, problem_space
+from nonsmooth.testing.reference import Problem, planar_space, problem, problem_space
 from nonsmooth.testing.respond import vectors_of
 
 Array = NDArray[np.float64]
 _MU = 0.3
 
 
+def is_planar(law: ImpactLaw) -> bool:
+    """Tell whether a law is one of a single contact whose slip stays in a plane, and of no other."""
+    return isinstance(law, ImpactMap) and law.one_planar_contact
+
+
+def _spaces(law: ImpactLaw) -> dict[int, list[Variable]]:
+    """Return the numbers that make problems that the law takes, by the number of contacts."""
+    return {1: planar_space()} if is_planar(law) else {1: problem_space(1), 2: problem_space(2)}
+
+
 def map_function(law: ImpactMap) -> Function:
     """Return the function of a map with problems of one and two contacts to try."""
     inputs: list[tuple[str, Problem]] = []
-    for n in (1, 2):
-        for case in draws(problem_space(n), 3, "map"):
+    for n, space in _spaces(law).items():
+        for case in draws(space, 3, "map"):
             inputs.append((f"{n} contact{'s' * (n > 1)}", problem(case, n)))
     offered = {"friction": _MU, **law.numbers()}
 
@@ -59,7 +69,7 @@ def _written(p: Problem, call: Callable[..., Any], old: float = 0.0) -> Array:
 
 def map_rows(law: ImpactMap) -> list[Row]:
     """Return the properties that only a map has."""
-    space = [*problem_space(2), Variable("friction", 0.0, 0.6)]
+    space = [*list(_spaces(law).values())[-1], Variable("friction", 0.0, 0.6)]
     return [
         (
             "writes its block",
@@ -70,8 +80,12 @@ def map_rows(law: ImpactMap) -> list[Row]:
 
 
 def _writes(law: ImpactMap, case: Case) -> str:
-    p = problem(case, 2)
-    vectors = vectors_of([law] * 2, [case["friction"]] * 2)
+    p = problem(case, max(_spaces(law)))
+    vectors = vectors_of([law] * p.n, [case["friction"]] * p.n)
     own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
     clean, used = (_written(p, lambda *given: law.impulses(*given, **own), old) for old in (0.0, OLD))
-    return "" if np.allclose(clean[:6], used[:6], rtol=1e-9, atol=1e-12) else "numbers that stood there before are left"
+    return (
+        ""
+        if np.allclose(clean[: 3 * p.n], used[: 3 * p.n], rtol=1e-9, atol=1e-12)
+        else "numbers that stood there before are left"
+    )

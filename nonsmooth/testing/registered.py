@@ -76,7 +76,11 @@ def check_registered(group: str, name: str, words: Mapping[str, str]) -> list[Pr
     if issubclass(owner, ContactKinematics):
         return _of_pair(owner, name, words)
     component = make(owner, name, words)
-    return [prop for base, check in _CHECKS if isinstance(component, base) for prop in check(component)]
+    found = [prop for base, check in _CHECKS if isinstance(component, base) for prop in check(component)]
+    if not found:
+        kind = registry.KINDS[group]
+        raise InvalidInput(f"check {name}", "must be of a kind that the kit knows", kind, "Nothing would be looked at.")
+    return found
 
 
 def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]) -> list[Property]:

@@ -45,8 +45,9 @@ def test_as_json(call: Call, tmp_path: Path) -> None:
 
 
 def test_no_criterion_is_no_acceptance(call: Call, tmp_path: Path) -> None:
-    status, _, errors = call("run", "tiny", "--accept", "--set", "mode=none")
+    status, output, errors = call("run", "tiny", "--accept", "--set", "mode=none")
     assert status == 1
+    assert "  not accepted: no criterion" in output
     assert "has no criterion for these parameters" in errors
     path = tmp_path / "belt.toml"
     assert call("save", "block_on_belt", str(path), "--set", "t_end=1")[0] == 0

@@ -78,6 +78,15 @@ def test_two_roles_at_once(call: Call, law: str) -> None:
     assert not {"restitution", "contact_time", "impact", "friction"} & set(report["parameters"])
 
 
+def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> None:
+    words = ("--law", "normal=hunt_crossley,stiffness=1e9,dissipation=1")
+    status, output, errors = call("run", "dumbbell", "--set", "t_end=0.2", "--json", *words)
+    assert status == 0, errors
+    report = json.loads(output)
+    assert report["n_impacts"] == 0
+    assert not {"restitution", "contact_time", "impact"} & set(report["parameters"])
+
+
 @pytest.mark.parametrize(
     ("word", "told"),
     [
@@ -86,7 +95,7 @@ def test_two_roles_at_once(call: Call, law: str) -> None:
         ("friction={file}", "must name a class of the file"),
         ("fricton={file}:Flat", "--law role name must be a known one, but it is 'fricton'. Did you mean 'friction'?"),
         ("friction=columb", "--law friction name must be a known one, but it is 'columb'. Did you mean 'coulomb'?"),
-        ("friction=newton", "--law friction name must be a known one, but it is 'newton'. Known: coulomb,"),
+        ("friction=newton", "--law friction name must be a known one, but it is 'newton'. Known: anisotropic,"),
         ("friction", "must have the form ROLE=LAW"),
         ("friction={file}:Flat,friction", "must have the form ROLE=LAW"),
         ("friction={file}:Flat,friction=1,friction=2", "each NAME once"),
@@ -109,6 +118,10 @@ def test_a_parameter_of_the_replaced_law_is_refused(call: Call, law: str) -> Non
     status, _, errors = call("run", "dumbbell", "--set", "friction=0.3", "--law", f"friction={law}")
     assert status == 2
     assert "--set friction must not be given with --law friction, which replaces the law that it belongs to" in errors
+    soft = "normal=hertz,stiffness=1e9"
+    status, _, errors = call("run", "dumbbell", "--set", "restitution=0.3", "--law", soft)
+    assert status == 2
+    assert "--set restitution must not be given with --law normal" in errors
     status, _, errors = call("run", "dumbbell", "--law", f"friction={law}", "--law", f"friction={law}")
     assert status == 2
     assert "must come once" in errors
@@ -120,7 +133,7 @@ def test_a_parameter_of_the_replaced_law_is_refused(call: Call, law: str) -> Non
         ("\n1 +", "my_law.py, line 2, cannot be loaded: SyntaxError: invalid syntax"),
         ("\n\nraise KeyError('x')", "my_law.py, line 3, cannot be loaded: KeyError: 'x'"),
         ("import no_such_module", "my_law.py, line 1, cannot be loaded: ModuleNotFoundError"),
-        ("class Flat: pass", "must be a subclass of FrictionLaw"),
+        ("class Flat: pass", "must be a subclass of TangentialLaw"),
         (LAW.replace("def is_fulfilled", "def fulfils"), "must define is_fulfilled"),
         (LAW.replace("@dataclass(frozen=True)", ""), "must be a dataclass"),
     ],

@@ -20,8 +20,10 @@ def test_its_own_tests_are_green_and_find_a_mistake(call: Call, tmp_path: Path) 
         "README.md",
         "pyproject.toml",
         "tests/test_friction.py",
+        "tests/test_scenario.py",
         "wet_sand/__init__.py",
         "wet_sand/friction.py",
+        "wet_sand/scenario.py",
     ]
     words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
     done = subprocess.run(words, cwd=folder, capture_output=True, text=True)

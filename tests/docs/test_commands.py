@@ -14,9 +14,9 @@ SESSIONS = ("howto/friction_law.md", "howto/scenario_file.md")
 """Pages whose bash blocks are one session."""
 
 _BLOCK = re.compile(
-    r"^```(?P<kind>bash|toml)\n(?P<text>.*?)^```\n(?:\nprints\n\n```text\n(?P<output>.*?)^```\n)?", re.M | re.S
+    r"^```(?P<kind>bash|toml|yaml)\n(?P<text>.*?)^```\n(?:\nprints\n\n```text\n(?P<output>.*?)^```\n)?", re.M | re.S
 )
-_NAME = re.compile(r"# (\S+\.toml)\n")
+_NAME = re.compile(r"# (\S+\.(?:toml|yaml))\n")
 _MARK = "---- end of a block ----"
 
 
@@ -32,12 +32,12 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> Environment:
 
 @pytest.mark.parametrize("name", SESSIONS)
 def test_the_commands_of_a_page_do_what_it_says(name: str, environment: Environment, tmp_path: Path) -> None:
-    """A toml block with a file name in its first line is that file; the bash blocks are one session."""
+    """A toml or yaml block with a file name in its first line is that file; the bash blocks are one session."""
     script = ["set -e"]
     blocks = _blocks(PAGES / name)
     assert any(block["kind"] == "bash" for block in blocks)
     for block in blocks:
-        if block["kind"] == "toml":
+        if block["kind"] != "bash":
             named = _NAME.match(block["text"])
             if named is not None:
                 (tmp_path / named[1]).write_text(block["text"], encoding="utf-8")

@@ -37,7 +37,7 @@ from bodies import (
     Table,
     TorsionSpring,
 )
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from laws import Coulomb, CoulombContensou, Directional, EnergeticImpact, Frictionless, HuntCrossley, Unilateral
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.plugins import registry
 
@@ -195,6 +195,19 @@ def test_a_function_goes_by_its_name(tmp_path: Path) -> None:
     path.write_text(said.replace("tests.files.test_round_trip", "no_such_module"))
     with pytest.raises(ns.PluginError, match="no_such_module:_nothing cannot be imported: ModuleNotFoundError"):
         ns.load_system(path)
+
+
+def test_laws_of_compliant_contacts_come_back(tmp_path: Path) -> None:
+    """Without an impact law, and with axes and words among the parameters."""
+    plate, ball, other = Plate(), Ball(0.01), Ball(0.02)
+    system = ns.System([plate, ball, other])
+    system.contact(plate, ball, normal=HuntCrossley(1e9, 0.3), friction=CoulombContensou(0.2, 1e-4))
+    fur = Directional(0.1, 0.3, 0.2, axis=(0.0, 1.0, 0.0), body="first")
+    system.contact(plate, other, **LAWS | {"friction": fur})
+    system.place(other, position=(0.1, 0.0, 0.1))
+    path = tmp_path / "system.toml"
+    ns.save_system(system, path, t_end=1.0)
+    assert same(system, ns.load_system(path).system)
 
 
 def test_what_is_not_installed_or_is_a_function_is_refused_by_name(tmp_path: Path) -> None:

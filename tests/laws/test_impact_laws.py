@@ -166,3 +166,26 @@ def test_laws_differ_on_a_dumbbell(build: Any) -> None:
         assert solution.energy.residual <= 1e-8
         ends.append(solution.events.u_after[solution.events.cause == IMPACT][0])
     assert np.max(np.abs(ends[0] - ends[1])) > 1e-3
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 5.0, 6.0, 10.0])
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-8, 1e-11])
+def test_the_share_comes_back_whatever_the_exponent(exponent: float, tolerance: float) -> None:
+    """A steep force has given back its energy long before its deformation: the last contact to open adds none."""
+    mass = np.diag([1.0, 1.0, 1.0, 0.3, 0.4, 0.5])
+    arms = np.array([[0.5, 0.0, -0.5], [0.1, -0.5, -0.5]])
+    normal = np.array([[0.0, 0.0, 1.0, *np.cross(arm, (0.0, 0.0, 1.0))] for arm in arms]).T
+    tangential = np.zeros((6, 2, 2))
+    for i, arm in enumerate(arms):
+        for j, axis in enumerate(np.eye(3)[:2]):
+            tangential[:, i, j] = [*axis, *np.cross(arm, axis)]
+    for down in ((0.0, 0.0, -1.0), (0.3, -0.2, -0.7)):
+        u = np.array([*down, 0.0, 0.0, 0.0])
+        for e in (0.1, 0.5, 0.9):
+            laws = [EnergeticImpact(e, exponent=exponent)] * 2
+            done = ns.solve_impact(mass, normal, tangential, u, laws, [Coulomb(0.0)] * 2, tolerance=tolerance)
+            size = float(np.max(done.stored))
+            bound = 20.0 * tolerance + 1e-9
+            np.testing.assert_allclose(done.returned, e**2 * done.stored, rtol=0, atol=bound * size)
+            lost = 0.5 * u @ mass @ u - 0.5 * done.velocity @ mass @ done.velocity
+            assert lost == pytest.approx(float(np.sum(done.restitution_loss)), abs=bound * size)

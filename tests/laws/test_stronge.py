@@ -68,6 +68,19 @@ def test_all_ways_of_the_slip_occur() -> None:
     assert found == [(1, False), (0, True), (0, True), (-1, True), (1, False)]
 
 
+@pytest.mark.parametrize("angle", [0.0, 0.3, 1.0])
+def test_a_straight_fall_is_planar_in_any_tangents(angle: float) -> None:
+    """Where nothing slips and the normal impulse pushes no way, round-off must not choose a direction of slip."""
+    axes = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    tangential = np.zeros((6, 1, 2))
+    tangential[:2, 0, :], tangential[3:5, 0, :] = axes, 0.5 * np.array([[0.0, 1.0], [-1.0, 0.0]]) @ axes
+    normal = np.eye(6)[:, 2:3]
+    velocity = np.array([0.0, 0.0, -1.0, 0.0, 0.0, 0.0])
+    problem = Problem(np.diag([1.0, 1.0, 1.0, 0.3, 0.4, 0.5]), normal, tangential, velocity, np.array([0.2]))
+    after, _ = solve([StrongeImpact(0.5)], problem)
+    np.testing.assert_allclose(after, -0.5 * velocity, rtol=0, atol=1e-15)
+
+
 def test_separating_contact_gets_nothing() -> None:
     """No approach, no impulse."""
     np.testing.assert_array_equal(apply([StrongeImpact(0.5)], np.eye(3), [[0.2, 1.0, 0.0]], [0.3]), np.zeros((1, 3)))

@@ -115,6 +115,7 @@ LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
     (check_impact_law, PlasticImpact()),
     (check_impact_law, MoreauImpact(0.5)),
     (check_impact_law, PoissonImpact(0.5)),
+    (check_impact_law, StrongeImpact(0.6)),
 ]
 BODIES: list[Body] = [
     Ball(0.02),
@@ -159,12 +160,6 @@ SHAPES: list[tuple[Shape, Shape]] = [
 ]
 
 
-KNOWN = {
-    "EnergeticImpact: certificate": "with an exponent of 6 or more a multiple impact gives back up to 2 % too much",
-}
-"""Properties that do not hold yet, and why."""
-
-
 def _of_pairs() -> Iterator[Property]:
     known = registry.load_all("kinematics").values()
     for first, second in SHAPES:
@@ -195,13 +190,8 @@ def _all() -> Iterator[Property]:
         yield from check_scenario(owner())
 
 
-def _marked(prop: Property) -> Any:
-    marks = [pytest.mark.xfail(strict=True, reason=KNOWN[str(prop)])] if str(prop) in KNOWN else []
-    return pytest.param(prop, id=str(prop), marks=marks)
-
-
 @pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
-@pytest.mark.parametrize("prop", [_marked(prop) for prop in _all()])
+@pytest.mark.parametrize("prop", list(_all()), ids=str)
 def test_built_in(prop: Property) -> None:
     """What the kit asks of a plug-in holds of ours."""
     prop()
@@ -213,8 +203,7 @@ def test_all_are_there() -> None:
     for group, base in (("laws", (FrictionLaw, ImpactLaw, NormalLaw, TractionLaw)), ("bodies", (Body,))):
         installed = set(registry.load_all(group).values())
         assert all(issubclass(owner, base) for owner in installed)
-        # the kit's problems have two contacts, or spin, which this one refuses
-        assert installed - {StrongeImpact} <= given
+        assert installed <= given
     others: list[tuple[str, list[Any]]] = [("joints", JOINTS), ("loads", LOADS), ("motions", MOTIONS)]
     for group, objects in others:
         assert {type(one) for one in objects} == set(registry.load_all(group).values())
