@@ -153,7 +153,7 @@ def _look(law: TractionLaw, load: float, motion: Array, state: Array) -> tuple[A
 def _bent(law: TractionLaw, case: Case) -> Array:
     # not all states alike
     shares = case["bent"] * np.cos(1.0 + np.arange(len(law.initial_state)))
-    return _start(law) + shares * _scale(law)
+    return np.asarray(_start(law) + shares * _scale(law))
 
 
 def _starts(law: TractionLaw, case: Case) -> str:

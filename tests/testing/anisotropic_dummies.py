@@ -65,11 +65,11 @@ class Skewed(AnisotropicFrictionLaw):
 
     @property
     def ratios(self) -> Ratios:
-        return tuple(self.parts)  # type: ignore[return-value]
+        return tuple(self.parts)
 
     @property
     def axis(self) -> tuple[float, float, float]:
-        return tuple(self.direction)  # type: ignore[return-value]
+        return tuple(self.direction)
 
     @property
     def body(self) -> Any:
