@@ -28,7 +28,8 @@ _PERIODS = 20.0
 _SLOWED = 0.3
 """Part of the slip velocity that friction takes in this time, if the load can be so large."""
 _LARGEST_LOAD = 1e3
-_SAME = 1e-5
+_SAME, _STEPS = 1e-5, 1e-7
+"""Deviations: of the change, and of the whole, by the engine's tolerance of 1e-9 per step."""
 
 
 def state_rows(law: StatefulFrictionLaw) -> list[Row]:
@@ -144,7 +145,7 @@ def _slides(law: StatefulFrictionLaw, case: Case) -> str:
         load *= _SLOWED
     puck, u = Puck(length=speed * duration, speed=speed), (speed, 0.0, 0.0, 0.0, 0.0, 0.0)
     given = float(run(puck, 0.0, u, (Rigid(), law, Spring()), duration, gravity=load).u_end[0])
-    if abs(given - wanted) > _SAME * abs(speed - wanted) + 1e-9 * speed:
+    if abs(given - wanted) > _SAME * abs(speed - wanted) + _STEPS * speed:
         return (
             f"after {duration:g} s under {load:g} N a mass of 1 kg has {given:.9g} m/s, "
             f"by an independent integration {wanted:.9g} m/s"
