@@ -162,6 +162,7 @@ def _bristle() -> Any:
     right.plot(speeds[::20], settled, label="after 10 mm of slip", **DOTS)
     right.set_xlabel("slip speed [m/s]")
     right.set_ylim(0.0, 0.35)
+    right.set_xticks([0.0, 0.05, 0.1, 0.15, 0.2])
     for axis in (left, right):
         axis.legend(frameon=False, fontsize=8)
     return figure
