@@ -132,7 +132,7 @@ def solve_contact(
 
 
 def check_friction(thing: str, friction: Sequence[FrictionLaw]) -> None:
-    """Raise InvalidInput unless the laws are told by matrices: a coefficient of the slip speed each, in a round bound."""
+    """Raise InvalidInput unless each law is a coefficient of the slip speed alone, with a round bound."""
     for law in friction:
         if not isinstance(law, FrictionLaw) or isinstance(law, (AnisotropicFrictionLaw, StatefulFrictionLaw)):
             raise InvalidInput(
