@@ -53,7 +53,9 @@ EXTENSION_POINTS = (
     "joint",
     "load",
     "motion",
+    "normal_law",
     "scenario",
+    "traction_law",
 )
 LONGEST = 25
 
