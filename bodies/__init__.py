@@ -20,6 +20,7 @@ from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.contacts.polyhedron_point import PolyhedronPoint
 from bodies.contacts.polyhedron_polyhedron import PolyhedronPolyhedron
+from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
@@ -120,6 +121,7 @@ __all__ = [
     "Polyhedron",
     "PolyhedronPoint",
     "PolyhedronPolyhedron",
+    "PolyhedronSphere",
     "Rest",
     "RigidBody",
     "Rod",

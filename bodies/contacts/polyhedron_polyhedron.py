@@ -10,9 +10,9 @@ from typing import ClassVar, final
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polyhedron_point import PointPolyhedron, PolyhedronPoint
-from bodies.contacts.polytope_tables import Numbers, edge_rows
+from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.tangents import tangent_of, write_tangent
-from bodies.contacts.vertex_face import REACH
+from bodies.contacts.vertex_face import REACH, height_over
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
 from nonsmooth.errors import InvalidInput
@@ -26,9 +26,10 @@ _PARALLEL = 0.01
 """Sine of the angle between two edges below which they do not cross; then the faces' vertices hold all the same."""
 _ASTRAY = 0.25
 """Sine of the angle by which the normal may leave the normals that an edge has: what may soon close is followed."""
-_INSIDE = 4.0
-"""Edges overlap only where they cross so many depths away from their ends; nearer to them they pass each other."""
 
+
+_INSIDE = 4.0
+"""Where no point is found inside, edges overlap only where they cross so many depths away from their ends."""
 _BLUNT = 8.0
 """Slope, in depths over lengths of an edge, by which bodies that do not overlap may lean over a wedge."""
 
@@ -41,7 +42,18 @@ def _astray(frame: Floats, edge: Floats, sign: float, x: float, y: float, z: flo
     return max(sign * (x * ux + y * uy + z * uz), sign * (x * vx + y * vy + z * vz))
 
 
-def _evaluate(a: Floats, b: Floats, out: Floats, edge_a: Floats, edge_b: Floats, size: float) -> None:
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    edge_b: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    size: float,
+) -> None:
     ax, ay, az = point_in_world(a, edge_a[0], edge_a[1], edge_a[2])
     bx, by, bz = point_in_world(b, edge_b[0], edge_b[1], edge_b[2])
     ex, ey, ez = vector_in_world(a, edge_a[3], edge_a[4], edge_a[5])
@@ -73,13 +85,23 @@ def _evaluate(a: Floats, b: Floats, out: Floats, edge_a: Floats, edge_b: Floats,
         if minus < plus:
             nx, ny, nz, gap = -nx, -ny, -nz, -gap
             plus, minus = minus, plus
-        if gap < 0.0 and minus <= -_BLUNT * gap / min(edge_a[6], edge_b[6]):
-            # edges of thin wedges, which are as well on the other side of each other
+        outside = 0.0
+        if gap < 0.0 or plus > _ASTRAY:
+            # the bodies overlap where the point of one edge lies in the other body
+            px, py, pz = ax + s * ex, ay + s * ey, az + s * ez
+            outside = height_over(b, n_faces_b, faces_b, px, py, pz)
+            px, py, pz = bx + t * fx, by + t * fy, bz + t * fz
+            outside = min(outside, height_over(a, n_faces_a, faces_a, px, py, pz))
+        if outside < -margin:
+            gap = -abs(gap)
+        elif gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
+            # edges of thin wedges are as well on the other side of each other
             nx, ny, nz, gap = -nx, -ny, -nz, -gap
-            plus = minus
-        past = max(past, size * (plus - _ASTRAY))
-        if gap < 0.0:
-            past = max(past, over - _INSIDE * gap - margin)
+            past = max(past, size * (minus - _ASTRAY))
+        else:
+            past = max(past, size * (plus - _ASTRAY))
+            if gap < 0.0:
+                past = max(past, over - _INSIDE * gap - margin)
     if past > 0.0:
         if gap < 0.0:
             nx, ny, nz = -nx, -ny, -nz
@@ -107,6 +129,8 @@ class PolyhedronPolyhedron(ContactKinematics):
     ----------
     edge_a, edge_b : tuple of float
         The edges, as :data:`bodies.contacts.polytope_tables.EDGE` numbers.
+    faces_a, faces_b : tuple of float
+        All faces of either body.
     number_a, number_b : int
         Their numbers.
     size : float
@@ -116,13 +140,23 @@ class PolyhedronPolyhedron(ContactKinematics):
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Polyhedron, Polyhedron)
     edge_a: Numbers
     edge_b: Numbers
+    faces_a: Numbers
+    faces_b: Numbers
     number_a: int
     number_b: int
     size: float
 
     def parameters(self) -> dict[str, Value]:
-        """Return both edges and the size."""
-        return {"edge_a": self.edge_a, "edge_b": self.edge_b, "size": self.size}
+        """Return edges, faces and size."""
+        return {
+            "edge_a": self.edge_a,
+            "edge_b": self.edge_b,
+            "n_faces_a": float(len(self.faces_a) // FACE),
+            "faces_a": self.faces_a,
+            "n_faces_b": float(len(self.faces_b) // FACE),
+            "faces_b": self.faces_b,
+            "size": self.size,
+        }
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
@@ -139,8 +173,9 @@ class PolyhedronPolyhedron(ContactKinematics):
                 f"{len(one.edges)} edges against {len(two.edges)} make {n}",
                 "Take polyhedra with fewer edges, or a smooth shape.",
             )
+        faces = face_table(one), face_table(two)
         crossings = (
-            cls(row_a, row_b, i, j, size)
+            cls(row_a, row_b, *faces, i, j, size)
             for i, row_a in enumerate(edge_rows(one))
             for j, row_b in enumerate(edge_rows(two))
         )

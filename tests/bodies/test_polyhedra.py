@@ -43,7 +43,7 @@ def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, kind
                 assert np.min(others[past]) > 1e-10
 
 
-_STEP = 5e-4
+_STEP = 2.5e-4
 _WEIGHTS = {1: 3.0 / 4.0, 2: -3.0 / 20.0, 3: 1.0 / 60.0}
 """Central differences of sixth order."""
 
