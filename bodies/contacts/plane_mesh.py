@@ -49,7 +49,7 @@ class PlaneMesh(ContactKinematics):
                 UnusualValue,
                 stacklevel=2,
             )
-        return tuple(cls(*corner, height) for corner in corners)
+        return tuple(cls(x, y, z, height) for x, y, z in corners)
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -46,7 +46,7 @@ def winding_number(vertices: Vector, faces: Integers, point: Vector) -> float:
 def areas_of(vertices: Vector, faces: Integers) -> Vector:
     """Return the areas of the triangles [m^2], shape [m]."""
     a, b, c = _corners(vertices, faces, np.zeros(3))
-    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return np.asarray(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
 
 
 def _middle(vertices: Vector) -> Vector:

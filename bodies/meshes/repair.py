@@ -78,8 +78,8 @@ def _merge(vertices: Vector, faces: Integers) -> Repaired:
     n = len(vertices)
     links = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
     count, group = connected_components(links, directed=False)
-    places = np.stack([np.bincount(group, weights=vertices[:, i]) for i in range(3)], axis=1)
-    places /= np.bincount(group)[:, None]
+    sums = np.stack([np.bincount(group, weights=vertices[:, i]) for i in range(3)], axis=1)
+    places: Vector = np.asarray(sums / np.bincount(group)[:, None], dtype=float)
     shift = float(np.max(np.linalg.norm(places[group] - vertices, axis=1)))
     return *merge_equal(
         places, group[faces].astype(np.int64)
@@ -133,7 +133,7 @@ def _cut_neighbour(vertices: Vector, faces: Integers, flat: int) -> Integers:
         k = next(k for k in range(3) if faces[t, k] not in (start, end))
         tip, one, two = (int(faces[t, (k + j) % 3]) for j in range(3))
         new += [(tip, one, between), (tip, between, two)]
-    left = np.delete(faces, [flat, *others], axis=0)
+    left = np.delete(faces, np.array([flat, *others], dtype=np.int64), axis=0)
     return np.concatenate([left, np.array(new, dtype=np.int64).reshape(-1, 3)])
 
 

@@ -9,6 +9,7 @@ from typing import Any, final
 import numpy as np
 
 from bodies.meshes.surface import Surface
+from bodies.meshes.topology import Integers
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.placement import with_axes
 from bodies.shapes.polytope import MOST_VERTICES
@@ -115,7 +116,7 @@ class TriangleMesh(Shape):
         """Inertia at density 1 about the centroid in the axes of the body frame [m^5], shape [3, 3]."""
         return np.asarray(self._axes @ self.surface.mesh.inertia @ self._axes.T)
 
-    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Integers]:
         """Return its vertices in the body frame [m], shape [n, 3], and its triangles, shape [m, 3]."""
         mesh = self.surface.mesh
         return self._placed(mesh.vertices), mesh.faces

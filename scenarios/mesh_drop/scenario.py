@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bodies import MeshBody, MeshFile, Plate
 from bodies.meshes.surface import Surface
 from bodies.meshes.units import METRES
-from bodies.values import product, rotation
+from bodies.values import rotation
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.interfaces import Criterion, Scenario

@@ -2,14 +2,15 @@
 
     pip install '.[full]' && python -m tests.benchmarks.broad_phase
 
-Printed are, for 200 and 1000 balls at random places that move on between two searches, the number of pairs of boxes that
-overlap, and least and median milliseconds of a search: by the tree (places set, tree built, pairs collected and
+Printed are, for 200 and 1000 balls at random places that move on between two searches, the number of pairs of boxes
+that overlap, and least and median milliseconds of a search: by the tree (places set, tree built, pairs collected and
 numbered), by numpy over all pairs, and by the engine's list (sorted balls; its own bodies evaluated and the contacts of
 pairs that are near put into slots), which runs compiled between two steps.
 """
 
 from __future__ import annotations
 
+import itertools
 import statistics
 import time
 from collections.abc import Callable
@@ -53,7 +54,7 @@ def _by_list(n: int) -> Callable[[Places], object]:
     balls = [Ball(RADIUS) for _ in range(n)]
     system = ns.System(balls)
     laws = {"normal": Unilateral(), "friction": Coulomb(0.3), "impact": EnergeticImpact(0.5)}
-    for one, two in zip(balls, balls[1:], strict=False):
+    for one, two in itertools.pairwise(balls):
         system.contact(one, two, **laws)  # type: ignore[arg-type]
     for ball, place in zip(balls, np.arange(3.0 * n).reshape(-1, 3), strict=True):
         system.place(ball, position=tuple(place.tolist()))

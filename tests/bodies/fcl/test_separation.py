@@ -92,7 +92,7 @@ def test_aligned_boxes_are_right() -> None:
     rng = np.random.default_rng(2)
     for turn in TURNS:
         one, two = (rng.integers(1, 5, 3) * 0.25 for _ in range(2))
-        place = rng.integers(-6, 7, 3) * 0.5
+        place = np.asarray(rng.integers(-6, 7, 3) * 0.5, dtype=float)
         found = separation(Solid(Box(*one)), Pose(), Solid(Box(*two)), Pose(place, turn))
         away = np.maximum(np.abs(place) - one - np.abs(turn) @ two, 0.0)
         exact = float(np.linalg.norm(away))
@@ -113,7 +113,7 @@ def test_symmetric_poses_are_right_or_doubted(other: Any, lean: float) -> None:
     box, solid = Solid(Box(0.5, 0.25, 0.75)), Solid(other)
     tilt = Rotation.from_rotvec([lean, 0.0, -lean]).as_matrix()
     for _ in range(100):
-        place = rng.integers(-4, 5, 3) * 0.5
+        place = np.asarray(rng.integers(-4, 5, 3) * 0.5, dtype=float)
         turn = TURNS[rng.integers(len(TURNS))] @ tilt
         try:
             found = separation(box, Pose(), solid, Pose(place, turn))

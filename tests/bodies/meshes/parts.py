@@ -44,7 +44,7 @@ def torus(n: int = 24, m: int = 12, radius: float = 0.02, thickness: float = 0.0
     points = np.stack([r * np.cos(u), r * np.sin(u), thickness * np.sin(v)], axis=-1).reshape(-1, 3)
 
     def at(i: Array, j: Array) -> Array:
-        return (i % n * m + j % m).ravel()
+        return np.asarray(i % n * m + j % m).ravel()
 
     a, b = at(around, across), at(around + 1, across)
     c, d = at(around + 1, across + 1), at(around, across + 1)

@@ -25,7 +25,7 @@ def _box_with(**changed: object) -> parts.Mesh:
 
 
 def _t_junction() -> parts.Mesh:
-    """Return a box with a vertex in the middle of an edge: a triangle without area lies between it and one of its faces."""
+    """Return a box with a vertex amid an edge: between it and one of the faces is a triangle without area."""
     points, faces = parts.box()
     a, b, c = faces[0]
     points = np.concatenate([points, [0.5 * (points[a] + points[b])]])

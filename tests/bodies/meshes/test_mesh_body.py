@@ -31,6 +31,7 @@ from bodies import (
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.errors import MissingPackagesError
+from nonsmooth.interfaces import Body
 from nonsmooth.model.assembly import assemble
 from nonsmooth.parameters import UnusualValue
 from scenarios.dumbbell.scenario import DumbbellScenario
@@ -74,7 +75,7 @@ def test_wrong_input() -> None:
         Decomposition(pieces=2.5)
 
 
-def _dropped(build: Any, body: ns.System | Any, t_end: float) -> ns.Solution:
+def _dropped(build: Any, body: Body, t_end: float) -> ns.Solution:
     floor = Plate()
     system = ns.System([floor, body])
     system.contact(floor, body, **build.laws())

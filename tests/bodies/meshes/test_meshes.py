@@ -120,7 +120,8 @@ def test_faces_that_single_precision_bends_are_made_flat(name: str) -> None:
     if name == "octagon":
         # a double pyramid cut off below and above, with eight sides: four faces meet in no corner, three in all
         ring = np.array([(math.cos(a), math.sin(a), 0.0) for a in np.linspace(0.0, 2.0 * np.pi, 9)[:-1]])
-        corners, n_faces = 0.01 * np.concatenate([ring + [0, 0, 1], 2.0 * ring, ring - [0, 0, 1]]), 18
+        up = np.array([0.0, 0.0, 1.0])
+        corners, n_faces = 0.01 * np.concatenate([ring + up, 2.0 * ring, ring - up]), 18
     rough = parts.turned((corners, np.zeros(0)), 1.1)[0].astype(np.float32).astype(float)
     hull = hull_of(name, rough)
     assert len(ConvexHull(rough.tolist()).polytope.faces) > n_faces
