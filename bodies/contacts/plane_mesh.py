@@ -44,8 +44,8 @@ class PlaneMesh(ContactKinematics):
         if len(corners) > MANY:
             warnings.warn(
                 f"mesh {second.surface.mesh.name}: its hull has {len(corners)} corners, each a contact of its own with "
-                "a plane, and every step looks at all of them. Is it a rounded body? Take a coarser mesh, or a shape in "
-                "closed form (Sphere, Ellipsoid, Cylinder, ...), which is exact and has one contact.",
+                "a plane, and every step looks at all of them. Is it a rounded body? Take a coarser mesh, or a shape "
+                "in closed form (Sphere, Ellipsoid, Cylinder, ...), which is exact and has one contact.",
                 UnusualValue,
                 stacklevel=2,
             )

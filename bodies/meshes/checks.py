@@ -94,15 +94,15 @@ def _check_edges(thing: str, faces: Integers) -> None:
             thing,
             "must be closed, but there are open edges",
             opened,
-            f"They are {opened} of {len(edges)} edges. Repair with 'merge' if vertices that should meet nearly do, with "
-            "'holes' if there are some: both say what they change.",
+            f"They are {opened} of {len(edges)} edges. Repair with 'merge' if vertices that should meet nearly do, "
+            "with 'holes' if there are some: both say what they change.",
         )
     if crowded:
         raise InvalidInput(
             thing,
             "must have two triangles at every edge, but there are edges with more",
             crowded,
-            "Walls inside, or triangles that come twice: repair with 'duplicates', or unite the parts where it was made.",
+            "Walls inside, or triangles that come twice: repair with 'duplicates', or unite parts where it was made.",
         )
     halves = half_edges(faces)
     senses = np.where(halves[:, 0] < halves[:, 1], 1, -1)

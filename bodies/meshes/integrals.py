@@ -1,4 +1,4 @@
-"""Volume, centre and inertia that a closed surface encloses, exact for a polyhedron; how often it goes round a point."""
+"""Volume, centre and inertia inside of a closed surface, exact for a polyhedron; how often it goes round a point."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ def read_file(path: Path, largest: int = LARGEST) -> tuple[Vector, Integers]:
     Raises
     ------
     InvalidInput
-        If there is no such file, it has more than ``largest`` triangles, trimesh cannot read it, or it has no triangles.
+        If there is no such file, it has more than ``largest`` triangles or none, or trimesh cannot read it.
     """
     thing = f"mesh {path.name}"
     if not path.is_file():

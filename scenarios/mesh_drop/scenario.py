@@ -84,7 +84,7 @@ class MeshDrop(Scenario):
 
     @property
     def body(self) -> MeshBody:
-        """The part."""
+        """A part like the one that falls."""
         return self._body
 
     def resolved(self) -> Mapping[str, Any]:
@@ -105,15 +105,15 @@ class MeshDrop(Scenario):
 
     def build(self) -> System:
         """Return ground and part at its start."""
-        ground = Plate()
-        system = System([ground, self.body], gravity=_GRAVITY)
+        ground, body = Plate(), MeshBody(self.body.surface, density=self.density)
+        system = System([ground, body], gravity=_GRAVITY)
         friction = Coulomb(self.friction) if self.friction > 0.0 else Frictionless()
         impact = EnergeticImpact(self.restitution, duration=self.contact_time)
-        system.contact(ground, self.body, normal=Unilateral(), friction=friction, impact=impact)
+        system.contact(ground, body, normal=Unilateral(), friction=friction, impact=impact)
         spin = rotation(self.orientation).T @ np.array([0.0, 0.0, self.spin])
         at_height(
             system,
-            self.body,
+            body,
             self.height,
             position=(0.0, 0.0, self.height + 2.0 * self.body.mesh.extent),
             orientation=self.orientation,
@@ -175,7 +175,8 @@ class MeshDrop(Scenario):
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
         """Return the first impact, the deepest point below ground, and losses over the energy that was given."""
-        q, u = self.build().start(self.body)
+        system = self.build()
+        q, u = system.start(system.bodies[1])
         kinetic = self.kinetic_energy(np.stack([u, solution.u_end]))
         weight = self.body.total_mass * _GRAVITY
         given = weight * float(q[2] - solution.q_end[2]) + float(kinetic[0] - kinetic[1])
