@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from bodies import Box, Capsule, ConvexHull, Cylinder, Ellipsoid, Sphere, TriangleMesh, Triangles
-from bodies.fcl.solid import Pose
+from bodies.distances.pose import Pose
 from nonsmooth.interfaces import Shape
 from tests.bodies.meshes import parts
 

@@ -15,8 +15,9 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import Box, Capsule, Cylinder, Disc, Plane, Point, Sphere
-from bodies.fcl.separation import DoubtfulDistance, separation
-from bodies.fcl.solid import Pose, Solid
+from bodies.distances.separation import DoubtfulDistance, separation
+from bodies.distances.pose import Pose
+from bodies.fcl.solid import FclSolid as Solid
 from nonsmooth.interfaces import ConvexShape
 from tests.bodies.carriers import Rig
 from tests.bodies.fcl.solids import AXIS, SHAPES, poses
@@ -209,8 +210,9 @@ def test_one_solid_at_two_places() -> None:
 _OVERLAPS = """
 import numpy as np
 from scipy.spatial.transform import Rotation
-from bodies.fcl.separation import DoubtfulDistance, separation
-from bodies.fcl.solid import Pose, Solid
+from bodies.distances.separation import DoubtfulDistance, separation
+from bodies.distances.pose import Pose
+from bodies.fcl.solid import FclSolid as Solid
 from tests.bodies.fcl.solids import SHAPES
 
 rng, count, missed = np.random.default_rng(0), 0, 0

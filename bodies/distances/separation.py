@@ -1,4 +1,4 @@
-"""Distances of solids by FCL: unsigned, of enlarged bodies, and bounded from below where both are convex."""
+"""Distances of solids: unsigned, and bounded from below where both are convex."""
 
 from __future__ import annotations
 
@@ -8,14 +8,13 @@ from typing import final
 
 import numpy as np
 
-from bodies.fcl.aligned import aligned_boxes
-from bodies.fcl.geometry import SCALE
-from bodies.fcl.solid import Pose, Solid
+from bodies.distances.aligned import aligned_boxes
+from bodies.distances.pose import Pose
+from bodies.distances.solid import Frame, Solid
 from bodies.meshes.integrals import winding_number
 from bodies.shapes.box import Box
-from bodies.shapes.sphere import Sphere
 from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.errors import NonsmoothError
+from nonsmooth.errors import InvalidInput, NonsmoothError
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.interfaces.body import Vector
 
@@ -24,11 +23,11 @@ _DOUBT = 1e-3
 _BELOW = 1e-7
 """The same by which it may be below: points of the bodies are not."""
 _LEAST = 1e-12
-"""Distance [m] at which FCL does not tell any more whether bodies overlap, after enlargement."""
+"""Distance [m] at which a library does not tell any more whether bodies overlap."""
 
 
 class DoubtfulDistance(NonsmoothError):
-    """An answer of FCL that contradicts a bound of its own; neither answer nor guess is returned."""
+    """An answer of a library that contradicts a bound; neither answer nor guess is returned."""
 
 
 @final
@@ -67,14 +66,18 @@ def separation(first: Solid, first_pose: Pose, second: Solid, second_pose: Pose)
     Raises
     ------
     DoubtfulDistance
-        If FCL says more than support functions allow, as it does for some symmetric poses.
+        If the library contradicts support functions, as FCL does for some symmetric poses.
+    InvalidInput
+        If the solids are of two libraries.
     """
+    if type(first) is not type(second):
+        raise InvalidInput("separation", "needs solids of one library", type(second).__name__, "Make both alike.")
     if type(second.shape) is TriangleMesh and type(first.shape) is not TriangleMesh:
         # the other order gives points in swapped places
         back = separation(second, second_pose, first, first_pose)
         return Separation(back.distance, back.second, back.first, back.lower)
     origin = 0.5 * (first_pose.position + second_pose.position)
-    frames = first.own_frame(first_pose, origin), second.own_frame(second_pose, origin)
+    frames = first.frame(first_pose, origin), second.frame(second_pose, origin)
     if type(first.shape) is Box and type(second.shape) is Box:
         halves = [np.array([b.half_x, b.half_y, b.half_z]) for b in (first.shape, second.shape)]
         found = aligned_boxes(frames[0], halves[0], frames[1], halves[1])
@@ -85,25 +88,8 @@ def separation(first: Solid, first_pose: Pose, second: Solid, second_pose: Pose)
         second, second_pose, _some(first, frames[0], origin)
     ):
         return _overlapping()
-    other = second if second is not first else Solid(second.shape)
-    distance, one, two = _asked(first, frames[0], other, frames[1])
+    distance, one, two = first.distance(frames[0], second, frames[1])
     return _judged(first, first_pose, second, second_pose, distance, one + origin, two + origin)
-
-
-def _asked(
-    first: Solid, one: tuple[Vector, Vector], second: Solid, two: tuple[Vector, Vector]
-) -> tuple[float, Vector, Vector]:
-    """Return distance [m] and nearest points from the origin of the frames."""
-    import fcl
-
-    # a result keeps the least distance it ever held
-    request, result = fcl.DistanceRequest(enable_nearest_points=True), fcl.DistanceResult()
-    distance = fcl.distance(first.at(*one), second.at(*two), request, result) / SCALE
-    points = [np.array(point, dtype=float) / SCALE for point in result.nearest_points]
-    if type(first.shape) is TriangleMesh and type(second.shape) is Sphere:
-        # these come in the frames of the bodies
-        points = [place + axes @ point for point, (place, axes) in zip(points, (one, two), strict=True)]
-    return distance, points[0], points[1]
 
 
 def _judged(
@@ -111,20 +97,28 @@ def _judged(
 ) -> Separation:
     if not distance > _LEAST:
         return _overlapping()
+    library = type(first).__name__
     names = f"{type(first.shape).__name__}-{type(second.shape).__name__}"
     apart = float(np.linalg.norm(two - one))
     if not abs(apart - distance) <= _DOUBT * distance + _LEAST:
-        raise DoubtfulDistance(f"FCL: the distance of {names} is {distance:.6g} m, that of its points {apart:.6g} m.")
+        raise DoubtfulDistance(
+            f"{library}: the distance of {names} is {distance:.6g} m, that of its points {apart:.6g} m."
+        )
     lower = math.nan
     if isinstance(first.shape, ConvexShape) and isinstance(second.shape, ConvexShape):
         normal = (two - one) / apart
         low = second_pose.position + second_pose.rotation @ second.shape.support(second_pose.rotation.T @ -normal)
         high = first_pose.position + first_pose.rotation @ first.shape.support(first_pose.rotation.T @ normal)
         lower = float(normal @ (low - high))
+        if lower <= 0.0:
+            raise DoubtfulDistance(
+                f"{library}: it says that {names} are {distance:.3g} m apart, but no plane across its line parts them: "
+                "whether they overlap remains open."
+            )
         size = min(first.shape.extent, second.shape.extent)
         if not -_BELOW * (distance + size) <= distance - lower <= _DOUBT * (distance + size):
             raise DoubtfulDistance(
-                f"FCL: it says that {names} are {distance:.6g} m apart, but support functions along its line give "
+                f"{library}: it says that {names} are {distance:.6g} m apart, but support functions along its line give "
                 f"{lower:.6g} m at least, which is not what nearest points give."
             )
     return Separation(distance, one, two, lower)
@@ -136,14 +130,14 @@ def _overlapping() -> Separation:
 
 
 def _inside(solid: Solid, pose: Pose, point: Vector) -> bool:
-    """Return whether a point is inside of a mesh: for FCL a mesh is a hollow surface."""
+    """Return whether a point is inside of a mesh: for a library a mesh is a hollow surface."""
     if type(solid.shape) is not TriangleMesh:
         return False
     vertices, faces = solid.shape.drawing()
     return winding_number(vertices, faces, pose.rotation.T @ (point - pose.position)) > 0.5
 
 
-def _some(solid: Solid, frame: tuple[Vector, Vector], origin: Vector) -> Vector:
+def _some(solid: Solid, frame: Frame, origin: Vector) -> Vector:
     """Return a point of a solid in the world."""
     if type(solid.shape) is TriangleMesh:
         place, axes = frame
