@@ -99,8 +99,11 @@ def nearest_face(
         least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)
         if least < best - margin:
             continue
-        # under the plane of a face only what lies inside of the body can touch it
-        beyond = past_face(faces, n_faces, FACE * i, height, x, y, z) + max(-height, 0.0) - margin
+        beyond = past_face(faces, n_faces, FACE * i, height, x, y, z)
+        if height < 0.0:
+            # under the plane of a face only what lies inside of the body can touch it
+            beyond = max(beyond, deepest)
+        beyond -= margin
         beyond = max(beyond, -least - 0.5 * faces[FACE * i + 4])
         if beyond < past:
             found, gap, past = i, height, beyond
