@@ -14,8 +14,12 @@ from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
+from bodies.contacts.plane_polyhedron import PlanePolyhedron
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_vertex import PlaneVertex
+from bodies.contacts.polyhedron_point import PolyhedronPoint
+from bodies.contacts.polyhedron_polyhedron import PolyhedronPolyhedron
+from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
@@ -24,6 +28,7 @@ from bodies.dumbbell import Dumbbell
 from bodies.ellipsoid_body import EllipsoidBody
 from bodies.free import FreeBody
 from bodies.generalised import Coordinate, GeneralisedBody, PointFrame, TurningFrame
+from bodies.hull_body import HullBody
 from bodies.joints.ball_joint import BallJoint
 from bodies.joints.distance import Distance
 from bodies.joints.fixed import Fixed
@@ -48,8 +53,10 @@ from bodies.shapes.capsule import Capsule
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
+from bodies.shapes.hull import ConvexHull
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
+from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 
 __all__ = [
@@ -65,6 +72,7 @@ __all__ = [
     "CapsuleSphere",
     "Compound",
     "ConstantVelocity",
+    "ConvexHull",
     "Coordinate",
     "Cylinder",
     "CylinderBody",
@@ -84,6 +92,7 @@ __all__ = [
     "GeneralisedBody",
     "Harmonic",
     "Hinge",
+    "HullBody",
     "LineBody",
     "Part",
     "PlanarBody",
@@ -93,11 +102,16 @@ __all__ = [
     "PlaneCylinder",
     "PlaneDisc",
     "PlaneEllipsoid",
+    "PlanePolyhedron",
     "PlaneSphere",
     "PlaneVertex",
     "Plate",
     "Point",
     "PointFrame",
+    "Polyhedron",
+    "PolyhedronPoint",
+    "PolyhedronPolyhedron",
+    "PolyhedronSphere",
     "Rest",
     "RigidBody",
     "Rod",

@@ -6,15 +6,19 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from bodies.shapes.placement import turned
-from nonsmooth.interfaces import Shape
+import numpy as np
+
+from bodies.shapes.drawing import arc, revolved
+from bodies.shapes.placement import turned, with_axes
+from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 @final
 @dataclass(frozen=True)
-class Ellipsoid(Shape):
+class Ellipsoid(ConvexShape):
     """A solid ellipsoid with its centre at (x, y, z) in the body frame and its axes turned by a unit quaternion."""
 
     semi_x: float = parameter(doc="first semi-axis", unit="m", above=0.0)
@@ -53,6 +57,38 @@ class Ellipsoid(Shape):
         rest = math.hypot(*[c for i, c in enumerate(v) if i != longest])
         v[longest] = math.copysign(math.sqrt(max(1.0 - rest * rest, 0.0)), center[longest])
         return math.hypot(*[c + a * w for c, a, w in zip(center, semi, v, strict=True)])
+
+    @property
+    def _axes(self) -> Vector:
+        return with_axes(self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z)
+
+    def support(self, direction: Vector) -> Vector:
+        """Return c + A^2 n / |A n| with A the semi-axes in the axes of the body [m]."""
+        semi = np.array([self.semi_x, self.semi_y, self.semi_z])
+        stretched = semi * (direction @ self._axes)
+        return np.asarray(self.centroid + self._axes @ (semi * stretched) / np.linalg.norm(stretched))
+
+    @property
+    def volume(self) -> float:
+        """4 pi a b c / 3 [m^3]."""
+        return 4.0 / 3.0 * math.pi * self.semi_x * self.semi_y * self.semi_z
+
+    @property
+    def centroid(self) -> Vector:
+        """The centre [m]."""
+        return np.array([self.x, self.y, self.z])
+
+    @property
+    def inertia(self) -> Vector:
+        """V (b^2 + c^2) / 5 and so on about its own axes [m^5]."""
+        x, y, z = self.semi_x**2, self.semi_y**2, self.semi_z**2
+        moments = 0.2 * self.volume * np.array([y + z, z + x, x + y])
+        return np.asarray(self._axes * moments @ self._axes.T)
+
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+        """Return a mesh of meridians and parallels."""
+        ball, faces = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        return self.centroid + ball * [self.semi_x, self.semi_y, self.semi_z] @ self._axes.T, faces
 
 
 def _over(numerator: float, denominator: float) -> float:

@@ -2,6 +2,7 @@
 
 from nonsmooth.interfaces.body import Body
 from nonsmooth.interfaces.contact_kinematics import ContactKinematics
+from nonsmooth.interfaces.convex_shape import ConvexShape
 from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.interfaces.guard import Guard
@@ -20,6 +21,7 @@ __all__ = [
     "Body",
     "CompliantNormalLaw",
     "ContactKinematics",
+    "ConvexShape",
     "Criterion",
     "FrictionLaw",
     "Guard",

@@ -29,6 +29,7 @@ _COLOURS = (
     "#6b4c1e",
     "#f0e442",
     "#99cc00",
+    "#882255",
 )
 """One for each cause, told apart by the colour-blind as well."""
 _BEND = 0.16

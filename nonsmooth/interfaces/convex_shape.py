@@ -1,0 +1,69 @@
+"""ConvexShape: a shape that is a convex solid."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import final
+
+import numpy as np
+
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.shape import Shape
+
+
+class ConvexShape(Shape):
+    """A shape that encloses a convex solid; all in the frame of its body, the shape's own place and turn included.
+
+    What a contact pair needs at every step are compiled functions of numbers; these properties are for what happens
+    once: checks, mass properties, boxes for the search for pairs, pictures.
+
+    The contract:
+
+    1. ``support`` returns a point of the solid that lies farthest along a direction, whatever the direction's length.
+    2. ``volume``, ``centroid`` and ``inertia`` are those of the solid with density 1; a shape without thickness has
+       volume and inertia 0.
+    3. ``drawing`` returns a closed mesh of triangles that are counter-clockwise seen from outside, with vertices on the
+       surface; it tends to the surface as ``fineness`` grows, and is exact at any for a polyhedron.
+    """
+
+    @abstractmethod
+    def support(self, direction: Vector) -> Vector:
+        """Return a farthest point along ``direction`` (shape [3], not zero) [m], shape [3]."""
+
+    @property
+    @abstractmethod
+    def volume(self) -> float:
+        """Volume [m^3]."""
+
+    @property
+    @abstractmethod
+    def centroid(self) -> Vector:
+        """Centre of the volume in the body frame [m], shape [3]."""
+
+    @property
+    @abstractmethod
+    def inertia(self) -> Vector:
+        """Inertia tensor at density 1 about the centroid in the axes of the body frame [m^5], shape [3, 3].
+
+        The element J_xy is -integral of x y dV.
+        """
+
+    @abstractmethod
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+        """Return vertices [m], shape [n, 3], and triangles as integer indices of them, shape [m, 3].
+
+        Parameters
+        ----------
+        fineness : int
+            Number of edges round a full circle, at least 3.
+        """
+
+    @property
+    @final
+    def bounds(self) -> tuple[Vector, Vector]:
+        """Lowest and highest coordinates in the body frame [m], shape [3] each."""
+        axes = np.eye(3)
+        return (
+            np.array([self.support(-axis)[i] for i, axis in enumerate(axes)]),
+            np.array([self.support(axis)[i] for i, axis in enumerate(axes)]),
+        )
