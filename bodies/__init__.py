@@ -14,6 +14,7 @@ from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
+from bodies.contacts.plane_mesh import PlaneMesh
 from bodies.contacts.plane_polyhedron import PlanePolyhedron
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_vertex import PlaneVertex
@@ -39,6 +40,10 @@ from bodies.loads.bushing import Bushing
 from bodies.loads.function_load import FunctionLoad
 from bodies.loads.spring import Spring
 from bodies.loads.torsion_spring import TorsionSpring
+from bodies.mesh_body import MeshBody
+from bodies.meshes.decomposition import Decomposition
+from bodies.meshes.mesh_file import MeshFile
+from bodies.meshes.triangles import Triangles
 from bodies.motions.constant_velocity import ConstantVelocity
 from bodies.motions.function_motion import FunctionMotion
 from bodies.motions.harmonic import Harmonic
@@ -58,6 +63,7 @@ from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
+from bodies.shapes.triangle_mesh import TriangleMesh
 
 __all__ = [
     "Ball",
@@ -77,6 +83,7 @@ __all__ = [
     "Cylinder",
     "CylinderBody",
     "CylinderSphere",
+    "Decomposition",
     "Disc",
     "DiscBody",
     "DiscSphere",
@@ -94,6 +101,8 @@ __all__ = [
     "Hinge",
     "HullBody",
     "LineBody",
+    "MeshBody",
+    "MeshFile",
     "Part",
     "PlanarBody",
     "Plane",
@@ -102,6 +111,7 @@ __all__ = [
     "PlaneCylinder",
     "PlaneDisc",
     "PlaneEllipsoid",
+    "PlaneMesh",
     "PlanePolyhedron",
     "PlaneSphere",
     "PlaneVertex",
@@ -121,5 +131,7 @@ __all__ = [
     "Spring",
     "Table",
     "TorsionSpring",
+    "TriangleMesh",
+    "Triangles",
     "TurningFrame",
 ]
