@@ -9,14 +9,20 @@ from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_sphere import CapsuleSphere
 from bodies.contacts.cylinder_sphere import CylinderSphere
 from bodies.contacts.disc_sphere import DiscSphere
+from bodies.contacts.ellipsoid_ellipsoid import EllipsoidEllipsoid
+from bodies.contacts.ellipsoid_sphere import EllipsoidSphere
 from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
 from bodies.contacts.plane_sphere import PlaneSphere
+from bodies.contacts.plane_superellipsoid import PlaneSuperellipsoid
 from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.contacts.sphere_sphere import SphereSphere
+from bodies.contacts.superellipsoid_ellipsoid import SuperellipsoidEllipsoid
+from bodies.contacts.superellipsoid_sphere import SuperellipsoidSphere
+from bodies.contacts.superellipsoid_superellipsoid import SuperellipsoidSuperellipsoid
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
 from bodies.driven_body import DrivenBody
@@ -51,6 +57,7 @@ from bodies.shapes.ellipsoid import Ellipsoid
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.sphere import Sphere
+from bodies.shapes.superellipsoid import Superellipsoid
 
 __all__ = [
     "Ball",
@@ -77,6 +84,8 @@ __all__ = [
     "Dumbbell",
     "Ellipsoid",
     "EllipsoidBody",
+    "EllipsoidEllipsoid",
+    "EllipsoidSphere",
     "Fixed",
     "FreeBody",
     "FunctionLoad",
@@ -94,6 +103,7 @@ __all__ = [
     "PlaneDisc",
     "PlaneEllipsoid",
     "PlaneSphere",
+    "PlaneSuperellipsoid",
     "PlaneVertex",
     "Plate",
     "Point",
@@ -105,6 +115,10 @@ __all__ = [
     "Sphere",
     "SphereSphere",
     "Spring",
+    "Superellipsoid",
+    "SuperellipsoidEllipsoid",
+    "SuperellipsoidSphere",
+    "SuperellipsoidSuperellipsoid",
     "Table",
     "TorsionSpring",
     "TurningFrame",

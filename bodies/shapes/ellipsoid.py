@@ -6,15 +6,19 @@ import math
 from dataclasses import dataclass
 from typing import final
 
+import numpy as np
+
+from bodies.shapes import smooth
 from bodies.shapes.placement import turned
-from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 @final
 @dataclass(frozen=True)
-class Ellipsoid(Shape):
+class Ellipsoid(ConvexShape):
     """A solid ellipsoid with its centre at (x, y, z) in the body frame and its axes turned by a unit quaternion."""
 
     semi_x: float = parameter(doc="first semi-axis", unit="m", above=0.0)
@@ -31,6 +35,17 @@ class Ellipsoid(Shape):
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
         unit_vector("Ellipsoid orientation", orientation, 4)
+
+    @property
+    def core(self) -> tuple[float, ...]:
+        """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
+        return smooth.core_numbers(
+            (self.semi_x, self.semi_y, self.semi_z),
+            (2.0, 2.0),
+            0.0,
+            (self.x, self.y, self.z),
+            (self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z),
+        )
 
     @property
     def length(self) -> float:
@@ -53,6 +68,31 @@ class Ellipsoid(Shape):
         rest = math.hypot(*[c for i, c in enumerate(v) if i != longest])
         v[longest] = math.copysign(math.sqrt(max(1.0 - rest * rest, 0.0)), center[longest])
         return math.hypot(*[c + a * w for c, a, w in zip(center, semi, v, strict=True)])
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the farthest point along a direction [m], shape [3]."""
+        return smooth.support_point(self.core, direction)
+
+    @property
+    def volume(self) -> float:
+        """4/3 pi a b c [m^3]."""
+        return 4.0 / 3.0 * math.pi * self.semi_x * self.semi_y * self.semi_z
+
+    @property
+    def centroid(self) -> Vector:
+        """The centre [m], shape [3]."""
+        return np.array([self.x, self.y, self.z])
+
+    @property
+    def inertia(self) -> Vector:
+        """Inertia tensor at density 1 about the centre [m^5], shape [3, 3]: V (b^2 + c^2) / 5 and so on."""
+        fifth = self.volume / 5.0
+        squares = fifth * self.semi_x**2, fifth * self.semi_y**2, fifth * self.semi_z**2
+        return smooth.moments_in_body(self.core, squares)
+
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+        """Return vertices [m], shape [n, 3], and triangles, shape [m, 3]."""
+        return smooth.drawn(self.core, fineness)
 
 
 def _over(numerator: float, denominator: float) -> float:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import final
 
+from bodies.shapes.smooth import core_numbers
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 
@@ -24,3 +25,8 @@ class Sphere(Shape):
     def length(self) -> float:
         """The radius and the distance of the centre [m]."""
         return self.radius + math.hypot(self.x, self.y, self.z)
+
+    @property
+    def core(self) -> tuple[float, ...]:
+        """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
+        return core_numbers((0.0, 0.0, 0.0), (2.0, 2.0), self.radius, (self.x, self.y, self.z), (1.0, 0.0, 0.0, 0.0))

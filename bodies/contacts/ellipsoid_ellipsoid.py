@@ -1,0 +1,56 @@
+"""Two ellipsoids."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.smooth_smooth import evaluate_smooth_pair
+from bodies.shapes.ellipsoid import Ellipsoid
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+
+
+@final
+@dataclass(frozen=True)
+class EllipsoidEllipsoid(ContactKinematics):
+    """One contact of two ellipsoids; its normal is the one that separates them most.
+
+    Attributes
+    ----------
+    first : Ellipsoid
+        The one.
+    second : Ellipsoid
+        The other.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ellipsoid, Ellipsoid)
+
+    first: Ellipsoid
+    second: Ellipsoid
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[EllipsoidEllipsoid, ...]:
+        """Return the single contact of two ellipsoids."""
+        assert isinstance(first, Ellipsoid) and isinstance(second, Ellipsoid)
+        return (cls(first, second),)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Ellipsoid]:
+        """Return two of them."""
+        return {"first": Ellipsoid(0.2, 0.3, 0.4), "second": Ellipsoid(0.2, 0.3, 0.4)}
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the numbers of both support functions."""
+        return {"first": self.first.core, "second": self.second.core}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's method on the support functions."""
+        return evaluate_smooth_pair
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("ellipsoid-ellipsoid",)
