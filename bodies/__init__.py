@@ -4,9 +4,13 @@ from bodies.ball import Ball
 from bodies.box_body import BoxBody
 from bodies.capsule_body import CapsuleBody
 from bodies.compound import Compound, Part
+from bodies.contacts.box_ellipsoid import BoxEllipsoid
 from bodies.contacts.box_sphere import BoxSphere
+from bodies.contacts.box_superellipsoid import BoxSuperellipsoid
 from bodies.contacts.capsule_capsule import CapsuleCapsule
+from bodies.contacts.capsule_ellipsoid import CapsuleEllipsoid
 from bodies.contacts.capsule_sphere import CapsuleSphere
+from bodies.contacts.capsule_superellipsoid import CapsuleSuperellipsoid
 from bodies.contacts.cylinder_sphere import CylinderSphere
 from bodies.contacts.disc_sphere import DiscSphere
 from bodies.contacts.ellipsoid_ellipsoid import EllipsoidEllipsoid
@@ -64,12 +68,16 @@ __all__ = [
     "BallJoint",
     "Box",
     "BoxBody",
+    "BoxEllipsoid",
     "BoxSphere",
+    "BoxSuperellipsoid",
     "Bushing",
     "Capsule",
     "CapsuleBody",
     "CapsuleCapsule",
+    "CapsuleEllipsoid",
     "CapsuleSphere",
+    "CapsuleSuperellipsoid",
     "Compound",
     "ConstantVelocity",
     "Coordinate",

@@ -42,6 +42,9 @@ def climb(
     along_x: float,
     along_y: float,
     along_z: float,
+    start_x: float,
+    start_y: float,
+    start_z: float,
 ) -> tuple[float, float, float, float]:
     """Return the largest g and its n, in the axes of the first core; g is nan where none was found.
 
@@ -55,12 +58,14 @@ def climb(
         The second core's centre from the first's [m].
     along_x, along_y, along_z : float
         A unit vector to which n stays at right angles; zero if it need not.
+    start_x, start_y, start_z : float
+        Where to begin, of any length; as a rule the line of centres.
     """
     free = along_x == 0.0 and along_y == 0.0 and along_z == 0.0
-    along = x * along_x + y * along_y + z * along_z
-    nx, ny, nz = x - along * along_x, y - along * along_y, z - along * along_z
+    along = start_x * along_x + start_y * along_y + start_z * along_z
+    nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z
     length = math.sqrt(nx * nx + ny * ny + nz * nz)
-    if length <= _CLOSE * math.sqrt(x * x + y * y + z * z) or length == 0.0:
+    if length <= _CLOSE * (abs(start_x) + abs(start_y) + abs(start_z)):
         nx, ny, nz = tangent_of(along_x, along_y, along_z)
         length = math.sqrt(nx * nx + ny * ny + nz * nz)
     nx, ny, nz = nx / length, ny / length, nz / length

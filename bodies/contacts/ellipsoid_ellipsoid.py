@@ -33,7 +33,8 @@ class EllipsoidEllipsoid(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[EllipsoidEllipsoid, ...]:
         """Return the single contact of two ellipsoids."""
-        assert isinstance(first, Ellipsoid) and isinstance(second, Ellipsoid)
+        assert isinstance(first, Ellipsoid)
+        assert isinstance(second, Ellipsoid)
         return (cls(first, second),)
 
     @classmethod

@@ -34,7 +34,8 @@ class EllipsoidSphere(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[EllipsoidSphere, ...]:
         """Return the single contact of an ellipsoid and a sphere."""
-        assert isinstance(first, Ellipsoid) and isinstance(second, Sphere)
+        assert isinstance(first, Ellipsoid)
+        assert isinstance(second, Sphere)
         return (cls(first, second),)
 
     @classmethod

@@ -50,7 +50,8 @@ class PlaneSuperellipsoid(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PlaneSuperellipsoid, ...]:
         """Return the single contact of a plane and a superellipsoid."""
-        assert isinstance(first, Plane) and isinstance(second, Superellipsoid)
+        assert isinstance(first, Plane)
+        assert isinstance(second, Superellipsoid)
         return (cls(first, second),)
 
     @classmethod

@@ -20,7 +20,7 @@ def evaluate_smooth_pair(a: Floats, b: Floats, out: Floats, first: Floats, secon
     ax, ay, az = point_in_world(a, first[6], first[7], first[8])
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
     x, y, z = back(axes_a, bx - ax, by - ay, bz - az)
-    g, nx, ny, nz = climb(first, second, between_axes(axes_a, axes_b), x, y, z, 0.0, 0.0, 0.0)
+    g, nx, ny, nz = climb(first, second, between_axes(axes_a, axes_b), x, y, z, 0.0, 0.0, 0.0, x, y, z)
     out[0] = g - first[RADIUS] - second[RADIUS]
     out[1], out[2], out[3] = forth(axes_a, nx, ny, nz)
     mx, my, mz = back(axes_b, -out[1], -out[2], -out[3])

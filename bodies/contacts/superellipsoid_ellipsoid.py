@@ -34,7 +34,8 @@ class SuperellipsoidEllipsoid(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[SuperellipsoidEllipsoid, ...]:
         """Return the single contact of a superellipsoid and an ellipsoid."""
-        assert isinstance(first, Superellipsoid) and isinstance(second, Ellipsoid)
+        assert isinstance(first, Superellipsoid)
+        assert isinstance(second, Ellipsoid)
         return (cls(first, second),)
 
     @classmethod

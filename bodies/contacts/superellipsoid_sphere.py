@@ -34,7 +34,8 @@ class SuperellipsoidSphere(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[SuperellipsoidSphere, ...]:
         """Return the single contact of a superellipsoid and a sphere."""
-        assert isinstance(first, Superellipsoid) and isinstance(second, Sphere)
+        assert isinstance(first, Superellipsoid)
+        assert isinstance(second, Sphere)
         return (cls(first, second),)
 
     @classmethod

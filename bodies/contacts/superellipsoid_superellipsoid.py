@@ -33,7 +33,8 @@ class SuperellipsoidSuperellipsoid(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[SuperellipsoidSuperellipsoid, ...]:
         """Return the single contact of two superellipsoids."""
-        assert isinstance(first, Superellipsoid) and isinstance(second, Superellipsoid)
+        assert isinstance(first, Superellipsoid)
+        assert isinstance(second, Superellipsoid)
         return (cls(first, second),)
 
     @classmethod
