@@ -16,7 +16,9 @@ _FACES = tuple(f"face {sign}{axis}" for axis in "xyz" for sign in "-+")
 
 def _edges() -> tuple[str, ...]:
     """Return the names of the edges in the order in which the loops meet them."""
-    pairs = dict.fromkeys(tuple(sorted(pair)) for loop in _LOOPS for pair in zip(loop, (*loop[1:], loop[0]), strict=True))
+    pairs = dict.fromkeys(
+        tuple(sorted(pair)) for loop in _LOOPS for pair in zip(loop, (*loop[1:], loop[0]), strict=True)
+    )
     names = []
     for one, two in pairs:
         both = zip(_SIDES[one], _SIDES[two], "xyz", strict=True)

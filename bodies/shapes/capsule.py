@@ -6,14 +6,19 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.interfaces import Shape
+import numpy as np
+
+from bodies.shapes.drawing import arc, revolved
+from bodies.shapes.placement import about_axis
+from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 @final
 @dataclass(frozen=True)
-class Capsule(Shape):
+class Capsule(ConvexShape):
     """All points within the radius of a segment, which has its middle at (x, y, z) in the body frame."""
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)
@@ -40,3 +45,34 @@ class Capsule(Shape):
     def length(self) -> float:
         """The radius and the distance of the farther end's centre [m]."""
         return self.radius + max(math.hypot(*end) for end in self.ends)
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the farther end's centre and the radius along the direction [m]."""
+        end = self.ends[1 if direction @ np.array([self.axis_x, self.axis_y, self.axis_z]) >= 0.0 else 0]
+        return np.asarray(end + self.radius * direction / np.linalg.norm(direction))
+
+    @property
+    def volume(self) -> float:
+        """2 pi r^2 c + 4 pi r^3 / 3 [m^3]."""
+        return 2.0 * math.pi * self.radius**2 * self.half_length + 4.0 / 3.0 * math.pi * self.radius**3
+
+    @property
+    def centroid(self) -> Vector:
+        """The centre [m]."""
+        return np.array([self.x, self.y, self.z])
+
+    @property
+    def inertia(self) -> Vector:
+        """That of the cylinder and of the two half spheres, by the parallel-axis theorem [m^5]."""
+        r, c = self.radius, self.half_length
+        side, ends = 2.0 * math.pi * r**2 * c, 4.0 / 3.0 * math.pi * r**3
+        along = (0.5 * side + 0.4 * ends) * r**2
+        across = side * (r**2 / 4.0 + c**2 / 3.0) + ends * (0.4 * r**2 + 0.75 * r * c + c**2)
+        return about_axis((self.axis_x, self.axis_y, self.axis_z), along, across)
+
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+        """Return a mesh of meridians and parallels."""
+        low = self.radius * arc(fineness, math.pi, 0.5 * math.pi) - (0.0, self.half_length)
+        high = self.radius * arc(fineness, 0.5 * math.pi, 0.0) + (0.0, self.half_length)
+        axis = self.axis_x, self.axis_y, self.axis_z
+        return revolved(np.vstack([low, high]), fineness, self.centroid, axis)

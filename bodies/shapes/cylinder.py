@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import final
 
+import numpy as np
+
+from bodies.shapes.drawing import revolved
 from bodies.shapes.feet import check_feet, feet_on
-from bodies.shapes.placement import farthest_on_circle
-from nonsmooth.interfaces import Shape
+from bodies.shapes.placement import about_axis, farthest_on_circle
+from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 @final
 @dataclass(frozen=True)
-class Cylinder(Shape):
+class Cylinder(ConvexShape):
     """A solid circular cylinder with flat caps and its centre at (x, y, z) in the body frame.
 
     On a plane it touches with the lowest points of its rims, and a cylinder that stands has none.  What holds it then
     are three small feet on either cap, at two thirds of the radius, if they have a height.  Their tips lie in the
     planes of the caps; it is the rims that are set back by the height, so that the cylinder is as long as without.
+    As a convex solid it is that without feet: they are too low to count.
     """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)
@@ -63,3 +69,35 @@ class Cylinder(Shape):
         """Distance of the farthest point of the two rims [m]."""
         axis = self.axis_x, self.axis_y, self.axis_z
         return max(farthest_on_circle(self.radius, cap, axis) for cap in self.caps)
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the farthest point of the farther cap's circle, of several the centre [m]."""
+        axis = np.array([self.axis_x, self.axis_y, self.axis_z])
+        along = direction @ axis
+        across = direction - along * axis
+        size, cap = np.linalg.norm(across), np.array(self.caps[1 if along >= 0.0 else 0])
+        # next to the axis a direction across is round-off
+        return cap + self.radius * across / size if size > 1e-15 * abs(along) else cap
+
+    @property
+    def volume(self) -> float:
+        """2 pi r^2 c [m^3]."""
+        return 2.0 * math.pi * self.radius**2 * self.half_length
+
+    @property
+    def centroid(self) -> Vector:
+        """The centre [m]."""
+        return np.array([self.x, self.y, self.z])
+
+    @property
+    def inertia(self) -> Vector:
+        """V r^2 / 2 about its axis, V (r^2 / 4 + c^2 / 3) across [m^5]."""
+        across = self.volume * (self.radius**2 / 4.0 + self.half_length**2 / 3.0)
+        axis = self.axis_x, self.axis_y, self.axis_z
+        return about_axis(axis, 0.5 * self.volume * self.radius**2, across)
+
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+        """Return a prism with the caps."""
+        r, c = self.radius, self.half_length
+        profile = ((0.0, -c), (r, -c), (r, c), (0.0, c))
+        return revolved(profile, fineness, self.centroid, (self.axis_x, self.axis_y, self.axis_z))

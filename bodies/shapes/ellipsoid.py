@@ -8,8 +8,9 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes import smooth
-from bodies.shapes.placement import turned
+from bodies.shapes.drawing import arc, revolved
+from bodies.shapes.placement import turned, with_axes
+from bodies.shapes.smooth import core_numbers
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
@@ -39,7 +40,7 @@ class Ellipsoid(ConvexShape):
     @property
     def core(self) -> tuple[float, ...]:
         """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
-        return smooth.core_numbers(
+        return core_numbers(
             (self.semi_x, self.semi_y, self.semi_z),
             (2.0, 2.0),
             0.0,
@@ -69,30 +70,37 @@ class Ellipsoid(ConvexShape):
         v[longest] = math.copysign(math.sqrt(max(1.0 - rest * rest, 0.0)), center[longest])
         return math.hypot(*[c + a * w for c, a, w in zip(center, semi, v, strict=True)])
 
+    @property
+    def _axes(self) -> Vector:
+        return with_axes(self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z)
+
     def support(self, direction: Vector) -> Vector:
-        """Return the farthest point along a direction [m], shape [3]."""
-        return smooth.support_point(self.core, direction)
+        """Return c + A^2 n / |A n| with A the semi-axes in the axes of the body [m]."""
+        semi = np.array([self.semi_x, self.semi_y, self.semi_z])
+        stretched = semi * (direction @ self._axes)
+        return np.asarray(self.centroid + self._axes @ (semi * stretched) / np.linalg.norm(stretched))
 
     @property
     def volume(self) -> float:
-        """4/3 pi a b c [m^3]."""
+        """4 pi a b c / 3 [m^3]."""
         return 4.0 / 3.0 * math.pi * self.semi_x * self.semi_y * self.semi_z
 
     @property
     def centroid(self) -> Vector:
-        """The centre [m], shape [3]."""
+        """The centre [m]."""
         return np.array([self.x, self.y, self.z])
 
     @property
     def inertia(self) -> Vector:
-        """Inertia tensor at density 1 about the centre [m^5], shape [3, 3]: V (b^2 + c^2) / 5 and so on."""
-        fifth = self.volume / 5.0
-        squares = fifth * self.semi_x**2, fifth * self.semi_y**2, fifth * self.semi_z**2
-        return smooth.moments_in_body(self.core, squares)
+        """V (b^2 + c^2) / 5 and so on about its own axes [m^5]."""
+        x, y, z = self.semi_x**2, self.semi_y**2, self.semi_z**2
+        moments = 0.2 * self.volume * np.array([y + z, z + x, x + y])
+        return np.asarray(self._axes * moments @ self._axes.T)
 
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
-        """Return vertices [m], shape [n, 3], and triangles, shape [m, 3]."""
-        return smooth.drawn(self.core, fineness)
+        """Return a mesh of meridians and parallels."""
+        ball, faces = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        return self.centroid + ball * [self.semi_x, self.semi_y, self.semi_z] @ self._axes.T, faces
 
 
 def _over(numerator: float, denominator: float) -> float:

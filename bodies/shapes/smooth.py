@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 
+from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.placement import turned
 from bodies.shapes.support_function import support_of
 from nonsmooth.interfaces.body import Vector
 
-_NODES = 40
-"""Of Gauss's rule over an angle."""
+_STEP, _LAST_NODE = 0.125, 4.75
+"""Of the double exponential rule over an angle."""
 
 
 def core_numbers(
@@ -66,29 +67,22 @@ def farthest(core: tuple[float, ...]) -> float:
 def drawn(core: tuple[float, ...], fineness: int) -> tuple[Vector, Vector]:
     """Return vertices [m], shape [n, 3], and triangles, shape [m, 3], of a closed mesh.
 
-    The vertices are the support points of directions that are even on the sphere of (x / a, y / b, z / c).
+    The vertices are those of meridians and parallels with powers of sines and cosines, sin^(2/q) in a normal over
+    the semi-axes and sin^(2 - 2/q) in its point, which are a superellipsoid's usual angles.
     """
-    n_round, n_high = max(fineness, 3), max((fineness + 1) // 2, 2)
-    around = 2.0 * math.pi / n_round * np.arange(n_round)
-    heights = math.pi / n_high * np.arange(1, n_high)
-    sphere = [(0.0, 0.0, 1.0)]
-    sphere += [(math.sin(t) * math.cos(f), math.sin(t) * math.sin(f), math.cos(t)) for t in heights for f in around]
-    sphere += [(0.0, 0.0, -1.0)]
-    axes, semi = np.array(core[9:18]).reshape(3, 3), np.array(core[:3])
-    vertices = np.array([support_point(core, axes @ (np.array(n) / semi)) for n in sphere])
-    last = len(sphere) - 1
+    sphere, triangles = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    axes, semi, (p, q) = np.array(core[9:18]).reshape(3, 3), np.array(core[:3]), core[3:5]
+    across = np.hypot(sphere[:, 0], sphere[:, 1])
+    around = np.abs(sphere[:, :2]) / np.where(across > 0.0, across, 1.0)[:, None]
 
-    def ring(row: int, step: int) -> int:
-        return 1 + row * n_round + step % n_round
+    def powers(along: float, round_axis: float) -> Vector:
+        high = np.abs(sphere[:, 2]) ** along
+        return np.copysign(np.column_stack([across[:, None] ** along * around**round_axis, high]), sphere)
 
-    triangles = []
-    for i in range(n_round):
-        triangles.append((0, ring(0, i), ring(0, i + 1)))
-        for row in range(n_high - 2):
-            low, high = ring(row + 1, i), ring(row + 1, i + 1)
-            triangles += [(ring(row, i), low, high), (ring(row, i), high, ring(row, i + 1))]
-        triangles.append((last, ring(n_high - 2, i + 1), ring(n_high - 2, i)))
-    return vertices, np.array(triangles)
+    normals = powers(2.0 / p, 2.0 / q) / semi
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    points = semi * powers(2.0 - 2.0 / p, 2.0 - 2.0 / q) + core[5] * normals
+    return np.array(core[6:9]) + points @ axes.T, triangles
 
 
 def moments_in_body(core: tuple[float, ...], second: tuple[float, float, float]) -> Vector:
@@ -101,26 +95,28 @@ def integrals_over_normals(core: tuple[float, ...]) -> tuple[float, float, float
     """Return the integrals of 1, x^2, y^2 and z^2 over a core with its radius, in its own axes [m^3], [m^5].
 
     The cones from the centre to the elements dA of the surface have the volume h dA / 3 and the integral h x^2 dA / 5,
-    and dA is the determinant of the radii of curvature times the solid angle of the normals.  By Gauss's rule over the
-    normals of an eighth, with nodes closer where a radius of curvature may be 0.
+    and dA is the determinant of the radii of curvature times the solid angle of the normals.  The normals are those of
+    :func:`drawn`; powers of sines and cosines at the ends of an eighth ask for the rule of Takahasi and Mori.
     """
-    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    s = 0.5 * (nodes + 1.0)
-    # from 0 to a right angle, with three derivatives 0 at either end
-    angles = 0.5 * math.pi * s**4 * (35.0 + s * (-84.0 + s * (70.0 - 20.0 * s)))
-    weights = 0.5 * weights * 0.5 * math.pi * 140.0 * (s * (1.0 - s)) ** 3
-    semi, radius = np.array(core[:3]), core[5]
+    t = np.arange(-_LAST_NODE, _LAST_NODE + 0.5 * _STEP, _STEP)
+    far = 1.0 / (1.0 + np.exp(math.pi * np.sinh(t)))
+    sines, cosines = np.sin(0.5 * math.pi * far[::-1]), np.sin(0.5 * math.pi * far)
+    weights = 0.5 * math.pi * _STEP * math.pi * np.cosh(t) * far * far[::-1]
+    semi, radius, (p, q) = np.array(core[:3]), core[5], core[3:5]
+    # powers and the Jacobian of the turn that they make
+    (low, high), (one, two) = (sines ** (2.0 / p), cosines ** (2.0 / p)), (cosines ** (2.0 / q), sines ** (2.0 / q))
+    along = weights * 2.0 / p * (sines * cosines) ** (2.0 / p - 1.0) * low
+    around = weights * 2.0 / q * (sines * cosines) ** (2.0 / q - 1.0)
     sums = np.zeros(4)
-    for t, w in zip(angles, weights, strict=True):
-        for f, v in zip(angles, weights, strict=True):
-            n = np.array([math.sin(t) * math.cos(f), math.sin(t) * math.sin(f), math.cos(t)]) / semi
+    for i, first in enumerate(along):
+        for j, second in enumerate(around):
+            n = np.array([low[i] * one[j], low[i] * two[j], high[i]]) / semi
             length = float(np.linalg.norm(n))
             n /= length
-            h, *p, xx, yy, zz, yz, xz, xy = support_of(core, *n.tolist())
-            second = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) + radius * np.eye(3)
-            second += (1.0 - radius) * np.outer(n, n)
-            area = w * v * math.sin(t) / (length**3 * float(np.prod(semi))) * float(np.linalg.det(second))
-            point = np.array(p) + radius * n
-            sums += area * (h + radius) * np.array([1.0 / 3.0, *point**2 / 5.0])
+            h, *point, xx, yy, zz, yz, xz, xy = support_of(core, *n.tolist())
+            curve = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            curve += radius * np.eye(3) + (1.0 - radius) * np.outer(n, n)
+            area = first * second / (length**3 * float(np.prod(semi))) * float(np.linalg.det(curve))
+            sums += area * (h + radius) * np.array([1.0 / 3.0, *(point + radius * n) ** 2 / 5.0])
     volume, x, y, z = (8.0 * sums).tolist()
     return volume, x, y, z

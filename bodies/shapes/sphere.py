@@ -6,14 +6,18 @@ import math
 from dataclasses import dataclass
 from typing import final
 
+import numpy as np
+
+from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.smooth import core_numbers
-from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 
 
 @final
 @dataclass(frozen=True)
-class Sphere(Shape):
+class Sphere(ConvexShape):
     """A sphere with its centre at (x, y, z) in the body frame."""
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)
@@ -30,3 +34,26 @@ class Sphere(Shape):
     def core(self) -> tuple[float, ...]:
         """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
         return core_numbers((0.0, 0.0, 0.0), (2.0, 2.0), self.radius, (self.x, self.y, self.z), (1.0, 0.0, 0.0, 0.0))
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the centre and the radius along the direction [m]."""
+        return np.asarray(self.centroid + self.radius * direction / np.linalg.norm(direction))
+
+    @property
+    def volume(self) -> float:
+        """4 pi r^3 / 3 [m^3]."""
+        return 4.0 / 3.0 * math.pi * self.radius**3
+
+    @property
+    def centroid(self) -> Vector:
+        """The centre [m]."""
+        return np.array([self.x, self.y, self.z])
+
+    @property
+    def inertia(self) -> Vector:
+        """2 V r^2 / 5 about any axis [m^5]."""
+        return 0.4 * self.volume * self.radius**2 * np.eye(3)
+
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+        """Return a mesh of meridians and parallels."""
+        return revolved(self.radius * arc(fineness, math.pi, 0.0), fineness, self.centroid, (0.0, 0.0, 1.0))

@@ -6,7 +6,8 @@ Every contact has two guards, positive while its mode is valid:
 * closed: the normal force, or, compliant, the way left to its reach; and, sticking, the distance to the static
   bound, sliding, the slip velocity along its direction at the start of the step.
 
-Behind them stand the scenario's own, whatever the modes.
+Behind them stand the scenario's own, whatever the modes, and one more of every contact: closed, the way left to the end
+of its features.
 
 An event lies in the half-open interval t0 < t* <= t1 of a step.  Of a guard that starts from zero (a gap
 just after an impact, a slip just begun) the growth from there is taken, divided by the elapsed time, so that its
@@ -20,12 +21,14 @@ from nonsmooth.engine.flow import hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_guard, kernel
 from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
-from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.layout import GEOMETRY, PAST_END
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
 _WRONG = -1e-9
 """A guard that is not armed fires below this all the same."""
+_LATE = 2.0
+"""A closed contact ends so many gap tolerances past the end of its features; up to one it may close."""
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
@@ -53,6 +56,11 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
         w[S.guard + 2 * S.n_contacts + g] = call_guard(
             k[S.own_guard_function + g], t, at(w, y), at(w, y + S.n_q), at(w, k[S.own_guard_parameters + g])
         )
+    ends = 2 * S.n_contacts + S.n_own_guards
+    for c in range(S.n_contacts):
+        w[S.guard + ends + c] = 1.0
+        if k[S.mode + c] != OPEN and forces == 1 and S.n_grouped > 0:
+            w[S.guard + ends + c] = _LATE * S.gap_tolerance - w[S.geometry + GEOMETRY * c + PAST_END]
 
 
 @kernel("void(S, F, I, f8, i8, f8, i8)")
@@ -84,7 +92,7 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.guard_end + 2 * c + i] = w[S.guard + 2 * c + i]
         for r in range(3):
             w[S.rate_end + 3 * c + r] = w[S.rate + 3 * c + r]
-    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
         w[S.guard_end + i] = w[S.guard + i]
 
 
@@ -123,6 +131,10 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.guard_first + i] = 0.0
         k[S.own_guard_spent + g] = 0
         k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
+    for i in range(2 * S.n_contacts + S.n_own_guards, 3 * S.n_contacts + S.n_own_guards):
+        w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
+        k[S.guard_deflated + i] = 0
+        k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
 
 
 @kernel("void(S, F, I, i8)")
@@ -131,9 +143,20 @@ def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
     for i in range(2 * S.n_contacts):
         if w[S.guard + i] > 0.0 and (forces == 1 or k[S.mode + i // 2] == OPEN):
             k[S.guard_armed + i] = 1
-    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
         if w[S.guard + i] > 0.0:
             k[S.guard_armed + i] = 1
+
+
+@kernel("i8(S, F, I, i8)")
+def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is a gap that has come over the end of a feature to where it rests, and does not close."""
+    c = i // 2
+    if k[S.mode + c] != OPEN or i != 2 * c or k[S.guard_deflated + i] == 1:
+        return 0
+    block = S.geometry + GEOMETRY * c
+    rests = w[block] > -S.gap_tolerance and w[S.gap_rate + c] > -S.velocity_tolerance
+    return 1 if w[block + PAST_END] != 0.0 and rests else 0
 
 
 @kernel("i8(S, F, I, i8, i8)")
@@ -144,8 +167,10 @@ def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> in
             continue
         value = w[S.guard + i]
         if i != but and ((value < 0.0 and k[S.guard_armed + i] == 1) or value < _WRONG):
+            if value < 0.0 and _slides_on(S, w, k, i) == 1:
+                continue
             return i
-    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
         if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
             return i
     return -1

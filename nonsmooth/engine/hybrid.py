@@ -18,6 +18,7 @@ from nonsmooth.engine.location import first_crossing, locate
 from nonsmooth.engine.modes import (
     DONE,
     EVENTS_ENDLESS,
+    FEATURE_END,
     GUARD,
     IMPACT,
     JAM,
@@ -256,6 +257,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if h < 0.0:
         S.h_closed = 0.25 * S.h
         return RUNNING
+    ends = 2 * S.n_contacts + S.n_own_guards
+    if S.trigger >= ends:
+        _commit(S, w, k, h)
+        return _settle_event(S, w, k, FEATURE_END, S.trigger - ends)
     if S.trigger >= 2 * S.n_contacts:
         _commit(S, w, k, h)
         return _own_event(S, w, k, S.trigger - 2 * S.n_contacts)

@@ -194,7 +194,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for c in range(S.n_contacts):
         w[S.gap_rate_middle + c] = w[S.gap_rate + c]
         w[S.gap_middle + c] = w[S.geometry + GEOMETRY * c]
-    for i in range(2 * S.n_contacts + S.n_own_guards):
+    for i in range(3 * S.n_contacts + S.n_own_guards):
         w[S.guard_middle + i] = w[S.guard + i]
     theta = _dip(S, w, k, h, 0.0, _MIDDLE, 1)
     if theta > 0.0:
@@ -207,7 +207,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     if fired < 0:
         theta = _dip(S, w, k, h, _MIDDLE, 1.0, 0)
     if theta == 0.0:
-        for i in range(2 * S.n_contacts + S.n_own_guards):
+        for i in range(3 * S.n_contacts + S.n_own_guards):
             w[S.guard + i] = w[S.guard_end + i]
         deflate(S, w, k, h)
         # guards armed only in the middle of the step count as well
@@ -280,7 +280,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     first = first_fired(S, w, k, 1, -1)
     theta = high
     S.trigger = max(0, first)
-    for other in range(2 * S.n_contacts + S.n_own_guards):
+    for other in range(3 * S.n_contacts + S.n_own_guards):
         if first < 0:
             break
         if closed == 1 and other == _MOST_ROOTS:

@@ -5,7 +5,9 @@ from __future__ import annotations
 OPEN, STICK, SLIDE = 0, 1, 2
 """Mode of a contact between events."""
 
-START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH = range(11)
+START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = range(
+    12
+)
 """Cause of an event."""
 
 CAUSES = (
@@ -20,6 +22,7 @@ CAUSES = (
     "jamming of a slip",
     "guard of the scenario",
     "touch of a compliant contact",
+    "end of a feature",
 )
 
 BY_LAW, COMPLIANT, REFUSE = range(3)

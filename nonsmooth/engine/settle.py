@@ -44,7 +44,7 @@ from nonsmooth.engine.modes import (
 )
 from nonsmooth.engine.projection import project_closed, project_rates
 from nonsmooth.engine.record import amend_last, code, impact_code, record_event, remember
-from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.layout import GEOMETRY, PAST_END
 
 _ATTEMPTS = 200
 _PAINLEVE_ATTEMPTS = 5
@@ -63,6 +63,9 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
         evaluate_geometry(S, w, k, c)
         evaluate_rates(S, w, k, c)
         rate = w[S.rate + 3 * c]
+        if w[S.geometry + GEOMETRY * c + PAST_END] > S.gap_tolerance:
+            k[S.touching + c] = 0
+            continue
         if k[S.normal_function + c] != 0:
             _touch_compliant(S, w, k, c)
             continue

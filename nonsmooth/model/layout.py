@@ -29,8 +29,10 @@ The geometry block of a contact holds gap, normal (from the first body to the se
 tangent, witness points on both bodies and, for either surface, the matrices ``slide`` and ``turn`` of
 ``slide @ u = turn @ nu``: the witness sliding at u over the body turns the normal by nu (both in the
 tangent plane; they commute).  A sphere of radius r has slide 1, turn r; a plane slide 0, turn 1; a vertex slide 1,
-turn 0.  A point contact needs a curved or sharp side: two planes have none.  Last comes the number of the pair of
-features that are in contact, out of the kinematics' ``features``.
+turn 0.  A point contact needs a curved or sharp side: two planes have none.  Then comes the number of the pair of
+features that are in contact, out of the kinematics' ``features``, and last how far the witness points are past the
+ends of features that end, such as edges and the faces of a polyhedron [m]: negative within, 0 where nothing ends.  Past
+an end the gap is a positive number that no rate belongs to, and a closed contact opens.
 
 A joint writes :data:`JOINT_ROW` floats per row: residual [m or 1], axis and moment, a point on either body, bias.
 The row's rate is axis . (velocity of the second body at its point - of the first at its own) + moment . (difference
@@ -53,8 +55,10 @@ from nonsmooth.model.rooms import ROOMS
 
 FRAME = 24
 """Floats of frame motion at the head of a body's output block."""
-GEOMETRY = 30
+GEOMETRY = 31
 """Floats of a contact's geometry block."""
+PAST_END = 30
+"""Where in it stands how far the contact is past the end of its features."""
 JOINT_ROW = 14
 """Floats of one row of a joint."""
 LOAD = 9
@@ -237,7 +241,7 @@ def _blocks(n: Mapping[str, int]) -> int:
 
 
 def _guards(n: Mapping[str, int]) -> int:
-    return 2 * n["n_slots"] + n["n_own_guards"]
+    return 3 * n["n_slots"] + n["n_own_guards"]
 
 
 FLOAT_ARRAYS: dict[str, Size] = {

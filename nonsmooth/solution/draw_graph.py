@@ -28,6 +28,8 @@ _COLOURS = (
     "#999999",
     "#6b4c1e",
     "#f0e442",
+    "#117733",
+    "#882255",
 )
 """One for each cause, told apart by the colour-blind as well."""
 _BEND = 0.16
