@@ -62,6 +62,7 @@ from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.superellipsoid_body import SuperellipsoidBody
 
 __all__ = [
     "Ball",
@@ -124,6 +125,7 @@ __all__ = [
     "SphereSphere",
     "Spring",
     "Superellipsoid",
+    "SuperellipsoidBody",
     "SuperellipsoidEllipsoid",
     "SuperellipsoidSphere",
     "SuperellipsoidSuperellipsoid",

@@ -62,7 +62,7 @@ def _point_along(
 def _exit(
     hull: Floats, face: int, near: float, fx: float, fy: float, fz: float, tx: float, ty: float, tz: float
 ) -> int:
-    """Return the edge over which the way from the point f of a face to the point t of its plane leaves it; -1 if none."""
+    """Return the edge over which the way from the point f of a face to t in its plane leaves it; -1 if none."""
     at = int(hull[FACES]) + FACE * face
     nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
     loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
@@ -173,7 +173,7 @@ def _nearest(
 
     All in the frame of the polytope; (x, y, z) is the centre of the core.  The gap is nan where none was found.
     """
-    n_vertices, n_edges, n_faces = int(hull[COUNTS]), int(hull[COUNTS + 1]), int(hull[COUNTS + 2])
+    n_edges, n_faces = int(hull[COUNTS + 1]), int(hull[COUNTS + 2])
     vx, vy, vz = _vertex(hull, 0)
     size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + abs(vx) + abs(vy) + abs(vz)
     near = _ON_BORDER * size
@@ -199,7 +199,8 @@ def _nearest(
         if g != g or after == _HERE:
             break
         kind, number = after, where
-    return _best_of_all(hull, core, turn, x, y, z, near)
+    g, nx, ny, nz, feature = _best_of_all(hull, core, turn, x, y, z, near)
+    return g, nx, ny, nz, feature
 
 
 @compiled

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -91,6 +92,7 @@ def moments_in_body(core: tuple[float, ...], second: tuple[float, float, float])
     return np.asarray(axes @ np.diag(sum(second) - np.array(second)) @ axes.T)
 
 
+@functools.lru_cache(maxsize=64)
 def integrals_over_normals(core: tuple[float, ...]) -> tuple[float, float, float, float]:
     """Return the integrals of 1, x^2, y^2 and z^2 over a core with its radius, in its own axes [m^3], [m^5].
 

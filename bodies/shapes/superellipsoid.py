@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import final
+from types import MappingProxyType
+from typing import Any, final
 
 import numpy as np
 
@@ -15,8 +17,8 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
-_ROUNDEST, _SHARPEST = 1.0, 1.8
-_EXPONENT = {"minimum": _ROUNDEST, "maximum": _SHARPEST}
+EXPONENT: Mapping[str, Any] = MappingProxyType({"minimum": 1.0, "maximum": 1.8})
+"""Bounds of an exponent."""
 
 
 @final
@@ -38,8 +40,8 @@ class Superellipsoid(ConvexShape):
     semi_x: float = parameter(doc="first semi-axis, without the rounding, a", unit="m", above=0.0)
     semi_y: float = parameter(doc="second semi-axis, b", unit="m", above=0.0)
     semi_z: float = parameter(doc="third semi-axis, c", unit="m", above=0.0)
-    exponent_along: float = parameter(1.0, doc="exponent e1 along the third axis", **_EXPONENT)
-    exponent_across: float = parameter(1.0, doc="exponent e2 across it", **_EXPONENT)
+    exponent_along: float = parameter(1.0, doc="exponent e1 along the third axis", **EXPONENT)
+    exponent_across: float = parameter(1.0, doc="exponent e2 across it", **EXPONENT)
     rounding: float = parameter(0.0, doc="radius of the sphere that sweeps the superellipsoid", unit="m", minimum=0.0)
     x: float = parameter(0.0, doc="centre, first coordinate", unit="m")
     y: float = parameter(0.0, doc="centre, second coordinate", unit="m")
