@@ -39,7 +39,7 @@ def history(scenario: EggOnTable, solution: Solution) -> Figure:
     axes[0].set_yticks(range(0, 91, 30))
     axes[1].axhline(scenario.upright_spin(), color="tab:red", linestyle="--", linewidth=0.9, label="by $A\\Omega h$, upright")
     axes[1].legend(fontsize=8, frameon=False, loc="lower right")
-    low, high = min(0.8, float(np.min(values[3]))), max(1.2, float(np.max(values[3])))
+    low, high = min(0.95, float(np.min(values[3]))), max(1.05, float(np.max(values[3])))
     axes[3].set_ylim(low, high)
     axes[3].set_xlabel("time [s]")
     upright = scenario.summarise(solution)["upright"]
