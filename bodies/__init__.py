@@ -20,9 +20,12 @@ from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
+from bodies.contacts.plane_polyhedron import PlanePolyhedron
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_superellipsoid import PlaneSuperellipsoid
 from bodies.contacts.plane_vertex import PlaneVertex
+from bodies.contacts.polyhedron_point import PolyhedronPoint
+from bodies.contacts.polyhedron_polyhedron import PolyhedronPolyhedron
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.contacts.superellipsoid_ellipsoid import SuperellipsoidEllipsoid
 from bodies.contacts.superellipsoid_sphere import SuperellipsoidSphere
@@ -34,6 +37,7 @@ from bodies.dumbbell import Dumbbell
 from bodies.ellipsoid_body import EllipsoidBody
 from bodies.free import FreeBody
 from bodies.generalised import Coordinate, GeneralisedBody, PointFrame, TurningFrame
+from bodies.hull_body import HullBody
 from bodies.joints.ball_joint import BallJoint
 from bodies.joints.distance import Distance
 from bodies.joints.fixed import Fixed
@@ -58,8 +62,10 @@ from bodies.shapes.capsule import Capsule
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
+from bodies.shapes.hull import ConvexHull
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
+from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.superellipsoid import Superellipsoid
 from bodies.superellipsoid_body import SuperellipsoidBody
@@ -81,6 +87,7 @@ __all__ = [
     "CapsuleSuperellipsoid",
     "Compound",
     "ConstantVelocity",
+    "ConvexHull",
     "Coordinate",
     "Cylinder",
     "CylinderBody",
@@ -102,6 +109,7 @@ __all__ = [
     "GeneralisedBody",
     "Harmonic",
     "Hinge",
+    "HullBody",
     "LineBody",
     "Part",
     "PlanarBody",
@@ -111,12 +119,16 @@ __all__ = [
     "PlaneCylinder",
     "PlaneDisc",
     "PlaneEllipsoid",
+    "PlanePolyhedron",
     "PlaneSphere",
     "PlaneSuperellipsoid",
     "PlaneVertex",
     "Plate",
     "Point",
     "PointFrame",
+    "Polyhedron",
+    "PolyhedronPoint",
+    "PolyhedronPolyhedron",
     "Rest",
     "RigidBody",
     "Rod",

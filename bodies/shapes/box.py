@@ -10,7 +10,8 @@ from typing import final
 import numpy as np
 
 from bodies.shapes.placement import turned, with_axes
-from nonsmooth.interfaces import ConvexShape
+from bodies.shapes.polyhedron import Polyhedron
+from bodies.shapes.polytope import Polytope, polytope_of
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -18,7 +19,7 @@ from nonsmooth.vectors import UNIT_PART, unit_vector
 
 @final
 @dataclass(frozen=True)
-class Box(ConvexShape):
+class Box(Polyhedron):
     """A solid box with its centre at (x, y, z) in the body frame and its axes turned by a unit quaternion."""
 
     half_x: float = parameter(doc="half-length along its first axis", unit="m", above=0.0)
@@ -50,6 +51,11 @@ class Box(ConvexShape):
     def length(self) -> float:
         """Distance of the farthest vertex [m]."""
         return max(math.hypot(*vertex) for vertex in self.vertices)
+
+    @property
+    def polytope(self) -> Polytope:
+        """Vertices, faces and edges in the body frame."""
+        return polytope_of("Box", self.vertices)
 
     @property
     def _axes(self) -> Vector:

@@ -150,7 +150,7 @@ def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
 
 @kernel("i8(S, F, I, i8)")
 def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
-    """Return 1 if guard ``i`` is a gap that has come over the end of a feature to where it rests, and does not close."""
+    """Return 1 if guard ``i`` is a gap that came over the end of a feature to where it rests; it does not close."""
     c = i // 2
     if k[S.mode + c] != OPEN or i != 2 * c or k[S.guard_deflated + i] == 1:
         return 0

@@ -13,7 +13,7 @@ from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, STICK
 from nonsmooth.engine.runge_kutta import dense_state
-from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.layout import GEOMETRY, PAST_END
 
 _MIDDLE = 0.5
 _NEAR = 0.2
@@ -28,6 +28,8 @@ _TRUSTED = 2.0
 """The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 _MOST_ROOTS = 30
 """So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
+_SAMPLES = 16
+"""So many samples of a step, an even number, in which features may face each other for a while."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -167,6 +169,33 @@ def _far(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     return 1
 
 
+@kernel("i8(S, F, I, f8)")
+def _may_face(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Return 1 if features that do not face each other come near within the step, the guards being at its end.
+
+    Then no rate says whether their gap closes and opens again between two samples.
+    """
+    for c in range(S.n_contacts):
+        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c + PAST_END] > 0.0:
+            v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+            speed = abs(w[S.gap_rate + c]) + math.sqrt(v1 * v1 + v2 * v2)
+            if w[S.geometry + GEOMETRY * c] <= 2.0 * h * speed:
+                return 1
+    return 0
+
+
+@kernel("f8(S, F, I, f8, i8)")
+def _sampled(S: Scalars, w: Floats, k: Integers, h: float, first: int) -> float:
+    """Return the first of some fractions of a half step at which a gap has closed, its guards in ``guard``, or 0."""
+    for i in range(first + 1, first + _SAMPLES // 2):
+        guards_within(S, w, k, h, i / _SAMPLES, 0)
+        if first_fired(S, w, k, 0, -1) >= 0:
+            guards_within(S, w, k, h, i / _SAMPLES, _any_closed(S, w, k))
+            return i / _SAMPLES
+        arm_further(S, w, k, 0)
+    return 0.0
+
+
 @room("f8(S, F, I, f8)")
 def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
@@ -176,6 +205,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     closed = _any_closed(S, w, k)
     write_guards(S, w, k, S.t + h, S.y_new, 1)
     keep_end(S, w, k)
+    near = _may_face(S, w, k, h)
     deflate(S, w, k, h)
     fired = first_fired(S, w, k, 1, -1)
     # where no stage saw a force or slip that violates its mode or dips, the middle is looked at for gaps only
@@ -183,8 +213,12 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + 2 * c], w[S.guard_end + 2 * c]):
             S.suspect = 1
     forces = closed if S.suspect == 1 else 0
-    if forces == 0 and S.n_own_guards == 0 and _far(S, w, k, h) == 1:
+    if forces == 0 and S.n_own_guards == 0 and near == 0 and _far(S, w, k, h) == 1:
         return 1.0 if fired >= 0 else 0.0
+    if near == 1:
+        theta = _sampled(S, w, k, h, 0)
+        if theta > 0.0:
+            return theta
     guards_within(S, w, k, h, _MIDDLE, forces)
     if first_fired(S, w, k, forces, -1) >= 0:
         if forces != closed:
@@ -204,7 +238,9 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if theta > 0.0:
             return theta
     theta = 0.0
-    if fired < 0:
+    if near == 1:
+        theta = _sampled(S, w, k, h, _SAMPLES // 2)
+    if fired < 0 and theta == 0.0:
         theta = _dip(S, w, k, h, _MIDDLE, 1.0, 0)
     if theta == 0.0:
         for i in range(3 * S.n_contacts + S.n_own_guards):

@@ -39,9 +39,10 @@ def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places
         memory.array("y_scale", n_y)[first + first_state : first + first_state + len(scales)] = scales
         first_state += len(scales)
     widths = [places[id(body)].linkage_nu for contact in contacts for body in (contact.first, contact.second)]
+    widest = max(widths, default=0)
     for slot in range(int(memory.scalars["n_slots"][0])):
         for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
-            memory.array(name, slot + 1)[slot] = heap.block(3 * max(widths))
+            memory.array(name, slot + 1)[slot] = heap.block(3 * widest)
 
 
 def initial_state(contact: Contact) -> tuple[float, ...]:

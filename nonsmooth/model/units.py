@@ -12,7 +12,9 @@ from nonsmooth.system.contact import Contact
 SMALL = 64
 """Systems with up to this many declared contacts keep all of them in slots."""
 _SLOTS = 16
-"""Slots for each unit."""
+"""Slots for each unit, at least."""
+_NEIGHBOURS = 6
+"""Pairs with all their contacts for which each unit has slots."""
 _MARGIN = 0.5
 """Margin of the list, in units of the smallest radius."""
 
@@ -41,8 +43,9 @@ class Units:
     @property
     def n_slots(self) -> int:
         """Contacts that may be near each other at once."""
-        paired = sum(len(contacts) for contacts in self.pairs.values())
-        return len(self.unbounded) + min(paired, _SLOTS * len(self.frames))
+        counts = [len(contacts) for contacts in self.pairs.values()]
+        each = max(_SLOTS, _NEIGHBOURS * max(counts, default=0))
+        return len(self.unbounded) + min(sum(counts), each * len(self.frames))
 
 
 def find_units(contacts: Sequence[Contact]) -> Units:

@@ -25,6 +25,7 @@ from nonsmooth.parameters import Rule, check_number
 from nonsmooth.plugins import registry
 from nonsmooth.system.contact import Contact, Declaration, Tie
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws
+from nonsmooth.system.pairing import nearest_pair
 from nonsmooth.system.selection import Side, select
 from nonsmooth.system.sharing import check_sharing
 
@@ -342,24 +343,25 @@ class System:
     ) -> list[Contact]:
         known = registry.load_all("kinematics").values()
         number = len(self._contacts) + n_added + 1
-        for kinematics in known:
-            for one, two in ((first, second), (second, first)):
-                if kinematics.pair == (type(one.shape), type(two.shape)):
-                    names = type(one.body).__name__, type(two.body).__name__
-                    return [
-                        Contact(
-                            f"contact of {names[0]} and {names[1]} (from number {number})",
-                            one.body,
-                            two.body,
-                            (one.frame, two.frame),
-                            geometry,
-                            (one.shape.extent, two.shape.extent),
-                            normal,
-                            friction,
-                            impact,
-                        )
-                        for geometry in kinematics.between(one.shape, two.shape)
-                    ]
+        found = nearest_pair(known, first.shape, second.shape)
+        if found is not None:
+            kinematics, in_order = found
+            one, two = (first, second) if in_order else (second, first)
+            names = type(one.body).__name__, type(two.body).__name__
+            return [
+                Contact(
+                    f"contact of {names[0]} and {names[1]} (from number {number})",
+                    one.body,
+                    two.body,
+                    (one.frame, two.frame),
+                    geometry,
+                    (one.shape.extent, two.shape.extent),
+                    normal,
+                    friction,
+                    impact,
+                )
+                for geometry in kinematics.between(one.shape, two.shape)
+            ]
         pairs = sorted(f"{k.pair[0].__name__}-{k.pair[1].__name__}" for k in known)
         raise InvalidInput(
             "System.contact",

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.model.layout import FRAME, GEOMETRY
+from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.testing.callers import compiled_caller, plain_caller
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.draws import Case, Variable, draws
@@ -223,10 +223,12 @@ class _Pair:
     def _derivative(self, case: Case, value: Callable[[Rig], Array]) -> Array | None:
         """Return the derivative in time while u' = 0, None where a feature changes or it is not smooth."""
         feature = self._put(case).geometry[29]
+        if self.rig.geometry[PAST_END] > 0.0:
+            return None
         at: dict[int, Array] = {}
         for i in (-4, -2, -1, 1, 2, 4):
             rig = self._put(case, i * _STEP)
-            if rig.geometry[29] != feature:
+            if rig.geometry[29] != feature or rig.geometry[PAST_END] > 0.0:
                 return None
             at[i] = np.array(value(rig))
         fine = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * _STEP)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
 import warnings
 from collections.abc import Callable, Mapping
@@ -85,8 +86,20 @@ def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]
         raise InvalidInput(
             "--set", "must be left out", dict(words), f"The parameters of {name} follow from its shapes."
         )
-    first, second = (make(shape, shape.__name__, {}) for shape in owner.pair)
+    first, second = (make(kind, kind.__name__, {}) for kind in map(_installed, owner.pair))
     return check_contact_kinematics(owner.between(first, second)[0], first, second)
+
+
+def _installed(kind: type[Shape]) -> type[Shape]:
+    """Return a class of shapes, or of one that is only a base the first installed that derives from it."""
+    if not inspect.isabstract(kind):
+        return kind
+    derived = [shape for shape in registry.load_all("shapes").values() if issubclass(shape, kind)]
+    if not derived:
+        raise InvalidInput(
+            "check", "must be of a pair of shapes that are installed", kind.__name__, "No installed shape is one."
+        )
+    return derived[0]
 
 
 def make(owner: Any, name: str, words: Mapping[str, str]) -> Any:

@@ -111,6 +111,9 @@ class Rig:
         self.contacts = self._system.contact(*self._bodies, **laws)
         self._system.place(self._bodies[1], position=(0.0, 0.0, 50.0))
         self._model = assemble(self._system, Options())
+        # polyhedra have so many contacts that only those of near bodies are listed
+        self._model.memory.scalars["margin_of_list"] = 1e9
+        call_room("list_contacts", self._model.memory)
 
     def put(self, poses: Any, u: Any) -> None:
         """Put the bodies at (position, quaternion) each, with velocities u [12]."""

@@ -1,0 +1,110 @@
+"""A vertex of one polyhedron against the faces of another."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.polytope_tables import FACE
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+REACH = 1e-9
+"""A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""
+
+
+@compiled
+def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[float, float, float]:
+    """Return the normal of a face in the axes of the other body."""
+    x, y, z = vector_in_world(frame, faces[face], faces[face + 1], faces[face + 2])
+    return vector_in_body(other, x, y, z)
+
+
+@compiled
+def _height(faces: Floats, face: int, x: float, y: float, z: float) -> float:
+    return faces[face] * x + faces[face + 1] * y + faces[face + 2] * z - faces[face + 3]
+
+
+@compiled
+def _least(
+    frame: Floats, other: Floats, faces: Floats, face: int, n_vertices: float, vertices: Floats, enough: float
+) -> float:
+    """Return the least height of the other body over a face, or one below ``enough``."""
+    nx, ny, nz = _normal_in(frame, other, faces, face)
+    x, y, z = vector_in_body(frame, other[0] - frame[0], other[1] - frame[1], other[2] - frame[2])
+    base, least = _height(faces, face, x, y, z), 1e300
+    for i in range(int(n_vertices)):
+        height = base + nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2]
+        if height < least:
+            least = height
+            if least < enough:
+                break
+    return least
+
+
+@compiled
+def _past(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
+    """Return how far the point under (x, y, z) on a face is past its edges, by the planes of the other faces."""
+    x, y, z = x - height * faces[face], y - height * faces[face + 1], z - height * faces[face + 2]
+    past = -1e300
+    for i in range(int(n_faces)):
+        if FACE * i != face:
+            past = max(past, _height(faces, FACE * i, x, y, z))
+    return past
+
+
+@compiled
+def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
+    """Return the height of a point of the world over the highest of the planes of the faces: negative inside."""
+    x, y, z = vector_in_body(frame, x - frame[0], y - frame[1], z - frame[2])
+    highest = -1e300
+    for i in range(int(n_faces)):
+        highest = max(highest, _height(faces, FACE * i, x, y, z))
+    return highest
+
+
+@compiled
+def nearest_face(
+    frame: Floats,
+    other: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    vertex: float,
+    size: float,
+) -> tuple[float, float, float]:
+    """Return face, gap and way past the end of the vertex of a body against the polyhedron in ``frame``.
+
+    The face is the one that best separates the two bodies, so that all vertices are measured against the same; with
+    more than one, which the bodies touch at an edge, it is the one over which the vertex stands.  A vertex inside the
+    polyhedron is measured against the nearest face.  Past the end the gap is a positive number.
+    """
+    v = 3 * int(vertex)
+    px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])
+    x, y, z = vector_in_body(frame, px - frame[0], py - frame[1], pz - frame[2])
+    margin = REACH * size
+    best, deepest, inner = -1e300, -1e300, 0
+    for i in range(int(n_faces)):
+        best = max(best, _least(frame, other, faces, FACE * i, n_vertices, vertices, best))
+        height = _height(faces, FACE * i, x, y, z)
+        if height > deepest:
+            deepest, inner = height, i
+    found, gap, past = inner, deepest, 1e300
+    for i in range(int(n_faces)):
+        height = _height(faces, FACE * i, x, y, z)
+        if height < best - margin:
+            continue
+        least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)
+        if least < best - margin:
+            continue
+        # under the plane of a face only what lies inside of the body can touch it
+        beyond = _past(faces, n_faces, FACE * i, height, x, y, z) + max(-height, 0.0) - margin
+        beyond = max(beyond, -least - 0.5 * faces[FACE * i + 4])
+        if beyond < past:
+            found, gap, past = i, height, beyond
+    if past > 0.0:
+        if deepest < -margin:
+            return float(inner), deepest, deepest
+        gap = math.sqrt(gap * gap + past * past)
+    return float(found), gap, past
