@@ -4,32 +4,26 @@ from bodies.ball import Ball
 from bodies.box_body import BoxBody
 from bodies.capsule_body import CapsuleBody
 from bodies.compound import Compound, Part
-from bodies.contacts.box_ellipsoid import BoxEllipsoid
 from bodies.contacts.box_sphere import BoxSphere
-from bodies.contacts.box_superellipsoid import BoxSuperellipsoid
 from bodies.contacts.capsule_capsule import CapsuleCapsule
-from bodies.contacts.capsule_ellipsoid import CapsuleEllipsoid
+from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
-from bodies.contacts.capsule_superellipsoid import CapsuleSuperellipsoid
 from bodies.contacts.cylinder_sphere import CylinderSphere
 from bodies.contacts.disc_sphere import DiscSphere
-from bodies.contacts.ellipsoid_ellipsoid import EllipsoidEllipsoid
-from bodies.contacts.ellipsoid_sphere import EllipsoidSphere
 from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
 from bodies.contacts.plane_polyhedron import PlanePolyhedron
+from bodies.contacts.plane_smooth import PlaneSmooth
 from bodies.contacts.plane_sphere import PlaneSphere
-from bodies.contacts.plane_superellipsoid import PlaneSuperellipsoid
 from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.contacts.polyhedron_point import PolyhedronPoint
 from bodies.contacts.polyhedron_polyhedron import PolyhedronPolyhedron
+from bodies.contacts.polyhedron_smooth import PolyhedronSmooth
+from bodies.contacts.smooth_smooth import SmoothSmooth
 from bodies.contacts.sphere_sphere import SphereSphere
-from bodies.contacts.superellipsoid_ellipsoid import SuperellipsoidEllipsoid
-from bodies.contacts.superellipsoid_sphere import SuperellipsoidSphere
-from bodies.contacts.superellipsoid_superellipsoid import SuperellipsoidSuperellipsoid
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
 from bodies.driven_body import DrivenBody
@@ -75,16 +69,13 @@ __all__ = [
     "BallJoint",
     "Box",
     "BoxBody",
-    "BoxEllipsoid",
     "BoxSphere",
-    "BoxSuperellipsoid",
     "Bushing",
     "Capsule",
     "CapsuleBody",
     "CapsuleCapsule",
-    "CapsuleEllipsoid",
+    "CapsuleSmooth",
     "CapsuleSphere",
-    "CapsuleSuperellipsoid",
     "Compound",
     "ConstantVelocity",
     "ConvexHull",
@@ -100,8 +91,6 @@ __all__ = [
     "Dumbbell",
     "Ellipsoid",
     "EllipsoidBody",
-    "EllipsoidEllipsoid",
-    "EllipsoidSphere",
     "Fixed",
     "FreeBody",
     "FunctionLoad",
@@ -120,8 +109,8 @@ __all__ = [
     "PlaneDisc",
     "PlaneEllipsoid",
     "PlanePolyhedron",
+    "PlaneSmooth",
     "PlaneSphere",
-    "PlaneSuperellipsoid",
     "PlaneVertex",
     "Plate",
     "Point",
@@ -129,18 +118,17 @@ __all__ = [
     "Polyhedron",
     "PolyhedronPoint",
     "PolyhedronPolyhedron",
+    "PolyhedronSmooth",
     "Rest",
     "RigidBody",
     "Rod",
     "Slider",
+    "SmoothSmooth",
     "Sphere",
     "SphereSphere",
     "Spring",
     "Superellipsoid",
     "SuperellipsoidBody",
-    "SuperellipsoidEllipsoid",
-    "SuperellipsoidSphere",
-    "SuperellipsoidSuperellipsoid",
     "Table",
     "TorsionSpring",
     "TurningFrame",

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
 from bodies.contacts.curvature import SIDE_A, SIDE_B
 from bodies.contacts.dual_newton import climb
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, between_axes, forth, write_core
 from bodies.contacts.tangents import write_tangent
+from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import support_of
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 
-def evaluate_smooth_pair(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
+def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
     """Write the geometry block of two cores, the tuples of :mod:`bodies.contacts.smooth_core`; one is no point.
 
     The gap is nan where Newton's method does not end with a residual of round-off.
@@ -35,3 +42,43 @@ def evaluate_smooth_pair(a: Floats, b: Floats, out: Floats, first: Floats, secon
     write_tangent(a, out)
     write_core(out, SIDE_A, first, axes_a, nx, ny, nz)
     write_core(out, SIDE_B, second, axes_b, mx, my, mz)
+
+
+@final
+@dataclass(frozen=True)
+class SmoothSmooth(ContactKinematics):
+    """One contact of two smooth bodies; its normal is the one that separates them most.
+
+    Attributes
+    ----------
+    first : SmoothShape
+        The one.
+    second : SmoothShape
+        The other.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SmoothShape, SmoothShape)
+
+    first: SmoothShape
+    second: SmoothShape
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[SmoothSmooth, ...]:
+        """Return the single contact of two smooth shapes."""
+        assert isinstance(first, SmoothShape)
+        assert isinstance(second, SmoothShape)
+        return (cls(first, second),)
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the numbers of both support functions."""
+        return {"first": self.first.core, "second": self.second.core}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's method on the support functions."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("smooth-smooth",)

@@ -11,7 +11,7 @@ import numpy as np
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.placement import turned, with_axes
 from bodies.shapes.smooth import core_numbers
-from nonsmooth.interfaces import ConvexShape
+from bodies.shapes.smooth_shape import SmoothShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -19,7 +19,7 @@ from nonsmooth.vectors import UNIT_PART, unit_vector
 
 @final
 @dataclass(frozen=True)
-class Ellipsoid(ConvexShape):
+class Ellipsoid(SmoothShape):
     """A solid ellipsoid with its centre at (x, y, z) in the body frame and its axes turned by a unit quaternion."""
 
     semi_x: float = parameter(doc="first semi-axis", unit="m", above=0.0)

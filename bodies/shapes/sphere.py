@@ -10,14 +10,14 @@ import numpy as np
 
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.smooth import core_numbers
-from nonsmooth.interfaces import ConvexShape
+from bodies.shapes.smooth_shape import SmoothShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 
 
 @final
 @dataclass(frozen=True)
-class Sphere(ConvexShape):
+class Sphere(SmoothShape):
     """A sphere with its centre at (x, y, z) in the body frame."""
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)

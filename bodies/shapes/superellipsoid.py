@@ -11,8 +11,8 @@ from typing import Any, final
 import numpy as np
 
 from bodies.shapes import smooth
+from bodies.shapes.smooth_shape import SmoothShape
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ConvexShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -23,7 +23,7 @@ EXPONENT: Mapping[str, Any] = MappingProxyType({"minimum": 1.0, "maximum": 1.8})
 
 @final
 @dataclass(frozen=True)
-class Superellipsoid(ConvexShape):
+class Superellipsoid(SmoothShape):
     """All points within ``rounding`` of ((x/a)^(2/e2) + (y/b)^(2/e2))^(e2/e1) + (z/c)^(2/e1) <= 1.
 
     The exponents e1 and e2 go from 1, the ellipsoid, towards 2, the octahedron.  Its contacts follow from the support

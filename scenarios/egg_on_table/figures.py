@@ -37,7 +37,9 @@ def history(scenario: EggOnTable, solution: Solution) -> Figure:
         _grid(axis)
     axes[0].set_ylim(0.0, 90.0)
     axes[0].set_yticks(range(0, 91, 30))
-    axes[1].axhline(scenario.upright_spin(), color="tab:red", linestyle="--", linewidth=0.9, label="by $A\\Omega h$, upright")
+    axes[1].axhline(
+        scenario.upright_spin(), color="tab:red", linestyle="--", linewidth=0.9, label="by $A\\Omega h$, upright"
+    )
     axes[1].legend(fontsize=8, frameon=False, loc="lower right")
     low, high = min(0.95, float(np.min(values[3]))), max(1.05, float(np.max(values[3])))
     axes[3].set_ylim(low, high)
@@ -94,7 +96,9 @@ def jumps(scenario: EggOnTable, solution: Solution) -> Figure:
     for axis in axes:
         _grid(axis)
     flights = scenario.summarise(solution)["flights"]
-    figure.suptitle(f"Spun at {scenario.spin:g} rad/s the egg leaves the table {flights} times while it rises", fontsize=11)
+    figure.suptitle(
+        f"Spun at {scenario.spin:g} rad/s the egg leaves the table {flights} times while it rises", fontsize=11
+    )
     return figure
 
 

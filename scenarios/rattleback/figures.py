@@ -29,14 +29,19 @@ def history(scenario: Rattleback, solution: Solution) -> Figure:
     axes[0].plot(solution.t, numbers["spin"], color="black", linewidth=1.4)
     axes[0].axhline(0.0, color="0.6", linewidth=0.8)
     axes[0].set_ylabel("spin [rad/s]")
-    for axis, name, words in ((axes[1], "pitch", "pitch of\nthe long axis"), (axes[2], "roll", "roll about\nthe long axis")):
+    for axis, name, words in (
+        (axes[1], "pitch", "pitch of\nthe long axis"),
+        (axes[2], "roll", "roll about\nthe long axis"),
+    ):
         axis.plot(solution.t, np.degrees(numbers[name]), color="black", linewidth=0.7)
         axis.set_ylabel(f"{words} [deg]")
     axes[2].set_xlabel("time [s]")
     for axis in axes:
         _grid(axis)
     turned = scenario.summarise(solution)["reversed"]
-    figure.suptitle("The spin is not turned round" if turned is None else f"The spin is turned round after {turned:.1f} s")
+    figure.suptitle(
+        "The spin is not turned round" if turned is None else f"The spin is turned round after {turned:.1f} s"
+    )
     return figure
 
 

@@ -22,12 +22,14 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Capsule, Ellipsoid, Plane, Sphere, Superellipsoid
+from bodies import Box, Capsule, ConvexHull, Ellipsoid, Plane, Sphere, Superellipsoid
+from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
 from nonsmooth.model.layout import FRAME, GEOMETRY
 from nonsmooth.plugins import registry
 from nonsmooth.plugins.compile import bind
+from nonsmooth.system.pairing import nearest_pair
 from nonsmooth.testing.rig import Rig, rotation, turned
 
 Array = NDArray[np.float64]
@@ -37,8 +39,8 @@ Touch = tuple[Shape, Array, Array]
 GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9, -1e-9, -1e-7, -1e-5, -1e-4)
 """[m]"""
 _SMALL, _LARGE = 4e-3, 10e-3
-_STEP = 1e-3
-"""Of the differences [s]."""
+_STEPS = 1e-3, 5e-4, 2.5e-4
+"""Of the differences [s]; the first is taken with which they are smooth."""
 _FIRST = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 _SECOND = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / 180.0
 _SPEED, _SPIN = 0.1, 3.0
@@ -131,18 +133,34 @@ def on_plane(rng: Generator) -> Touch:
     return plane, np.array([*rng.uniform(-0.1, 0.1, 2), plane.height]), np.array([0.0, 0.0, 1.0])
 
 
-def on_box(sides: int) -> Callable[[Generator], Touch]:
-    """Return a way to touch a box on a face (1 side), edge (2) or vertex (3)."""
+def box(rng: Generator) -> Polyhedron:
+    """Return a box."""
+    return Box(*_sizes(rng), **_place(rng))
+
+
+def hull(rng: Generator) -> Polyhedron:
+    """Return the hull of twelve points on an ellipsoid."""
+    points = rng.normal(size=(12, 3))
+    points *= np.array(_sizes(rng)) / np.linalg.norm(points, axis=1)[:, None]
+    return ConvexHull(points, **_place(rng))
+
+
+def on(draw: Callable[[Generator], Polyhedron], part: str) -> Callable[[Generator], Touch]:
+    """Return a way to touch a polyhedron on a face, an edge or a vertex, with any normal that belongs to it."""
 
     def touch(rng: Generator) -> Touch:
-        sizes, place = _sizes(rng), _place(rng)
-        box = Box(*sizes, **place)
-        point, n = rng.uniform(-0.95, 0.95, 3) * sizes, np.zeros(3)
-        for axis in rng.permutation(3)[:sides]:
-            sign = float(rng.choice([-1.0, 1.0]))
-            point[axis], n[axis] = sign * sizes[axis], sign * rng.uniform(0.05, 1.0)
-        axes = rotation([place[f"orientation_{name}"] for name in "wxyz"])
-        return box, axes @ point + box.centroid, axes @ n / np.linalg.norm(n)
+        shape = draw(rng)
+        vertices, normals = np.array(shape.polytope.vertices), np.array(shape.polytope.planes)[:, :3]
+        number = int(rng.integers(len({"face": normals, "edge": shape.polytope.edges, "vertex": vertices}[part])))
+        if part == "face":
+            corners, faces = list(shape.polytope.faces[number]), [number]
+        elif part == "edge":
+            corners, faces = list(shape.polytope.edges[number][:2]), list(shape.polytope.edges[number][2:])
+        else:
+            corners, faces = [number], [i for i, loop in enumerate(shape.polytope.faces) if number in loop]
+        shares, weights = rng.uniform(0.1, 1.0, len(corners)), rng.uniform(0.1, 1.0, len(faces))
+        n = weights @ normals[faces]
+        return shape, shares @ vertices[corners] / np.sum(shares), n / np.linalg.norm(n)
 
     return touch
 
@@ -162,6 +180,8 @@ def on_capsule(rng: Generator) -> Touch:
     return shape, center + along * shape.half_length * axis + shape.radius * n, n
 
 
+SMOOTH = {"sphere": sphere, "ellipsoid": ellipsoid, "superellipsoid": superellipsoid}
+PARTS = "face", "edge", "vertex"
 PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], ConvexShape]]] = {
     "plane-ellipsoid": (on_plane, ellipsoid),
     "plane-superellipsoid": (on_plane, superellipsoid),
@@ -170,12 +190,8 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
     "superellipsoid-sphere": (anywhere(superellipsoid), sphere),
     "superellipsoid-ellipsoid": (anywhere(superellipsoid), ellipsoid),
     "superellipsoid-superellipsoid": (anywhere(superellipsoid), superellipsoid),
-    "box-ellipsoid, face": (on_box(1), ellipsoid),
-    "box-ellipsoid, edge": (on_box(2), ellipsoid),
-    "box-ellipsoid, vertex": (on_box(3), ellipsoid),
-    "box-superellipsoid, face": (on_box(1), superellipsoid),
-    "box-superellipsoid, edge": (on_box(2), superellipsoid),
-    "box-superellipsoid, vertex": (on_box(3), superellipsoid),
+    **{f"box-{name}, {part}": (on(box, part), draw) for name, draw in SMOOTH.items() for part in PARTS},
+    **{f"hull-{name}, {part}": (on(hull, part), draw) for name, draw in SMOOTH.items() for part in PARTS},
     "capsule-ellipsoid": (on_capsule, ellipsoid),
     "capsule-superellipsoid": (on_capsule, superellipsoid),
 }
@@ -209,11 +225,10 @@ def pose(pair: str, gap: float, rng: Generator) -> Pose:
 
 def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[ContactKinematics, ...]:
     """Return the contacts of two shapes, by what is installed."""
-    for owner in registry.load_all("kinematics").values():
-        if owner.pair == (type(shapes[0]), type(shapes[1])):
-            contacts: tuple[ContactKinematics, ...] = owner.between(*shapes)
-            return contacts
-    raise LookupError(f"no kinematics for {shapes}")
+    found = nearest_pair(registry.load_all("kinematics").values(), *shapes)
+    if found is None or not found[1]:
+        raise LookupError(f"no kinematics for {shapes}")
+    return tuple(found[0].between(*shapes))
 
 
 def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float], tuple[float, ...] | None]:
@@ -241,11 +256,14 @@ def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float]
             features.add(float(rig.geometry[29]))
         return float(_FIRST @ gaps) / step, float(_SECOND @ gaps) / step**2, features
 
-    fine, coarse = differences(0.5 * _STEP), differences(_STEP)
-    smooth = len(coarse[2]) == 1 and all(
-        abs(f - c) <= size * (abs(f) + unit)
-        for f, c, size, unit in zip(fine[:2], coarse[:2], (_SMOOTH, 100.0 * _SMOOTH), (_SPEED, _SPEED * _SPIN), strict=True)
-    )
+    smooth = False
+    for step in _STEPS:
+        fine, coarse = differences(0.5 * step), differences(step)
+        off = (abs(f - c) - _SMOOTH * abs(f) for f, c in zip(fine[:2], coarse[:2], strict=True))
+        bounds = _SMOOTH * _SPEED, 100.0 * _SMOOTH * _SPEED * _SPIN
+        smooth = len(coarse[2]) == 1 and all(one <= bound for one, bound in zip(off, bounds, strict=True))
+        if smooth:
+            break
     rates = rate, abs(fine[0] - rate), acceleration, abs(fine[1] - acceleration)
     return (abs(float(block[0]) - found.gap), normal, place), rates if smooth else None
 

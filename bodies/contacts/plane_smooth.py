@@ -1,4 +1,4 @@
-"""A superellipsoid over a plane, in closed form."""
+"""A smooth body over a plane, in closed form."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bodies.contacts.frames import point_in_world
 from bodies.contacts.plane_point import place_over_plane
 from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, forth, write_core
 from bodies.shapes.plane import Plane
-from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import support_of
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -31,33 +31,28 @@ def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) 
 
 @final
 @dataclass(frozen=True)
-class PlaneSuperellipsoid(ContactKinematics):
-    """The point of a superellipsoid that a plane supports.
+class PlaneSmooth(ContactKinematics):
+    """The point of a smooth body that a plane supports.
 
     Attributes
     ----------
     first : Plane
         The plane.
-    second : Superellipsoid
-        The superellipsoid.
+    second : SmoothShape
+        The smooth body.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Superellipsoid)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, SmoothShape)
 
     first: Plane
-    second: Superellipsoid
+    second: SmoothShape
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[PlaneSuperellipsoid, ...]:
-        """Return the single contact of a plane and a superellipsoid."""
+    def between(cls, first: Shape, second: Shape) -> tuple[PlaneSmooth, ...]:
+        """Return the single contact of a plane and a smooth shape."""
         assert isinstance(first, Plane)
-        assert isinstance(second, Superellipsoid)
+        assert isinstance(second, SmoothShape)
         return (cls(first, second),)
-
-    @classmethod
-    def example(cls) -> Mapping[str, Shape]:
-        """Return two of them."""
-        return {"first": Plane(), "second": Superellipsoid(0.2, 0.3, 0.4, 1.5, 1.3)}
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the height of the plane and the numbers of the support function."""
@@ -71,4 +66,4 @@ class PlaneSuperellipsoid(ContactKinematics):
     @property
     def features(self) -> tuple[str, ...]:
         """The only pair."""
-        return ("plane-superellipsoid",)
+        return ("plane-smooth",)
