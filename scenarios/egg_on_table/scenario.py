@@ -69,7 +69,7 @@ class EggOnTable(Scenario):
         return EllipsoidBody(self.semi_across, self.semi_across, self.semi_long, mass=self.mass)
 
     def build(self) -> System:
-        """Return table and egg at their start: it spins about the vertical through its mass centre, which is at rest."""
+        """Return table and egg at their start: it spins about the vertical through its mass centre at rest."""
         egg, table = self.body(), Plate(Rest())
         friction = Coulomb(self.friction) if self.friction > 0.0 else Frictionless()
         system = System([table, egg], gravity=GRAVITY)
@@ -91,7 +91,7 @@ class EggOnTable(Scenario):
         return n
 
     def tilts(self, q: Floats) -> Floats:
-        """Return the angle of the axis from the vertical, from 0 to a right angle for either end up [rad], shape [n]."""
+        """Return the angle of the axis from the vertical, at most a right one, either end up [rad], shape [n]."""
         n = self.normals(q)
         tilts: Floats = np.arctan2(np.hypot(n[:, 0], n[:, 1]), np.abs(n[:, 2]))
         return tilts
@@ -134,7 +134,7 @@ class EggOnTable(Scenario):
         return slips
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """Return x, y, z [m], tilt [rad], spin about the vertical [rad/s], slip [m/s], gap [m], L_z h over the samples."""
+        """Return x, y, z [m], tilt [rad], vertical spin [rad/s], slip [m/s], gap [m], L_z h over the samples."""
         q, u = solution.q, solution.u
         return {
             **{name: q[:, i] for i, name in enumerate("xyz")},
@@ -150,7 +150,7 @@ class EggOnTable(Scenario):
         return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return when it stands [s], tilt [rad] and spin [rad/s] at the end, how often it has left the table, losses [J].
+        """Return when it stands [s], tilt [rad] and spin [rad/s] at the end, how often it left the table, losses [J].
 
         It stands once its axis is within 10 degrees of the vertical for the rest of the run.
         """

@@ -128,7 +128,7 @@ class Rattleback(Scenario):
         return energies
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """Return x, y, z [m], pitch of the long axis, roll about it [rad], spin [rad/s], energy [J] over the samples."""
+        """Return x, y, z [m], pitch of the long axis and roll [rad], spin [rad/s], energy [J] over the samples."""
         q, u = solution.q, solution.u
         n = self.normals(q)
         return {

@@ -1,4 +1,4 @@
-"""How exact the contact pairs are: ``python -m tests.benchmarks.contact_accuracy`` prints the table of the documentation.
+"""How exact the contact pairs are: ``python -m tests.benchmarks.contact_accuracy`` prints the table of the docs.
 
 Every pose is made from a point on the first body with a normal there, and the point of the second that lies farthest
 against it, put the gap apart: gap, normal and witness points are known to round-off.  Bodies are of 1 cm, half-sizes of
@@ -16,11 +16,9 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from bodies import Box, Capsule, ConvexHull, Ellipsoid, Plane, Sphere, Superellipsoid
 from bodies.shapes.polyhedron import Polyhedron
