@@ -104,9 +104,8 @@ def ellipsoid(rng: Generator) -> ConvexShape:
 
 def superellipsoid(rng: Generator) -> ConvexShape:
     """Return a superellipsoid, in half of the cases a rounded one."""
-    exponents = [float(x) for x in rng.uniform(1.1, 1.5, 2)]
-    rounding = float(rng.choice([0.0, 1e-3]))
-    return Superellipsoid(*_sizes(rng), *exponents, rounding, **_place(rng))
+    (a, b, c), (along, across) = _sizes(rng), rng.uniform(1.1, 1.5, 2).tolist()
+    return Superellipsoid(a, b, c, along, across, float(rng.choice([0.0, 1e-3])), **_place(rng))
 
 
 def sphere(rng: Generator) -> ConvexShape:
@@ -140,7 +139,7 @@ def hull(rng: Generator) -> Polyhedron:
     """Return the hull of twelve points on an ellipsoid."""
     points = rng.normal(size=(12, 3))
     points *= np.array(_sizes(rng)) / np.linalg.norm(points, axis=1)[:, None]
-    return ConvexHull(points, **_place(rng))
+    return ConvexHull(points.tolist(), **_place(rng))
 
 
 def on(draw: Callable[[Generator], Polyhedron], part: str) -> Callable[[Generator], Touch]:
@@ -149,7 +148,8 @@ def on(draw: Callable[[Generator], Polyhedron], part: str) -> Callable[[Generato
     def touch(rng: Generator) -> Touch:
         shape = draw(rng)
         vertices, normals = np.array(shape.polytope.vertices), np.array(shape.polytope.planes)[:, :3]
-        number = int(rng.integers(len({"face": normals, "edge": shape.polytope.edges, "vertex": vertices}[part])))
+        counts = {"face": len(normals), "edge": len(shape.polytope.edges), "vertex": len(vertices)}
+        number = int(rng.integers(counts[part]))
         if part == "face":
             corners, faces = list(shape.polytope.faces[number]), [number]
         elif part == "edge":
@@ -295,7 +295,9 @@ def measure(pair: str, draws: int, seed: int = 0) -> Errors:
     rates = np.array([rates for _, rates in found if rates is not None]).reshape(-1, 4)
     largest = np.max(np.abs(rates), axis=0)
     return Errors(
-        *(float(x) for x in statics),
+        float(statics[0]),
+        float(statics[1]),
+        float(statics[2]),
         float(largest[1] / largest[0]),
         float(largest[3] / largest[2]),
         len(rates),

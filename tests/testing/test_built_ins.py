@@ -40,15 +40,25 @@ from bodies import (
     TurningFrame,
 )
 from laws import (
+    Anisotropic,
+    Bristle,
+    Cohesive,
     Coulomb,
+    CoulombContensou,
+    Directional,
     EnergeticImpact,
     Frictionless,
+    HertzCompliant,
+    HuntCrossley,
     JohnsonImpact,
+    LankaraniNikravesh,
+    LinearCompliant,
     MonoStiffnessImpact,
     MoreauImpact,
     NewtonImpact,
     PlasticImpact,
     PoissonImpact,
+    RateAndState,
     Stribeck,
     StrongeImpact,
     Unilateral,
@@ -56,7 +66,7 @@ from laws import (
     Viscous,
 )
 from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw, Load, Motion, NormalLaw, Shape
+from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw, Load, Motion, NormalLaw, Shape, TractionLaw
 from nonsmooth.plugins import registry
 from nonsmooth.testing import (
     Property,
@@ -70,6 +80,7 @@ from nonsmooth.testing import (
     check_normal_law,
     check_scenario,
     check_shape,
+    check_traction_law,
 )
 from nonsmooth.testing.registered import make
 from scenarios.rolling_disc.air_film import AirFilm
@@ -88,6 +99,16 @@ LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
     (check_impact_law, EnergeticImpact(0.5, exponent=1.0)),
     (check_friction_law, Viscous(0.2, 0.1)),
     (check_friction_law, SpinningCoulomb(0.3, 0.1)),
+    (check_friction_law, Anisotropic(0.5, 0.3, (0.0, 1.0, 1.0), "first")),
+    (check_friction_law, Directional(0.2, 0.5, 0.3)),
+    (check_friction_law, RateAndState(0.3, 0.01, 0.015, 1e-3, 1e-4)),
+    (check_normal_law, LinearCompliant(1e4, 3.0)),
+    (check_normal_law, HertzCompliant(1e8)),
+    (check_normal_law, HuntCrossley(1e8, 0.3)),
+    (check_normal_law, LankaraniNikravesh(1e8, 0.7)),
+    (check_normal_law, Cohesive(1e4, 1.0, 2.0)),
+    (check_traction_law, Bristle(0.3, 0.4, damping=1.0)),
+    (check_traction_law, CoulombContensou(0.3, 0.01, 1e-3, relaxation=1e-4)),
     (check_impact_law, MonoStiffnessImpact(0.6)),
     (check_impact_law, JohnsonImpact()),
     (check_impact_law, ViscoelasticImpact()),
@@ -181,7 +202,7 @@ def test_built_in(prop: Property) -> None:
 def test_all_are_there() -> None:
     """One of every class that is installed."""
     given = {type(law) for _, law in LAWS} | {type(body) for body in BODIES}
-    for group, base in (("laws", (FrictionLaw, ImpactLaw, NormalLaw)), ("bodies", (Body,))):
+    for group, base in (("laws", (FrictionLaw, ImpactLaw, NormalLaw, TractionLaw)), ("bodies", (Body,))):
         installed = set(registry.load_all(group).values())
         assert all(issubclass(owner, base) for owner in installed)
         assert installed <= given

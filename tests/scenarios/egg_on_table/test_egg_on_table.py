@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 
 
-def _run(options: ns.Options | None = None, **given: Any) -> tuple[EggOnTable, ns.Solution]:
+def _run(options: Any = None, **given: Any) -> tuple[EggOnTable, ns.Solution]:
     scenario = EggOnTable(**given)
     solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, options=options)
     assert solution.energy.residual <= 1e-8
