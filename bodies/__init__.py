@@ -22,6 +22,7 @@ from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.contacts.polyhedron_point import PolyhedronPoint
 from bodies.contacts.polyhedron_polyhedron import PolyhedronPolyhedron
 from bodies.contacts.polyhedron_smooth import PolyhedronSmooth
+from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.smooth_smooth import SmoothSmooth
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.cylinder_body import CylinderBody
@@ -119,6 +120,7 @@ __all__ = [
     "PolyhedronPoint",
     "PolyhedronPolyhedron",
     "PolyhedronSmooth",
+    "PolyhedronSphere",
     "Rest",
     "RigidBody",
     "Rod",

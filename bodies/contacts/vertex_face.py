@@ -21,7 +21,8 @@ def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[
 
 
 @compiled
-def _height(faces: Floats, face: int, x: float, y: float, z: float) -> float:
+def plane_height(faces: Floats, face: int, x: float, y: float, z: float) -> float:
+    """Return the height of a point of the body over the plane of a face."""
     return faces[face] * x + faces[face + 1] * y + faces[face + 2] * z - faces[face + 3]
 
 
@@ -32,7 +33,7 @@ def _least(
     """Return the least height of the other body over a face, or one below ``enough``."""
     nx, ny, nz = _normal_in(frame, other, faces, face)
     x, y, z = vector_in_body(frame, other[0] - frame[0], other[1] - frame[1], other[2] - frame[2])
-    base, least = _height(faces, face, x, y, z), 1e300
+    base, least = plane_height(faces, face, x, y, z), 1e300
     for i in range(int(n_vertices)):
         height = base + nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2]
         if height < least:
@@ -43,13 +44,13 @@ def _least(
 
 
 @compiled
-def _past(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
+def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
     """Return how far the point under (x, y, z) on a face is past its edges, by the planes of the other faces."""
     x, y, z = x - height * faces[face], y - height * faces[face + 1], z - height * faces[face + 2]
     past = -1e300
     for i in range(int(n_faces)):
         if FACE * i != face:
-            past = max(past, _height(faces, FACE * i, x, y, z))
+            past = max(past, plane_height(faces, FACE * i, x, y, z))
     return past
 
 
@@ -59,7 +60,7 @@ def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float
     x, y, z = vector_in_body(frame, x - frame[0], y - frame[1], z - frame[2])
     highest = -1e300
     for i in range(int(n_faces)):
-        highest = max(highest, _height(faces, FACE * i, x, y, z))
+        highest = max(highest, plane_height(faces, FACE * i, x, y, z))
     return highest
 
 
@@ -87,19 +88,22 @@ def nearest_face(
     best, deepest, inner = -1e300, -1e300, 0
     for i in range(int(n_faces)):
         best = max(best, _least(frame, other, faces, FACE * i, n_vertices, vertices, best))
-        height = _height(faces, FACE * i, x, y, z)
+        height = plane_height(faces, FACE * i, x, y, z)
         if height > deepest:
             deepest, inner = height, i
     found, gap, past = inner, deepest, 1e300
     for i in range(int(n_faces)):
-        height = _height(faces, FACE * i, x, y, z)
+        height = plane_height(faces, FACE * i, x, y, z)
         if height < best - margin:
             continue
         least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)
         if least < best - margin:
             continue
-        # under the plane of a face only what lies inside of the body can touch it
-        beyond = _past(faces, n_faces, FACE * i, height, x, y, z) + max(-height, 0.0) - margin
+        beyond = past_face(faces, n_faces, FACE * i, height, x, y, z)
+        if height < 0.0:
+            # under the plane of a face only what lies inside of the body can touch it
+            beyond = max(beyond, deepest)
+        beyond -= margin
         beyond = max(beyond, -least - 0.5 * faces[FACE * i + 4])
         if beyond < past:
             found, gap, past = i, height, beyond

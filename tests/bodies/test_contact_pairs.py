@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Capsule, Cylinder, Disc, Ellipsoid, Plane, Sphere, Superellipsoid
+from bodies import Box, Capsule, ConvexHull, Cylinder, Disc, Ellipsoid, Plane, Sphere, Superellipsoid
 from nonsmooth.interfaces import Shape
 from tests.bodies.carriers import Rig
 
@@ -26,6 +27,9 @@ CYLINDER = Cylinder(0.3, 0.25, **PLACE, **AXIS)
 DISC = Disc(0.4, **PLACE, **AXIS)
 CYLINDER_ON_FEET = Cylinder(0.3, 0.25, **PLACE, **AXIS, foot_height=0.02)
 DISC_ON_FEET = Disc(0.4, **PLACE, **AXIS, foot_height=0.03)
+HULL = ConvexHull(
+    ((0.0, 0.0, 0.5), (0.4, 0.0, -0.2), (-0.3, 0.4, -0.2), (-0.3, -0.4, -0.1), (0.0, -0.1, -0.4)), **PLACE, **AXES
+)
 ELLIPSOID = Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES)
 SUPERELLIPSOID = Superellipsoid(0.3, 0.2, 0.4, 1.5, 1.2, **PLACE, **AXES)
 
@@ -38,6 +42,8 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "plane-disc on feet": (PLANE, DISC_ON_FEET, 1 + 6),
     "plane-cylinder on feet": (PLANE, CYLINDER_ON_FEET, 2 + 6),
     "plane-ellipsoid": (PLANE, ELLIPSOID, 1),
+    "plane-hull": (PLANE, HULL, 5),
+    "hull-sphere": (HULL, SPHERE, 1),
     "sphere-sphere": (SPHERE, Sphere(0.3, x=0.1), 1),
     "box-sphere": (BOX, SPHERE, 1),
     "capsule-sphere": (CAPSULE, SPHERE, 1),
@@ -51,6 +57,7 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "superellipsoid-sphere": (SUPERELLIPSOID, SPHERE, 1),
     "box-ellipsoid": (BOX, ELLIPSOID, 1),
     "box-superellipsoid": (BOX, SUPERELLIPSOID, 1),
+    "hull-ellipsoid": (HULL, ELLIPSOID, 1),
     "capsule-ellipsoid": (CAPSULE, ELLIPSOID, 1),
     "capsule-superellipsoid": (CAPSULE, SUPERELLIPSOID, 1),
     "capsule-capsule": (CAPSULE, Capsule(0.1, 0.3, x=0.02, axis_y=-0.6, axis_z=0.8), 1),
@@ -133,12 +140,27 @@ def _dual_norm(shape: Superellipsoid, n: Array) -> Any:
     return ((m[..., 0] ** q + m[..., 1] ** q) ** (p / q) + m[..., 2] ** p) ** (1.0 / p)
 
 
+def _outside_hull(shape: Any, x: Array) -> Any:
+    """Return the height over the highest plane through three points that has all others on one side."""
+    points, own = np.array(shape.points), _own_axes(shape).T @ _local(shape, x)
+    highest = -np.inf
+    for i, j, k in itertools.combinations(range(len(points)), 3):
+        normal = np.cross(points[j] - points[i], points[k] - points[i])
+        normal /= np.linalg.norm(normal)
+        heights = (points - points[i]) @ normal
+        for sign in (1.0, -1.0):
+            if np.all(sign * heights <= 1e-12):
+                highest = max(highest, sign * float((own - points[i]) @ normal))
+    return highest
+
+
 SUPPORT: dict[type[Shape], Any] = {
     Sphere: lambda s, n: s.radius,
     Capsule: lambda s, n: s.radius + s.half_length * np.abs(n @ _axis(s)),
     Cylinder: lambda s, n: _with_feet(s, n, s.radius * _across(s, n) + s.half_length * np.abs(n @ _axis(s))),
     Disc: lambda s, n: _with_feet(s, n, s.radius * _across(s, n)),
     Box: lambda s, n: np.abs(n @ _own_axes(s)) @ np.array([s.half_x, s.half_y, s.half_z]),
+    ConvexHull: lambda s, n: np.max((n @ _own_axes(s)) @ np.array(s.points).T, axis=-1),
     Ellipsoid: lambda s, n: np.linalg.norm(n @ _own_axes(s) * np.array([s.semi_x, s.semi_y, s.semi_z]), axis=-1),
     Superellipsoid: lambda s, n: _dual_norm(s, n @ _own_axes(s)),
 }
@@ -156,6 +178,7 @@ OUTSIDE: dict[type[Shape], Any] = {
     ),
     Disc: lambda s, x: _off_feet(s, x, max(abs(_local(s, x) @ _axis(s)), _across(s, _local(s, x)) - s.radius)),
     Box: lambda s, x: np.max(np.abs(_local(s, x) @ _own_axes(s)) - np.array([s.half_x, s.half_y, s.half_z])),
+    ConvexHull: lambda s, x: _outside_hull(s, x),
     Ellipsoid: lambda s, x: (
         np.linalg.norm(_local(s, x) @ _own_axes(s) / np.array([s.semi_x, s.semi_y, s.semi_z])) - 1.0
     ),
