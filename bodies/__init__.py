@@ -6,6 +6,7 @@ from bodies.capsule_body import CapsuleBody
 from bodies.compound import Compound, Part
 from bodies.contacts.box_sphere import BoxSphere
 from bodies.contacts.capsule_capsule import CapsuleCapsule
+from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
 from bodies.contacts.cylinder_sphere import CylinderSphere
 from bodies.contacts.disc_sphere import DiscSphere
@@ -16,11 +17,14 @@ from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
 from bodies.contacts.plane_mesh import PlaneMesh
 from bodies.contacts.plane_polyhedron import PlanePolyhedron
+from bodies.contacts.plane_smooth import PlaneSmooth
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.contacts.polyhedron_point import PolyhedronPoint
 from bodies.contacts.polyhedron_polyhedron import PolyhedronPolyhedron
+from bodies.contacts.polyhedron_smooth import PolyhedronSmooth
 from bodies.contacts.polyhedron_sphere import PolyhedronSphere
+from bodies.contacts.smooth_smooth import SmoothSmooth
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
@@ -64,6 +68,8 @@ from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.triangle_mesh import TriangleMesh
+from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.superellipsoid_body import SuperellipsoidBody
 
 __all__ = [
     "Ball",
@@ -75,6 +81,7 @@ __all__ = [
     "Capsule",
     "CapsuleBody",
     "CapsuleCapsule",
+    "CapsuleSmooth",
     "CapsuleSphere",
     "Compound",
     "ConstantVelocity",
@@ -113,6 +120,7 @@ __all__ = [
     "PlaneEllipsoid",
     "PlaneMesh",
     "PlanePolyhedron",
+    "PlaneSmooth",
     "PlaneSphere",
     "PlaneVertex",
     "Plate",
@@ -121,14 +129,18 @@ __all__ = [
     "Polyhedron",
     "PolyhedronPoint",
     "PolyhedronPolyhedron",
+    "PolyhedronSmooth",
     "PolyhedronSphere",
     "Rest",
     "RigidBody",
     "Rod",
     "Slider",
+    "SmoothSmooth",
     "Sphere",
     "SphereSphere",
     "Spring",
+    "Superellipsoid",
+    "SuperellipsoidBody",
     "Table",
     "TorsionSpring",
     "TriangleMesh",
