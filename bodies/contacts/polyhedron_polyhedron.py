@@ -12,7 +12,7 @@ from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polyhedron_point import PointPolyhedron, PolyhedronPoint
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.tangents import tangent_of, write_tangent
-from bodies.contacts.vertex_face import REACH, height_over
+from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
 from nonsmooth.errors import InvalidInput
@@ -79,6 +79,7 @@ def _evaluate(
             nx, ny, nz = tangent_of(ex, ey, ez)
         s, over, past = 0.0, 0.0, size * _PARALLEL
     gap = wx * nx + wy * ny + wz * nz
+    overlap = 0.0
     if past <= 0.0:
         plus = max(_astray(a, edge_a, 1.0, nx, ny, nz), _astray(b, edge_b, -1.0, nx, ny, nz))
         minus = max(_astray(a, edge_a, -1.0, nx, ny, nz), _astray(b, edge_b, 1.0, nx, ny, nz))
@@ -92,9 +93,8 @@ def _evaluate(
             outside = height_over(b, n_faces_b, faces_b, px, py, pz)
             px, py, pz = bx + t * fx, by + t * fy, bz + t * fz
             outside = min(outside, height_over(a, n_faces_a, faces_a, px, py, pz))
-        if outside < -margin:
-            gap = -abs(gap)
-        elif gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
+        deep = outside < -DEEP * size
+        if not deep and gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
             # edges of thin wedges are as well on the other side of each other
             nx, ny, nz, gap = -nx, -ny, -nz, -gap
             past = max(past, size * (minus - _ASTRAY))
@@ -102,10 +102,13 @@ def _evaluate(
             past = max(past, size * (plus - _ASTRAY))
             if gap < 0.0:
                 past = max(past, over - _INSIDE * gap - margin)
+        if deep and past > 0.0:
+            # they overlap elsewhere: no contact of these edges, but a sign that another one was passed
+            overlap = max(-abs(gap), outside)
     if past > 0.0:
         if gap < 0.0:
             nx, ny, nz = -nx, -ny, -nz
-        gap = math.sqrt(gap * gap + past * past)
+        gap = overlap if overlap < 0.0 else math.sqrt(gap * gap + past * past)
     out[0], out[29], out[30] = gap, 0.0, past
     out[1], out[2], out[3] = nx, ny, nz
     out[7], out[8], out[9] = ax + s * ex, ay + s * ey, az + s * ez
