@@ -15,6 +15,7 @@ from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
+from bodies.contacts.plane_mesh import PlaneMesh
 from bodies.contacts.plane_polyhedron import PlanePolyhedron
 from bodies.contacts.plane_smooth import PlaneSmooth
 from bodies.contacts.plane_sphere import PlaneSphere
@@ -43,6 +44,10 @@ from bodies.loads.bushing import Bushing
 from bodies.loads.function_load import FunctionLoad
 from bodies.loads.spring import Spring
 from bodies.loads.torsion_spring import TorsionSpring
+from bodies.mesh_body import MeshBody
+from bodies.meshes.decomposition import Decomposition
+from bodies.meshes.mesh_file import MeshFile
+from bodies.meshes.triangles import Triangles
 from bodies.motions.constant_velocity import ConstantVelocity
 from bodies.motions.function_motion import FunctionMotion
 from bodies.motions.harmonic import Harmonic
@@ -62,6 +67,7 @@ from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
+from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.shapes.superellipsoid import Superellipsoid
 from bodies.superellipsoid_body import SuperellipsoidBody
 
@@ -84,6 +90,7 @@ __all__ = [
     "Cylinder",
     "CylinderBody",
     "CylinderSphere",
+    "Decomposition",
     "Disc",
     "DiscBody",
     "DiscSphere",
@@ -101,6 +108,8 @@ __all__ = [
     "Hinge",
     "HullBody",
     "LineBody",
+    "MeshBody",
+    "MeshFile",
     "Part",
     "PlanarBody",
     "Plane",
@@ -109,6 +118,7 @@ __all__ = [
     "PlaneCylinder",
     "PlaneDisc",
     "PlaneEllipsoid",
+    "PlaneMesh",
     "PlanePolyhedron",
     "PlaneSmooth",
     "PlaneSphere",
@@ -133,5 +143,7 @@ __all__ = [
     "SuperellipsoidBody",
     "Table",
     "TorsionSpring",
+    "TriangleMesh",
+    "Triangles",
     "TurningFrame",
 ]
