@@ -12,7 +12,7 @@ from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polyhedron_point import PointPolyhedron, PolyhedronPoint
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.tangents import tangent_of, write_tangent
-from bodies.contacts.vertex_face import REACH, height_over
+from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
 from nonsmooth.errors import InvalidInput
@@ -92,9 +92,8 @@ def _evaluate(
             outside = height_over(b, n_faces_b, faces_b, px, py, pz)
             px, py, pz = bx + t * fx, by + t * fy, bz + t * fz
             outside = min(outside, height_over(a, n_faces_a, faces_a, px, py, pz))
-        if outside < -margin:
-            gap = -abs(gap)
-        elif gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
+        deep = outside < -DEEP * size
+        if not deep and gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
             # edges of thin wedges are as well on the other side of each other
             nx, ny, nz, gap = -nx, -ny, -nz, -gap
             past = max(past, size * (minus - _ASTRAY))
@@ -102,6 +101,8 @@ def _evaluate(
             past = max(past, size * (plus - _ASTRAY))
             if gap < 0.0:
                 past = max(past, over - _INSIDE * gap - margin)
+        if deep and past > 0.0:
+            gap, past = max(-abs(gap), outside), -margin
     if past > 0.0:
         if gap < 0.0:
             nx, ny, nz = -nx, -ny, -nz

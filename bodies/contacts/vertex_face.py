@@ -12,6 +12,9 @@ from nonsmooth.types import Floats
 REACH = 1e-9
 """A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""
 
+DEEP = 1e-6
+"""Bodies overlap where they do by more than this part of their size; less may be the error of a step at rest."""
+
 
 @compiled
 def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[float, float, float]:
@@ -108,7 +111,7 @@ def nearest_face(
         if beyond < past:
             found, gap, past = i, height, beyond
     if past > 0.0:
-        if deepest < -margin:
+        if deepest < -DEEP * size:
             return float(inner), deepest, deepest
         gap = math.sqrt(gap * gap + past * past)
     return float(found), gap, past

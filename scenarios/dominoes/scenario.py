@@ -1,0 +1,241 @@
+"""A row of dominoes, the first of which leans so far that it falls."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import Box, PlanarBody, Plate, Rest
+from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress, simulate
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+
+Floats = NDArray[np.float64]
+
+_SAMPLES = 650
+_GRAVITY = 9.81
+_DENSITY = 1000.0
+_NARROWER = 0.9
+"""Width of every second domino over that of its neighbours."""
+_MOVES = 1e-4
+"""Angular velocity after an event at which a domino has been struck [rad/s]."""
+
+
+@final
+@dataclass(frozen=True)
+class Dominoes(Scenario):
+    """Equal dominoes at equal distances on the ground; the first is released from where it has just lost its balance.
+
+    They move in a plane, so that all of them fall straight, but touch as boxes do: the upper edge of one slides down
+    the face of the next.  Every second one is a little narrower, so that no two corners meet.
+
+    References
+    ----------
+    W. J. Stronge, "The domino effect: a wave of destabilizing collisions in a periodic array", Proc. R. Soc. A 409
+    (1987) 199-208.
+    """
+
+    title: ClassVar[str] = "Dominoes"
+
+    number: float = parameter(14.0, doc="number of dominoes", minimum=2.0, maximum=100.0)
+    thickness: float = parameter(7.5e-3, doc="thickness", unit="m", above=0.0, usual=(1e-3, 1.0))
+    width: float = parameter(24e-3, doc="width", unit="m", above=0.0, usual=(1e-3, 1.0))
+    height: float = parameter(48e-3, doc="height", unit="m", above=0.0, usual=(1e-3, 10.0))
+    spacing: float = parameter(16e-3, doc="free distance between two", unit="m", above=0.0, usual=(1e-3, 10.0))
+    lean: float = parameter(
+        0.02, doc="angle of the first past its balance at the start", unit="rad", above=0.0, maximum=1.0
+    )
+    restitution: float = parameter(
+        0.0, doc="energetic coefficient of restitution e between two", minimum=0.0, maximum=1.0, law="impact"
+    )
+    friction: float = parameter(
+        0.2, doc="friction coefficient mu between two", minimum=0.0, usual=(0.0, 2.0), law="friction"
+    )
+    ground_friction: float = parameter(
+        0.8, doc="friction coefficient mu of the ground", minimum=0.0, usual=(0.0, 2.0), law="friction"
+    )
+    t_end: float = parameter(0.655, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e2))
+
+    def _check(self) -> None:
+        if self.number != int(self.number):
+            raise InvalidInput("Dominoes.number", "must be a whole number", self.number, "A domino has no parts.")
+        if self.height <= self.thickness + self.spacing:
+            raise InvalidInput(
+                "Dominoes.spacing",
+                "must leave a domino within reach of the one before it",
+                self.spacing,
+                f"Below {self.height - self.thickness:g} m the next one is struck on its face.",
+            )
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """About a millisecond [s]."""
+        return self.t_end / _SAMPLES
+
+    @property
+    def balance(self) -> float:
+        """Angle at which the centre stands over the edge [rad]."""
+        return math.atan2(self.thickness, self.height)
+
+    @property
+    def pitch(self) -> float:
+        """Distance of two dominoes' centres [m]."""
+        return self.thickness + self.spacing
+
+    def build(self) -> System:
+        """Return ground and dominoes, of which the first leans."""
+        ground = Plate(Rest())
+        h, height = self.thickness, self.height
+        mass = _DENSITY * h * self.width * height
+        moment = mass * (h * h + height * height) / 12.0
+        boxes = [Box(0.5 * h, 0.5 * self.width * part, 0.5 * height) for part in (1.0, _NARROWER)]
+        dominoes = [PlanarBody(mass, moment, (boxes[i % 2],)) for i in range(int(self.number))]
+        system = System([ground, *dominoes], gravity=_GRAVITY)
+        impact = EnergeticImpact(self.restitution)
+        for domino in dominoes:
+            system.contact(
+                ground,
+                domino,
+                normal=Unilateral(),
+                friction=Coulomb(self.ground_friction),
+                impact=EnergeticImpact(restitution=0.0),
+            )
+        for one, two in itertools.pairwise(dominoes):
+            system.contact(one, two, normal=Unilateral(), friction=Coulomb(self.friction), impact=impact)
+        tilt = self.balance + self.lean
+        c, s = math.cos(tilt), math.sin(tilt)
+        place = 0.5 * (h - h * c + height * s), 0.5 * (h * s + height * c)
+        system.place(dominoes[0], position=place, angle=tilt)
+        for i, domino in enumerate(dominoes[1:], 1):
+            system.place(domino, position=(i * self.pitch, 0.5 * height))
+        return system
+
+    def tilts(self, solution: Solution) -> Floats:
+        """Return the angles of all dominoes over the samples [rad], shape [n_samples, n]."""
+        return solution.q[:, 2::3]
+
+    def strikes(self, solution: Solution) -> Floats:
+        """Return when the second, the third, ... domino was struck [s]; those that were not are left out."""
+        events = solution.events
+        moving = np.abs(events.u_after[:, 5::3]) > _MOVES
+        struck = np.any(moving, axis=0)
+        found: Floats = events.time[np.argmax(moving[:, struck], axis=0)]
+        return found
+
+    def speeds(self, solution: Solution) -> Floats:
+        """Return the speed of the wave from every domino to the next [m/s]."""
+        found: Floats = self.pitch / np.diff(self.strikes(solution))
+        return found
+
+    def first_strike(self) -> float:
+        """Return when the first domino, which turns about its edge, strikes the second [s]."""
+        from scipy.integrate import quad
+
+        # released at rest: I omega^2 / 2 = m g l (cos a - cos b), a and b the angles past the balance
+        length = 0.5 * math.hypot(self.thickness, self.height)
+        rate = 1.5 * _GRAVITY / length
+        end = math.asin(self.spacing / self.height) - self.balance
+        # b = a + x^2 takes the root of the rate out of the start
+        return float(
+            quad(
+                lambda x: (
+                    2.0
+                    * x
+                    / math.sqrt(2.0 * rate * math.sin(self.lean + 0.5 * x * x) * math.sin(0.5 * x * x))
+                    if x > 0.0
+                    else 2.0 / math.sqrt(rate * math.sin(self.lean))
+                ),
+                0.0,
+                math.sqrt(max(end - self.lean, 0.0)),
+                epsabs=1e-13,
+            )[0]
+        )
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return tilt_1 ... tilt_n [rad] over the samples."""
+        return {f"tilt_{i + 1}": tilt for i, tilt in enumerate(self.tilts(solution).T)}
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u}: x, z [m] and tilt of every domino, and their rates at the end."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return when each domino was struck, the speed of the wave, and what was lost."""
+        return {
+            "strikes": self.strikes(solution).tolist(),
+            "wave_speed": self.speeds(solution).tolist(),
+            "impacts": solution.counters.impacts,
+            "restitution_loss": solution.energy.restitution_loss,
+            "friction_loss": solution.energy.friction_loss,
+        }
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the first strike, how steady the wave has become, and the books of the energy."""
+        account, speeds = solution.energy, self.speeds(solution)
+        strikes = self.strikes(solution)
+        found = [
+            Criterion.near(
+                "height and speed lost over losses booked",
+                (account.kinetic_start + account.potential_start - account.kinetic_end - account.potential_end)
+                / account.loss,
+                1.0,
+                1e-3,
+                "balance of energy",
+            )
+        ]
+        if self.ground_friction >= 0.5:
+            found.append(
+                Criterion.near(
+                    "first strike [s]",
+                    strikes[0] if len(strikes) > 0 else None,
+                    self.first_strike(),
+                    1e-9,
+                    "fall of a body about its edge, by quadrature",
+                )
+            )
+        if len(speeds) >= 12 and self.restitution == 0.0:
+            found.append(
+                Criterion.near(
+                    "speed of the wave over that one domino before",
+                    speeds[-1] / speeds[-2],
+                    1.0,
+                    5e-3,
+                    "Stronge 1987: the wave tends to a steady one",
+                )
+            )
+        return tuple(found)
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return the row at some instants, and the speed of the wave."""
+        from scenarios.dominoes.figures import row, wave
+
+        return {"row": row(self, solution), "wave": wave({"": (self, solution)})}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the row, and the speed of the wave of rows with three distances."""
+        from scenarios.dominoes.figures import row, wave
+
+        runs = {}
+        for spacing in (0.012, 0.016, 0.022):
+            scenario = cls(spacing=spacing, t_end=0.66)
+            solution = simulate(
+                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
+            )
+            runs[f"distance {1e3 * spacing:g} mm"] = scenario, solution
+        middle = list(runs.values())[1]
+        return {"row": row(*middle), "wave": wave(runs)}
