@@ -25,6 +25,8 @@ _HERE, _VERTEX, _EDGE, _FACE = -1, 0, 1, 2
 """Kinds of features; nowhere else to go."""
 _ON_BORDER = 1e-14
 """How far a point may be over a border, in units of the size, and a normal over that of its cone."""
+_SHALLOW = 1e-6
+"""Overlap of the cores, in units of the size, up to which the first stop of the walk is taken."""
 
 Point: TypeAlias = tuple[float, float, float]
 Stop: TypeAlias = tuple[float, float, float, float, int, int, Point]
@@ -181,6 +183,7 @@ def _nearest(
     if n_faces > 0:
         kind, number = _FACE, _best_face(hull, core, turn, x, y, z)
         way = _middle(hull, number)
+    best, bx, by, bz, feature = math.nan, 0.0, 0.0, 1.0, 0
     # on edges and vertices Newton's method begins at the line to the centre
     for _ in range(n_edges + 4):
         if kind == _FACE:
@@ -193,21 +196,25 @@ def _nearest(
             vx, vy, vz = _vertex(hull, number)
             begin = (x - vx, y - vy, z - vz)
             g, nx, ny, nz, after, where, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
-        # a plane that the centre has passed is no face that the body is before
-        if after == _HERE and (g >= 0.0 or nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0):
+        if after == _HERE and g >= -_SHALLOW * size:
             return g, nx, ny, nz, _feature(hull, kind, number)
+        # a plane that the centre has passed is no face that the body is before
+        if after == _HERE and nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0:
+            best, bx, by, bz, feature = g, nx, ny, nz, _feature(hull, kind, number)
         if g != g or after == _HERE:
             break
         kind, number = after, where
-    g, nx, ny, nz, feature = _best_of_all(hull, core, turn, x, y, z, near)
-    return g, nx, ny, nz, feature
+    g, nx, ny, nz, number = _best_of_all(hull, core, turn, x, y, z, near)
+    if best == best and not g > best:
+        return best, bx, by, bz, feature
+    return g, nx, ny, nz, number
 
 
 @compiled
 def _best_of_all(
     hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float
 ) -> tuple[float, float, float, float, int]:
-    """Return the same for bodies that overlap much, where planes and lines through the smooth one lead astray.
+    """Return the same for bodies that overlap, where planes and lines through the smooth one lead astray.
 
     Of all features that are a stop that of the widest gap; Newton's method begins in the middle of their normals.
     """
@@ -218,7 +225,7 @@ def _best_of_all(
                 way = _middle(hull, number)
                 g, nx, ny, nz, after, _, _ = _look_at_face(hull, core, turn, x, y, z, near, number, way)
             elif kind == _EDGE:
-                begin = _outward_of_edge(hull, number)
+                begin = _outward_of_edge(hull, number, x, y, z)
                 g, nx, ny, nz, after, _, _ = _look_at_edge(hull, core, turn, x, y, z, near, number, begin)
             else:
                 begin = _outward_of_vertex(hull, number)
@@ -229,10 +236,15 @@ def _best_of_all(
 
 
 @compiled
-def _outward_of_edge(hull: Floats, number: int) -> Point:
+def _outward_of_edge(hull: Floats, number: int, x: float, y: float, z: float) -> Point:
+    """Return a normal between those of the faces, without faces the way to (x, y, z)."""
+    at = int(hull[EDGES]) + EDGE * number
+    if hull[at + 2] < 0.0:
+        vx, vy, vz = _vertex(hull, int(hull[at]))
+        return x - vx, y - vy, z - vz
     x = y = z = 0.0
     for i in range(2):
-        face = int(hull[int(hull[EDGES]) + EDGE * number + 2 + i])
+        face = int(hull[at + 2 + i])
         if face >= 0:
             f = int(hull[FACES]) + FACE * face
             x, y, z = x + hull[f], y + hull[f + 1], z + hull[f + 2]
