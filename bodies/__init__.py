@@ -6,6 +6,7 @@ from bodies.capsule_body import CapsuleBody
 from bodies.compound import Compound, Part
 from bodies.contacts.box_sphere import BoxSphere
 from bodies.contacts.capsule_capsule import CapsuleCapsule
+from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
 from bodies.contacts.cylinder_sphere import CylinderSphere
 from bodies.contacts.disc_sphere import DiscSphere
@@ -14,12 +15,16 @@ from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
 from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
+from bodies.contacts.plane_mesh import PlaneMesh
 from bodies.contacts.plane_polyhedron import PlanePolyhedron
+from bodies.contacts.plane_smooth import PlaneSmooth
 from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.contacts.polyhedron_point import PolyhedronPoint
 from bodies.contacts.polyhedron_polyhedron import PolyhedronPolyhedron
+from bodies.contacts.polyhedron_smooth import PolyhedronSmooth
 from bodies.contacts.polyhedron_sphere import PolyhedronSphere
+from bodies.contacts.smooth_smooth import SmoothSmooth
 from bodies.contacts.sphere_sphere import SphereSphere
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
@@ -39,6 +44,10 @@ from bodies.loads.bushing import Bushing
 from bodies.loads.function_load import FunctionLoad
 from bodies.loads.spring import Spring
 from bodies.loads.torsion_spring import TorsionSpring
+from bodies.mesh_body import MeshBody
+from bodies.meshes.decomposition import Decomposition
+from bodies.meshes.mesh_file import MeshFile
+from bodies.meshes.triangles import Triangles
 from bodies.motions.constant_velocity import ConstantVelocity
 from bodies.motions.function_motion import FunctionMotion
 from bodies.motions.harmonic import Harmonic
@@ -58,6 +67,9 @@ from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
+from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.shapes.triangle_mesh import TriangleMesh
+from bodies.superellipsoid_body import SuperellipsoidBody
 
 __all__ = [
     "Ball",
@@ -69,6 +81,7 @@ __all__ = [
     "Capsule",
     "CapsuleBody",
     "CapsuleCapsule",
+    "CapsuleSmooth",
     "CapsuleSphere",
     "Compound",
     "ConstantVelocity",
@@ -77,6 +90,7 @@ __all__ = [
     "Cylinder",
     "CylinderBody",
     "CylinderSphere",
+    "Decomposition",
     "Disc",
     "DiscBody",
     "DiscSphere",
@@ -94,6 +108,8 @@ __all__ = [
     "Hinge",
     "HullBody",
     "LineBody",
+    "MeshBody",
+    "MeshFile",
     "Part",
     "PlanarBody",
     "Plane",
@@ -102,7 +118,9 @@ __all__ = [
     "PlaneCylinder",
     "PlaneDisc",
     "PlaneEllipsoid",
+    "PlaneMesh",
     "PlanePolyhedron",
+    "PlaneSmooth",
     "PlaneSphere",
     "PlaneVertex",
     "Plate",
@@ -111,15 +129,21 @@ __all__ = [
     "Polyhedron",
     "PolyhedronPoint",
     "PolyhedronPolyhedron",
+    "PolyhedronSmooth",
     "PolyhedronSphere",
     "Rest",
     "RigidBody",
     "Rod",
     "Slider",
+    "SmoothSmooth",
     "Sphere",
     "SphereSphere",
     "Spring",
+    "Superellipsoid",
+    "SuperellipsoidBody",
     "Table",
     "TorsionSpring",
+    "TriangleMesh",
+    "Triangles",
     "TurningFrame",
 ]

@@ -9,27 +9,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from compliant_figures import compliance
+from law_axes import GREY, make_axes
+from traction_figures import traction
 
 import laws
 import nonsmooth as ns
 
 _E, _MU, _TILT = 0.9, 0.5, math.radians(40.0)
 _SLIPS = np.linspace(-3.0, 3.0, 121)
-_GREY = {"color": "0.55", "linestyle": "--", "linewidth": 1.6}
-
-
-def _axes(title: str, panels: int = 1) -> tuple[Any, Any]:
-    figure, axes = plt.subplots(1, panels, figsize=(3.9 * panels + 1.3, 3.4), layout="constrained", squeeze=False)
-    figure.suptitle(title, fontsize=10)
-    for axis in axes[0]:
-        axis.grid(color="0.9", linewidth=0.6)
-        axis.set_axisbelow(True)
-    return figure, axes[0]
 
 
 def _curve(law: Any) -> tuple[np.ndarray, np.ndarray]:
@@ -55,7 +45,7 @@ def indentation() -> Mapping[str, Any]:
     kinds = {"energetic": laws.EnergeticImpact, "mono_stiffness": laws.MonoStiffnessImpact}
     figures = {}
     for name, title in titles.items():
-        figure, (axis,) = _axes(title)
+        figure, (axis,) = make_axes(title)
         for e, look in ((1.0, ":"), (0.8, "-"), (0.5, "--")):
             axis.plot(*_curve(kinds[name](e)), linestyle=look, color="black" if e < 1.0 else "0.5", label=f"e = {e:g}")
         axis.set_xlabel("indentation / largest")
@@ -102,13 +92,13 @@ def maps() -> Mapping[str, Any]:
     reference = _response(laws.StrongeImpact(_E))
     figures = {}
     for name, (title, law) in kinds.items():
-        figure, axes = _axes(f"{title}\nend of a rod, tilted by 40 degrees, e = {_E:g}, µ = {_MU:g}", 2)
+        figure, axes = make_axes(f"{title}\nend of a rod, tilted by 40 degrees, e = {_E:g}, µ = {_MU:g}", 2)
         for axis, own, other, label in zip(
             axes, _response(law), reference, ("slip after / approach", "energy after / before"), strict=True
         ):
             axis.plot(_SLIPS, own, color="black", label=name)
             if name != "stronge":
-                axis.plot(_SLIPS, other, label="energetic", **_GREY)
+                axis.plot(_SLIPS, other, label="energetic", **GREY)
             axis.set_xlabel("slip before / approach")
             axis.set_ylabel(label)
         axes[0].axhline(0.0, color="0.7", linewidth=0.8)
@@ -127,7 +117,7 @@ def restitution() -> Mapping[str, Any]:
         ("johnson", "Johnson: plastic flow, the fourth root of the speed", laws.JohnsonImpact(1.0), "johnson"),
         ("viscoelastic", "Viscoelastic spheres: elastic when slow", laws.ViscoelasticImpact(1.0), "viscoelastic"),
     ):
-        figure, (axis,) = _axes(title)
+        figure, (axis,) = make_axes(title)
         e = getattr(laws, f"{formula}_restitution")
         axis.semilogx(speeds, [e(v, 1.0) for v in speeds], color="black", label="formula")
         few = speeds[::12]
@@ -139,7 +129,7 @@ def restitution() -> Mapping[str, Any]:
         if name == "viscoelastic":
             slow = speeds[speeds < 0.3]
             series = 1.0 - 1.15344 * slow**0.2 + 0.6 * 1.15344**2 * slow**0.4
-            axis.semilogx(slow, series, label="series, two terms", **_GREY)
+            axis.semilogx(slow, series, label="series, two terms", **GREY)
         axis.set_ylim(0.0, 1.05)
         axis.set_xlabel("approach speed / $v_1$")
         axis.set_ylabel("coefficient of restitution")
@@ -158,7 +148,7 @@ def friction() -> Mapping[str, Any]:
         ("stribeck", "Stribeck: falls with the slip speed", laws.Stribeck(0.4, 3.0, 0.1)),
         ("viscous", "Viscous: rises with the slip speed, up to a bound", laws.Viscous(0.2, 0.25, 0.6)),
     ):
-        figure, (axis,) = _axes(title)
+        figure, (axis,) = make_axes(title)
         values = list(law.parameters().values())
         mu = np.array([law.coefficient(float(v), *values) for v in slips])
         rest = law.coefficient(0.0, *values)
@@ -177,7 +167,7 @@ def friction() -> Mapping[str, Any]:
 def main() -> None:
     """Save all figures in the folder given."""
     folder = Path(sys.argv[1])
-    for draw in (indentation, maps, restitution, friction):
+    for draw in (indentation, maps, restitution, friction, compliance, traction):
         for name, figure in draw().items():
             figure.savefig(folder / f"{name}.png", dpi=110)
             plt.close(figure)

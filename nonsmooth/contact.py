@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.interfaces import FrictionLaw
+from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Heap, Memory, allocate
@@ -91,6 +91,7 @@ def solve_contact(
             )
     if n == 0:
         raise InvalidInput("solve_contact: friction", "must have a law for at least one contact", n, "")
+    check_friction("solve_contact: friction", friction)
     if number == ENUMERATION and n > MOST_ENUMERATED:
         raise InvalidInput(
             "solve_contact: solver",
@@ -128,6 +129,18 @@ def solve_contact(
         _memory=memory,
         _scaled=scaled,
     )
+
+
+def check_friction(thing: str, friction: Sequence[FrictionLaw]) -> None:
+    """Raise InvalidInput unless each law is a coefficient of the slip speed alone, with a round bound."""
+    for law in friction:
+        if not isinstance(law, FrictionLaw) or isinstance(law, (AnisotropicFrictionLaw, StatefulFrictionLaw)):
+            raise InvalidInput(
+                thing,
+                "must be laws with a round bound and without inner states",
+                type(law).__name__,
+                "Run a System: matrices know no axis of a body and no past.",
+            )
 
 
 def _culprit(memory: Memory, friction: Sequence[FrictionLaw]) -> str:

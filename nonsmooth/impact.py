@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nonsmooth.contact import check_friction
 from nonsmooth.engine.impact_problem import FINISHED
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
@@ -121,6 +122,7 @@ def solve_impact(
             )
     if len(friction) != n or n == 0:
         raise InvalidInput("solve_impact: friction", f"must have one law for each of {n} contacts", len(friction), "")
+    check_friction("solve_impact: friction", friction)
     if not np.allclose(m, m.T, rtol=1e-12, atol=0.0) or np.linalg.eigvalsh(m)[0] <= 0.0:
         raise InvalidInput("solve_impact: mass", "must be symmetric positive definite", m.tolist(), "Check M.")
     columns = np.concatenate([w[:, :, None], t], axis=2).reshape(n_u, 3 * n)

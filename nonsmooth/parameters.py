@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, get_type_hints
+from typing import Any, ClassVar, TypeAlias, get_origin, get_type_hints
 
 from nonsmooth.errors import InvalidInput, UnknownName
 
@@ -159,15 +159,16 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
         if name not in known:
             raise UnknownName(f"parameter of {kind}", name, known)
         rule = known[name][1]
-        if rule.unit == "" or hints[name] is str:
-            values[name] = word
-            continue
         try:
-            values[name] = float(word)
+            if get_origin(hints[name]) is tuple:
+                values[name] = tuple(float(part) for part in word.split(":"))
+            else:
+                values[name] = word if rule.unit == "" or hints[name] is str else float(word)
         except ValueError:
-            raise InvalidInput(
-                f"{kind}.{name}", "must be a number", word, f"Give it in [{rule.unit}], for example {name}=1.0."
-            ) from None
+            what, example = "a number", f"Give it in [{rule.unit}], for example {name}=1.0."
+            if get_origin(hints[name]) is tuple:
+                what, example = "numbers apart by colons", f"For example {name}=1:0:0."
+            raise InvalidInput(f"{kind}.{name}", f"must be {what}", word, example) from None
     return values
 
 

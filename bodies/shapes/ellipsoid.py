@@ -10,7 +10,8 @@ import numpy as np
 
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.placement import turned, with_axes
-from nonsmooth.interfaces import ConvexShape
+from bodies.shapes.smooth import core_numbers
+from bodies.shapes.smooth_shape import SmoothShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -18,7 +19,7 @@ from nonsmooth.vectors import UNIT_PART, unit_vector
 
 @final
 @dataclass(frozen=True)
-class Ellipsoid(ConvexShape):
+class Ellipsoid(SmoothShape):
     """A solid ellipsoid with its centre at (x, y, z) in the body frame and its axes turned by a unit quaternion."""
 
     semi_x: float = parameter(doc="first semi-axis", unit="m", above=0.0)
@@ -35,6 +36,17 @@ class Ellipsoid(ConvexShape):
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
         unit_vector("Ellipsoid orientation", orientation, 4)
+
+    @property
+    def core(self) -> tuple[float, ...]:
+        """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
+        return core_numbers(
+            (self.semi_x, self.semi_y, self.semi_z),
+            (2.0, 2.0),
+            0.0,
+            (self.x, self.y, self.z),
+            (self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z),
+        )
 
     @property
     def length(self) -> float:

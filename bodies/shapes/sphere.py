@@ -9,14 +9,15 @@ from typing import final
 import numpy as np
 
 from bodies.shapes.drawing import arc, revolved
-from nonsmooth.interfaces import ConvexShape
+from bodies.shapes.smooth import core_numbers
+from bodies.shapes.smooth_shape import SmoothShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 
 
 @final
 @dataclass(frozen=True)
-class Sphere(ConvexShape):
+class Sphere(SmoothShape):
     """A sphere with its centre at (x, y, z) in the body frame."""
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)
@@ -28,6 +29,11 @@ class Sphere(ConvexShape):
     def length(self) -> float:
         """The radius and the distance of the centre [m]."""
         return self.radius + math.hypot(self.x, self.y, self.z)
+
+    @property
+    def core(self) -> tuple[float, ...]:
+        """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
+        return core_numbers((0.0, 0.0, 0.0), (2.0, 2.0), self.radius, (self.x, self.y, self.z), (1.0, 0.0, 0.0, 0.0))
 
     def support(self, direction: Vector) -> Vector:
         """Return the centre and the radius along the direction [m]."""

@@ -66,7 +66,7 @@ def described(law: Any) -> dict[str, Any]:
 
 
 def check_not_ignored(owner: type, given: Iterable[str], laws: Mapping[str, Any]) -> None:
-    """Raise InvalidInput if a parameter of a scenario was given that belongs to a law which one of ``laws`` replaces."""
+    """Raise InvalidInput if a parameter of a scenario was given whose law one of ``laws`` replaces."""
     replaced, known = replacements(laws), rules(owner)
     for name in given:
         if name in known and known[name][1].law in replaced:

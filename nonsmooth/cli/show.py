@@ -61,11 +61,13 @@ def _row(field: dataclasses.Field[Any]) -> tuple[str, str, str, str, str]:
     rule = field.metadata.get("rule")
     if rule is None:
         return field.name, _default(field), "", f"a {field.type}", "from Python or a scenario file"
-    return field.name, _default(field) + " *" * rule.assumed, rule.unit, _allowed(rule), rule.doc
+    return field.name, _default(field) + " *" * rule.assumed, rule.unit, _allowed(field, rule), rule.doc
 
 
-def _allowed(rule: Rule) -> str:
-    return "a name" if rule.unit == "" and not rule.choices else rule.describe()
+def _allowed(field: dataclasses.Field[Any], rule: Rule) -> str:
+    if rule.unit == "" and not rule.choices:
+        return "numbers apart by colons" if isinstance(field.default, tuple) else "a name"
+    return rule.describe()
 
 
 def _default(field: dataclasses.Field[Any]) -> str:

@@ -14,7 +14,7 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 
 @kernel("void(S, F, I, i8, i8)")
 def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, tangents: int) -> None:
-    """Write the tangential rows of ``axes`` of contact ``c`` and its slip along them, ``slip`` being known.
+    """Write the tangential rows of ``axes`` of contact ``c``, ``slip`` being known.
 
     ``tangents`` says where the unit tangents stand, one after the other.
     """
@@ -41,7 +41,6 @@ def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, tangents: int) 
     w[skew + 2], w[skew + 3] = -w[law + 6] * e2, w[law + 6] * e1
     for r in range(2):
         s1, s2 = w[skew + 2 * r], w[skew + 2 * r + 1]
-        w[S.rate + 3 * c + 1 + r] = s1 * v1 + s2 * v2
         for i in range(3):
             w[S.axes + 9 * c + 3 + 3 * r + i] = s1 * w[tangents + i] + s2 * w[tangents + 3 + i]
 

@@ -151,6 +151,17 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
     write_state_rates(S, w, k, y, out)
 
 
+@kernel("f8(S, F, i8, i8, f8)")
+def _worst_error(S: Scalars, w: Floats, first: int, end: int, worst: float) -> float:
+    """Return the largest error of some components relative to the tolerance, or ``worst`` if that is larger."""
+    for i in range(first, end):
+        scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
+        error = abs(w[S.y_stage + i]) / (S.rtol * scale)
+        if error > worst or error != error:
+            worst = error
+    return worst
+
+
 @room("f8(S, F, I, f8)")
 def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
@@ -171,11 +182,7 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         slope(S, w, k, S.t + node * h, out, S.slopes + stage * n)
     step_errors(S, w, S.slopes, n, h, S.y_stage)
     worst = 0.0
-    for i in range(S.n_y):
-        if S.n_q + S.n_u <= i < S.n_q + S.n_u + N_ACCOUNTS:
-            continue
-        scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
-        error = abs(w[S.y_stage + i]) / (S.rtol * scale)
-        if error > worst or error != error:
-            worst = error
+    worst = _worst_error(S, w, 0, S.n_q + S.n_u, worst)
+    if S.n_states > 0:
+        worst = _worst_error(S, w, S.n_q + S.n_u + N_ACCOUNTS, n, worst)
     return worst

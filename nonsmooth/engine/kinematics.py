@@ -51,15 +51,15 @@ def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
         vx = w[frame + 12] + oy * z - oz * y - vx
         vy = w[frame + 13] + oz * x - ox * z - vy
         vz = w[frame + 14] + ox * y - oy * x - vz
-    axis = S.axes + 9 * c
-    w[S.rate + 3 * c] = w[axis] * vx + w[axis + 1] * vy + w[axis + 2] * vz
-    for r in range(2):
-        axis += 3
-        w[S.slip + 2 * c + r] = w[axis] * vx + w[axis + 1] * vy + w[axis + 2] * vz
-        w[S.rate + 3 * c + 1 + r] = w[S.slip + 2 * c + r]
     if k[S.oriented + c] == 1:
         _unit_tangents(S, w, c)
+        for r in range(2):
+            t = S.tangents + 3 * r
+            w[S.slip + 2 * c + r] = w[t] * vx + w[t + 1] * vy + w[t + 2] * vz
         stretch_tangents(S, w, k, c, S.tangents)
+    for r in range(3):
+        axis = S.axes + 9 * c + 3 * r
+        w[S.rate + 3 * c + r] = w[axis] * vx + w[axis + 1] * vy + w[axis + 2] * vz
 
 
 @kernel("void(F, i8, i8, f8, f8, f8, i8, i8)")
@@ -173,8 +173,10 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     """
     geometry = S.geometry + GEOMETRY * c
     n = S.axes + 9 * c
-    _unit_tangents(S, w, c)
-    t1, t2 = S.tangents, S.tangents + 3
+    t1, t2, slip = n + 3, n + 6, S.rate + 3 * c + 1
+    if k[S.oriented + c] == 1:
+        _unit_tangents(S, w, c)
+        t1, t2, slip = S.tangents, S.tangents + 3, S.slip + 2 * c
     a, b = k[S.frame_a + c], k[S.frame_b + c]
     gap = w[geometry]
     # turning of the normal with the first body, (omega_A x n) in the tangent plane; rho likewise for B - A
@@ -182,7 +184,7 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     turn_a2 = -(w[a + 15] * w[t1] + w[a + 16] * w[t1 + 1] + w[a + 17] * w[t1 + 2])
     rho1 = w[b + 15] * w[t2] + w[b + 16] * w[t2 + 1] + w[b + 17] * w[t2 + 2] - turn_a1
     rho2 = -(w[b + 15] * w[t1] + w[b + 16] * w[t1 + 1] + w[b + 17] * w[t1 + 2]) - turn_a2
-    v1, v2 = w[S.slip + 2 * c], w[S.slip + 2 * c + 1]
+    v1, v2 = w[slip], w[slip + 1]
     d1, d2 = v1 - gap * turn_a1, v2 - gap * turn_a2
     # slide and turn of one surface commute, so u = turn_a x, nu = slide_a x leaves two unknowns
     slide_a, turn_a, slide_b, turn_b = geometry + 13, geometry + 17, geometry + 21, geometry + 25

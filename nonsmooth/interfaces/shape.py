@@ -13,7 +13,8 @@ class Shape(Component, ABC):
     A shape
 
     1. is a frozen dataclass of floats, in the frame of its body;
-    2. knows no body and no contact: pairs of shapes are the business of ContactKinematics.
+    2. knows no body and no contact: pairs of shapes are the business of ContactKinematics;
+    3. may say by ``advice`` what to do where no kinematics is known for a pair with it.
     """
 
     def parameters(self) -> dict[str, float]:
@@ -29,3 +30,8 @@ class Shape(Component, ABC):
     def extent(self) -> float:
         """Radius of a ball about the origin of the body frame that holds the shape [m]; infinite if unbounded."""
         return self.length
+
+    @property
+    def advice(self) -> str:
+        """What to do where no kinematics is known for a pair with this shape; part of the message, may be empty."""
+        return ""

@@ -47,16 +47,17 @@ _CALLS = {
 }
 """What the engine calls with, the call of the function, and what stands for an exception."""
 _ENDINGS = {
-    "scalar": " if x - x == 0.0 and v - v != 0.0: p[0] = x\n return v\n",
-    "compliance": (" if x - x + y - y + z - z == 0.0 and v - v != 0.0: p[0], p[1], p[2] = x, y, z\n return v\n"),
+    "scalar": " if v - v != 0.0 and x - x == 0.0: p[0] = x\n return v\n",
+    "compliance": (" if v - v != 0.0 and x - x + y - y + z - z == 0.0: p[0], p[1], p[2] = x, y, z\n return v\n"),
     "traction": (
         " v = out[0] + out[1] + out[2] + out[3] + out[4]\n"
-        " s = t + a[0] + a[1] + a[2] + a[3] + a[4]\n"
-        " if s - s == 0.0 and v - v != 0.0:\n"
-        "  p[0] = t\n"
-        "  for i in range(5): p[1 + i] = a[i]\n"
+        " if v - v != 0.0:\n"
+        "  s = t + a[0] + a[1] + a[2] + a[3] + a[4]\n"
+        "  if s - s == 0.0:\n"
+        "   p[0] = t\n"
+        "   for i in range(5): p[1 + i] = a[i]\n"
     ),
-    "rates": " if t - t == 0.0 and out[0] - out[0] != 0.0: p[0] = t\n",
+    "rates": " if out[0] - out[0] != 0.0 and t - t == 0.0: p[0] = t\n",
 }
 """What follows the call of a law: the numbers for which it has no value, before its parameters, for messages."""
 RECORDED = {"scalar": 1, "compliance": 3, "traction": 6, "rates": 1}

@@ -16,6 +16,7 @@ from nonsmooth.interfaces import (
     ImpactProcess,
     NormalLaw,
     StatefulFrictionLaw,
+    TangentialLaw,
     TractionLaw,
 )
 from nonsmooth.parameters import Component
@@ -43,12 +44,12 @@ class LawFunction(NamedTuple):
 
 
 def law_functions(
-    friction: FrictionLaw | TractionLaw, impact: ImpactLaw | None = None, normal: NormalLaw | None = None
+    friction: TangentialLaw, impact: ImpactLaw | None = None, normal: NormalLaw | None = None
 ) -> Iterator[LawFunction]:
     """Yield the functions of the laws of a contact, impact maps apart."""
     if isinstance(friction, TractionLaw):
         yield LawFunction("traction", friction, friction.traction, "traction")
-    else:
+    if isinstance(friction, FrictionLaw):
         yield LawFunction("friction", friction, friction.coefficient, "scalar")
     if isinstance(friction, StatefulFrictionLaw):
         yield LawFunction("rates", friction, friction.rates, "rates")

@@ -28,7 +28,7 @@ _COLOURS = (
     "#999999",
     "#6b4c1e",
     "#f0e442",
-    "#117733",
+    "#99cc00",
     "#882255",
 )
 """One for each cause, told apart by the colour-blind as well."""

@@ -18,7 +18,8 @@ class EnergyAccount:
     restitution_loss, friction_loss, closing_loss : float
         Losses in impacts, to friction in impacts and sustained slip, and in closing steps and projections.
     load_work : float
-        Work of the loads on the bodies; springs count here, not in the potential energy.
+        Work of the loads and of the normal forces of compliant contacts; springs of either kind count here, not in the
+        potential energy.
     exchanged_in_flow : float
         Gross energy that gravity, driven bodies and friction exchanged between events, each counted as positive.
     """

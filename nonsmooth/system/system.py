@@ -367,7 +367,7 @@ class System:
             "System.contact",
             "needs shapes whose contact kinematics is known",
             f"{type(first.shape).__name__}-{type(second.shape).__name__}",
-            f"Known pairs: {', '.join(pairs)}.",
+            " ".join(filter(None, (first.shape.advice, second.shape.advice, f"Known pairs: {', '.join(pairs)}."))),
         )
 
     def _require(self, body: Body, where: str) -> None:

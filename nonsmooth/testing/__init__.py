@@ -19,6 +19,7 @@ from nonsmooth.testing.normal import check_normal_law
 from nonsmooth.testing.property import Departs, NotChecked, Property, PropertyFailed
 from nonsmooth.testing.scenario import check_scenario
 from nonsmooth.testing.shape import check_shape
+from nonsmooth.testing.traction import check_traction_law
 
 __all__ = [
     "Departs",
@@ -36,4 +37,5 @@ __all__ = [
     "check_normal_law",
     "check_scenario",
     "check_shape",
+    "check_traction_law",
 ]

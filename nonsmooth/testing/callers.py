@@ -16,8 +16,18 @@ from nonsmooth.plugins.compile import bind, parameter_names
 
 Array = NDArray[np.float64]
 Caller = Callable[..., Any]
-_POINTERS = {"body": 4, "load": 4, "pair": 4, "map": 4, "guard": 3, "scalar": 1}
-_RETURNING = ("scalar", "guard")
+_POINTERS = {
+    "body": 4,
+    "load": 4,
+    "pair": 4,
+    "map": 4,
+    "guard": 3,
+    "scalar": 1,
+    "compliance": 1,
+    "traction": 4,
+    "rates": 4,
+}
+_RETURNING = ("scalar", "guard", "compliance")
 
 
 def plain_caller(function: Callable[..., Any], form: str, values: Mapping[str, Any]) -> Caller:
@@ -74,13 +84,17 @@ def compiled_map(function: Callable[..., Any], vectors: Mapping[str, Array], own
 
 def _native(address: int, form: str, numbers: Array) -> Caller:
     result = ctypes.c_double if form in _RETURNING else None
-    first: list[Any] = {"pair": [], "map": [ctypes.c_int64]}.get(form, [ctypes.c_double])
+    heads: dict[str, list[Any]] = {"pair": [], "map": [ctypes.c_int64], "compliance": [ctypes.c_double] * 3}
+    first = heads.get(form, [ctypes.c_double])
     native: Any = ctypes.CFUNCTYPE(result, *first, *[ctypes.c_void_p] * _POINTERS[form])(address)
 
     def call(*arguments: Any) -> Any:
         given = [a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments]
         if form in _RETURNING:
             return native(*given, numbers.ctypes.data)
+        if form == "rates":
+            # called as loads are, with the states in place of both bodies
+            given.insert(1, given[1])
         # the engine hands the parameters over before what is to be written
         return native(*given[:-1], numbers.ctypes.data, given[-1])
 

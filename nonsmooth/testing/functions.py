@@ -22,6 +22,8 @@ ROOM = 4
 OLD = 7.0e3
 """What stands there, and must stay."""
 _SAME = 1e-9
+_RETURNING = ("scalar", "guard", "compliance")
+"""Forms that return a number and write nothing."""
 
 
 @final
@@ -211,7 +213,7 @@ def _finite(function: Function) -> None:
 
 
 def _inside(function: Function) -> None:
-    for words, value in function.inputs if function.form not in ("scalar", "guard") else ():
+    for words, value in function.inputs if function.form not in _RETURNING else ():
         if np.any(np.asarray(function.plain(value))[-ROOM:] != OLD):
             raise Broken(f"{function.title}({words}) writes beyond its block", *described(function.owner))
 
@@ -232,11 +234,11 @@ def _raised_at(error: Exception) -> str:
     return f", at line {line}" if line else ""
 
 
-def scalar_function(owner: Any, name: str, function: Callable[..., Any], values: Sequence[float]) -> Function:
+def scalar_function(
+    owner: Any, name: str, function: Callable[..., Any], values: Sequence[float], offered: Mapping[str, Any]
+) -> Function:
     """Return a function of one number with numbers to try."""
     from nonsmooth.testing.callers import compiled_caller, plain_caller
-
-    offered = owner.parameters()
 
     def plain(x: float) -> Any:
         return plain_caller(function, "scalar", offered)(x)

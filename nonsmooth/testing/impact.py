@@ -114,8 +114,8 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
 def _functions(law: ImpactLaw) -> list[Function]:
     if isinstance(law, ImpactProcess):
         return [
-            scalar_function(law, "force", law.force, _INDENTATIONS),
-            scalar_function(law, "efficiency", law.efficiency, _RATES),
+            scalar_function(law, "force", law.force, _INDENTATIONS, law.parameters()),
+            scalar_function(law, "efficiency", law.efficiency, _RATES, law.parameters()),
         ]
     return [map_function(law)] if isinstance(law, ImpactMap) else []
 

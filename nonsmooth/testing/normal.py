@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.contact import solve_contact
-from nonsmooth.interfaces import RigidNormalLaw
+from nonsmooth.interfaces import CompliantNormalLaw, NormalLaw, RigidNormalLaw
+from nonsmooth.testing.compliance import compliant_properties
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.draws import Case, Variable
 from nonsmooth.testing.examine import Trial, examine
@@ -17,14 +18,19 @@ _TOLERANCE = 1e-9
 _DRAWS = 12
 
 
-def check_normal_law(law: RigidNormalLaw) -> list[Property]:
-    """Return the properties of a normal law: its certificate on both sides.
+def check_normal_law(law: NormalLaw) -> list[Property]:
+    """Return the properties of a normal law.
+
+    Those of a rigid law are about its certificate, those of a compliant one about its force, its certificate and the
+    impacts of a mass.
 
     Parameters
     ----------
-    law : RigidNormalLaw
+    law : NormalLaw
         The law, with parameters.
     """
+    if isinstance(law, CompliantNormalLaw):
+        return compliant_properties(law)
 
     def row(name: str, says: str, trial: Trial, *space: Variable) -> Row:
         return name, says, lambda: examine(name, variants(law), space or (_SIZE,), trial, _DRAWS)

@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.interfaces import FrictionLaw, ImpactProcess
+from nonsmooth.interfaces import FrictionLaw, ImpactProcess, RigidNormalLaw
 from nonsmooth.parameters import parameter
 from nonsmooth.testing.draws import Case, Variable
 
@@ -73,6 +73,16 @@ class Constant(FrictionLaw):
     ) -> bool:
         """Tell whether the force lies in the disc."""
         return math.hypot(*tangential_force) <= self.level * normal_force + tolerance
+
+
+@final
+@dataclass(frozen=True)
+class Rigid(RigidNormalLaw):
+    """A contact without any indentation."""
+
+    def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
+        """Tell whether the pair is complementary."""
+        return acceleration >= -tolerance and force >= -tolerance and min(abs(acceleration), abs(force)) <= tolerance
 
 
 @final

@@ -22,6 +22,7 @@ from nonsmooth.interfaces import (
     NormalLaw,
     Scenario,
     Shape,
+    TractionLaw,
 )
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.plugins import registry
@@ -37,10 +38,12 @@ from nonsmooth.testing.normal import check_normal_law
 from nonsmooth.testing.property import Property
 from nonsmooth.testing.scenario import check_scenario
 from nonsmooth.testing.shape import check_shape
+from nonsmooth.testing.traction import check_traction_law
 
 _CHECKS: tuple[tuple[Any, Callable[[Any], list[Property]]], ...] = (
     (NormalLaw, check_normal_law),
     (FrictionLaw, check_friction_law),
+    (TractionLaw, check_traction_law),
     (ImpactLaw, check_impact_law),
     (Body, check_body),
     (Joint, check_joint),

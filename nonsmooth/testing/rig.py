@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.kernel import call_room
-from nonsmooth.interfaces import Body, ContactKinematics, RigidNormalLaw, Shape
+from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.model.layout import GEOMETRY
 from nonsmooth.model.options import Options
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
-from nonsmooth.testing.reference import Constant, Spring
+from nonsmooth.testing.reference import Constant, Rigid, Spring
 from nonsmooth.types import Floats
 
 Array = NDArray[np.float64]
@@ -105,13 +105,6 @@ class _Carrier(Body):
         return np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]), np.zeros(6)
 
 
-@final
-@dataclass(frozen=True)
-class _Any(RigidNormalLaw):
-    def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
-        return True
-
-
 class Rig:
     """Two bodies with a shape each and one contact."""
 
@@ -121,7 +114,9 @@ class Rig:
         extents = (shapes[0].extent, shapes[1].extent)
         name = type(kinematics).__name__
         # not by System.contact, which looks for kinematics among those installed
-        system._contacts.append(Contact(name, *self._bodies, (0, 0), kinematics, extents, _Any(), Constant(), Spring()))
+        system._contacts.append(
+            Contact(name, *self._bodies, (0, 0), kinematics, extents, Rigid(), Constant(), Spring())
+        )
         self._model = lay_out(system, Options())
 
     def put(self, poses: Sequence[Pose], u: Array) -> None:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bodies import Box, Capsule, Cylinder, Ellipsoid, Sphere
+from bodies import Box, Capsule, Cylinder, Ellipsoid, Sphere, Superellipsoid
 from bodies.shapes.drawing import solid_of
 from nonsmooth import InvalidInput
 from nonsmooth.interfaces import ConvexShape
@@ -21,9 +21,14 @@ SHAPES: dict[str, ConvexShape] = {
     "capsule": Capsule(0.15, 0.4, **PLACE, **AXIS),
     "cylinder": Cylinder(0.3, 0.25, **PLACE, **AXIS),
     "ellipsoid": Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES),
+    "superellipsoid": Superellipsoid(0.2, 0.35, 0.5, 1.5, 1.2, **PLACE, **AXES),
+    "rounded superellipsoid": Superellipsoid(0.2, 0.35, 0.3, 1.4, 1.3, 0.1, **PLACE, **AXES),
+    "rounded ellipsoid": Superellipsoid(0.2, 0.35, 0.3, rounding=0.1, **PLACE, **AXES),
 }
 EXACT = ("box",)
 """Their drawing is the shape."""
+SHARP = ("rounded superellipsoid",)
+"""Their drawing has few vertices where the core bends most."""
 
 
 def _directions(n: int) -> np.ndarray:
@@ -39,7 +44,7 @@ def test_support_is_that_of_a_dense_drawing(name: str) -> None:
     for n in _directions(300):
         reach = float(shape.support(3.0 * n) @ n)
         assert np.max(vertices @ n) <= reach + 1e-15
-        assert np.max(vertices @ n) >= reach - 1e-4 * shape.length
+        assert np.max(vertices @ n) >= reach - (1e-3 if name in SHARP else 1e-4) * shape.length
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -59,7 +64,7 @@ def test_mass_properties_are_those_of_the_drawing(name: str) -> None:
     shape = SHAPES[name]
     coarse, fine = (solid_of(*shape.drawing(n)) for n in (100, 200))
     limits = [(4.0 * np.asarray(f) - np.asarray(c)) / 3.0 for c, f in zip(coarse, fine, strict=True)]
-    tolerance = 1e-14 if name in EXACT else 1e-5
+    tolerance = 1e-14 if name in EXACT else 1e-4 if name in SHARP else 1e-5
     assert limits[0] == pytest.approx(shape.volume, rel=tolerance)
     np.testing.assert_allclose(limits[1], shape.centroid, rtol=0, atol=1e-13)
     np.testing.assert_allclose(limits[2], shape.inertia, rtol=0, atol=tolerance * np.trace(shape.inertia))

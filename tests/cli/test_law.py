@@ -78,6 +78,13 @@ def test_two_roles_at_once(call: Call, law: str) -> None:
     assert not {"restitution", "contact_time", "impact", "friction"} & set(report["parameters"])
 
 
+def test_an_axis_is_three_numbers_apart_by_colons(call: Call, law: str) -> None:
+    word = "friction=anisotropic,along=0.1,across=0.3,axis=0:1:0,body=first"
+    status, output, errors = call("run", "dumbbell", "--set", "t_end=0.1", "--json", "--law", word)
+    assert status == 0, errors
+    assert json.loads(output)["laws"]["friction"]["axis"] == [0.0, 1.0, 0.0]
+
+
 def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> None:
     words = ("--law", "normal=hunt_crossley,stiffness=1e9,dissipation=1")
     status, output, errors = call("run", "dumbbell", "--set", "t_end=0.2", "--json", *words)
@@ -100,6 +107,8 @@ def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> 
         ("friction={file}:Flat,friction", "must have the form ROLE=LAW"),
         ("friction={file}:Flat,friction=1,friction=2", "each NAME once"),
         ("friction={file}:Flat,friction=a", "Flat.friction must be a number, but it is 'a'."),
+        ("friction=anisotropic,axis=1:b:0", "Anisotropic.axis must be numbers apart by colons, but it is '1:b:0'."),
+        ("friction=anisotropic,along=1,across=1,axis=1:0", "Anisotropic.axis must be three finite numbers"),
         ("friction={file}:Flat,friction=-1", "Flat.friction must be >= 0 [1], but it is -1.0."),
         ("friction={file}:Flat,frictio=1", "parameter of Flat name must be a known one, but it is 'frictio'."),
         ("friction={file}:Needy", "Needy.friction must be given, but it is None. Add friction=VALUE to --law"),
@@ -203,3 +212,9 @@ def test_what_cannot_be_saved_is_told(call: Call, law: str) -> None:
     status, _, errors = call("run", "one.toml")
     assert status == 2
     assert "must be a file that can be read" in errors
+
+
+def test_show_says_how_an_axis_is_written(call: Call) -> None:
+    status, output, _ = call("show", "anisotropic")
+    assert status == 0
+    assert "numbers apart by colons" in output

@@ -9,7 +9,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from laws import Coulomb, EnergeticImpact, Frictionless, NewtonImpact, Unilateral
+import nonsmooth as ns
+from laws import (
+    Anisotropic,
+    Bristle,
+    Coulomb,
+    EnergeticImpact,
+    Frictionless,
+    NewtonImpact,
+    RateAndState,
+    Unilateral,
+)
 from nonsmooth import InvalidInput
 from nonsmooth.parameters import UnusualValue
 
@@ -81,3 +91,13 @@ def test_unusual_parameters_warn(law: Any, arguments: dict[str, Any]) -> None:
     """An odd order of magnitude is a warning, not an error."""
     with pytest.warns(UnusualValue, match="usual range"):
         law(**arguments)
+
+
+@pytest.mark.parametrize("law", [Anisotropic(0.2, 0.4), RateAndState(0.3, 0.01, 0.01, 1e-3, 1e-4), Bristle(0.2, 0.3)])
+def test_matrices_know_no_axis_and_no_past(law: Any) -> None:
+    """The problems on matrices refuse laws that they could not tell from others."""
+    mass, normal, tangential = [[1.0]], [[1.0]], [[[0.0, 0.0]]]
+    with pytest.raises(InvalidInput, match=type(law).__name__):
+        ns.solve_contact(mass, normal, tangential, [-1.0], [law])
+    with pytest.raises(InvalidInput, match=type(law).__name__):
+        ns.solve_impact(mass, normal, tangential, [-1.0], [EnergeticImpact(0.5)], [law])

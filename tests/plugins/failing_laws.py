@@ -185,6 +185,11 @@ class Traction(TractionLaw):
         """None."""
         return ()
 
+    @property
+    def state_scale(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
     def is_fulfilled(self, motion: Any, state: Any, normal_force: float, traction: Any, tolerance: float) -> bool:
         """Not asked for here."""
         return True
@@ -226,6 +231,11 @@ class Stateful(StatefulFrictionLaw):
     @property
     def initial_state(self) -> tuple[float, ...]:
         """A speed."""
+        return (0.1,)
+
+    @property
+    def state_scale(self) -> tuple[float, ...]:
+        """Of slow slip."""
         return (0.1,)
 
     def is_fulfilled(self, slip: Any, normal_force: float, tangential_force: Any, tolerance: float) -> bool:

@@ -8,9 +8,23 @@ from typing import Any
 import pytest
 
 from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.interfaces import FrictionLaw, ImpactLaw, NormalLaw
-from nonsmooth.testing import PropertyFailed, check_friction_law, check_impact_law, check_normal_law
-from tests.testing import friction_dummies, impact_dummies, normal_dummies
+from nonsmooth.interfaces import FrictionLaw, ImpactLaw, NormalLaw, TractionLaw
+from nonsmooth.testing import (
+    PropertyFailed,
+    check_friction_law,
+    check_impact_law,
+    check_normal_law,
+    check_traction_law,
+)
+from tests.testing import (
+    anisotropic_dummies,
+    compliant_dummies,
+    friction_dummies,
+    impact_dummies,
+    normal_dummies,
+    stateful_dummies,
+    traction_dummies,
+)
 from tests.testing.caught import assert_caught, failures
 
 _slow = pytest.mark.skipif(PLAIN, reason="impacts take minutes in plain mode")
@@ -39,6 +53,30 @@ def test_normal(name: str, law: NormalLaw) -> None:
     assert_caught(check_normal_law(law), name)
 
 
+@_slow
+@_cases(compliant_dummies.DUMMIES)
+def test_compliant(name: str, law: NormalLaw) -> None:
+    assert_caught(check_normal_law(law), name)
+
+
+@_slow
+@_cases(anisotropic_dummies.DUMMIES)
+def test_anisotropic(name: str, law: FrictionLaw) -> None:
+    assert_caught(check_friction_law(law), name)
+
+
+@_slow
+@_cases(stateful_dummies.DUMMIES)
+def test_stateful(name: str, law: FrictionLaw) -> None:
+    assert_caught(check_friction_law(law), name)
+
+
+@_slow
+@_cases(traction_dummies.DUMMIES)
+def test_traction(name: str, law: TractionLaw) -> None:
+    assert_caught(check_traction_law(law), name)
+
+
 def test_every_property_has_a_dummy() -> None:
     """No property of a law is there that no fault breaks; those of functions are shared by all kinds."""
     shared = {name for name, _ in friction_dummies.DUMMIES}
@@ -47,6 +85,10 @@ def test_every_property_has_a_dummy() -> None:
         (impact_dummies, check_impact_law, impact_dummies.Process()),
         (impact_dummies, check_impact_law, impact_dummies.Map()),
         (normal_dummies, check_normal_law, normal_dummies.Normal()),
+        (compliant_dummies, check_normal_law, compliant_dummies.Compliant()),
+        (anisotropic_dummies, check_friction_law, anisotropic_dummies.Skewed()),
+        (stateful_dummies, check_friction_law, stateful_dummies.Warm()),
+        (traction_dummies, check_traction_law, traction_dummies.Brush()),
     ]
     for module, check, example in kinds:
         broken = {name for name, _ in module.DUMMIES} | shared
@@ -60,8 +102,13 @@ def test_every_property_has_a_dummy() -> None:
         check_impact_law(impact_dummies.Process()),
         check_impact_law(impact_dummies.Map()),
         check_normal_law(normal_dummies.Normal()),
+        check_normal_law(compliant_dummies.Compliant()),
+        check_normal_law(compliant_dummies.Compliant(function=compliant_dummies.pulling, gap=1e-3)),
+        check_friction_law(anisotropic_dummies.Skewed()),
+        check_friction_law(stateful_dummies.Warm()),
+        check_traction_law(traction_dummies.Brush()),
     ],
-    ids=["friction", "process", "map", "normal"],
+    ids=["friction", "process", "map", "normal", "compliant", "cohesive", "anisotropic", "stateful", "traction"],
 )
 def test_without_a_fault_nothing_is_caught(properties: Any) -> None:
     """The dummies are sound but for their faults."""

@@ -1,0 +1,69 @@
+"""A smooth body over a plane, in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.curvature import SIDE_B
+from bodies.contacts.frames import point_in_world
+from bodies.contacts.plane_point import place_over_plane
+from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, forth, write_core
+from bodies.shapes.plane import Plane
+from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.support_function import support_of
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) -> None:
+    axes = axes_in_world(b, second)
+    x, y, z = point_in_world(b, second[6], second[7], second[8])
+    mx, my, mz = back(axes, -a[5], -a[8], -a[11])
+    s = support_of(second, mx, my, mz)
+    px, py, pz = forth(axes, s[1], s[2], s[3])
+    r = second[RADIUS]
+    place_over_plane(a, out, x + px - r * a[5], y + py - r * a[8], z + pz - r * a[11], height)
+    write_core(out, SIDE_B, second, axes, mx, my, mz)
+
+
+@final
+@dataclass(frozen=True)
+class PlaneSmooth(ContactKinematics):
+    """The point of a smooth body that a plane supports.
+
+    Attributes
+    ----------
+    first : Plane
+        The plane.
+    second : SmoothShape
+        The smooth body.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, SmoothShape)
+
+    first: Plane
+    second: SmoothShape
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[PlaneSmooth, ...]:
+        """Return the single contact of a plane and a smooth shape."""
+        assert isinstance(first, Plane)
+        assert isinstance(second, SmoothShape)
+        return (cls(first, second),)
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the height of the plane and the numbers of the support function."""
+        return {"height": self.first.height, "second": self.second.core}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("plane-smooth",)

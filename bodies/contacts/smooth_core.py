@@ -1,0 +1,108 @@
+"""What the pairs of smooth bodies see of a body: a core with a smooth support function, and a radius about it.
+
+A core is the tuple of :func:`bodies.shapes.smooth.core_numbers`.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from bodies.shapes.support_function import Support, support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
+"""A rotation, row by row."""
+
+RADIUS = 5
+"""Where the radius stands."""
+
+
+@compiled
+def bend(s: Support, x: float, y: float, z: float, u: float, v: float, w: float) -> float:
+    """Return (x, y, z) . H (u, v, w) with the second derivative H of a support function."""
+    return (
+        x * (s[4] * u + s[9] * v + s[8] * w)
+        + y * (s[9] * u + s[5] * v + s[7] * w)
+        + z * (s[8] * u + s[7] * v + s[6] * w)
+    )
+
+
+@compiled
+def axes_in_world(frame: Floats, core: Floats) -> Axes:
+    """Return the axes of a core in the world, as columns."""
+    f, c = frame, core
+    return (
+        f[3] * c[9] + f[4] * c[12] + f[5] * c[15],
+        f[3] * c[10] + f[4] * c[13] + f[5] * c[16],
+        f[3] * c[11] + f[4] * c[14] + f[5] * c[17],
+        f[6] * c[9] + f[7] * c[12] + f[8] * c[15],
+        f[6] * c[10] + f[7] * c[13] + f[8] * c[16],
+        f[6] * c[11] + f[7] * c[14] + f[8] * c[17],
+        f[9] * c[9] + f[10] * c[12] + f[11] * c[15],
+        f[9] * c[10] + f[10] * c[13] + f[11] * c[16],
+        f[9] * c[11] + f[10] * c[14] + f[11] * c[17],
+    )
+
+
+@compiled
+def axes_of(frame: Floats) -> Axes:
+    """Return the axes of a body in the world, as columns."""
+    return frame[3], frame[4], frame[5], frame[6], frame[7], frame[8], frame[9], frame[10], frame[11]
+
+
+@compiled
+def between_axes(a: Axes, b: Axes) -> Axes:
+    """Return the rotation from the axes b to the axes a."""
+    return (
+        a[0] * b[0] + a[3] * b[3] + a[6] * b[6],
+        a[0] * b[1] + a[3] * b[4] + a[6] * b[7],
+        a[0] * b[2] + a[3] * b[5] + a[6] * b[8],
+        a[1] * b[0] + a[4] * b[3] + a[7] * b[6],
+        a[1] * b[1] + a[4] * b[4] + a[7] * b[7],
+        a[1] * b[2] + a[4] * b[5] + a[7] * b[8],
+        a[2] * b[0] + a[5] * b[3] + a[8] * b[6],
+        a[2] * b[1] + a[5] * b[4] + a[8] * b[7],
+        a[2] * b[2] + a[5] * b[5] + a[8] * b[8],
+    )
+
+
+@compiled
+def forth(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return the vector turned by a rotation."""
+    return (
+        axes[0] * x + axes[1] * y + axes[2] * z,
+        axes[3] * x + axes[4] * y + axes[5] * z,
+        axes[6] * x + axes[7] * y + axes[8] * z,
+    )
+
+
+@compiled
+def back(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return the vector turned by the inverse of a rotation."""
+    return (
+        axes[0] * x + axes[3] * y + axes[6] * z,
+        axes[1] * x + axes[4] * y + axes[7] * z,
+        axes[2] * x + axes[5] * y + axes[8] * z,
+    )
+
+
+@compiled
+def write_core(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: float, z: float) -> None:
+    """Write slide 1 and turn, the second derivative of the support function at the core's own direction (x, y, z).
+
+    Normal and first tangent stand in ``out`` already; ``axes`` are those of the core in the world.
+    """
+    s = support_of(core, x, y, z)
+    tx, ty, tz = back(axes, out[4], out[5], out[6])
+    ux, uy, uz = back(
+        axes,
+        out[2] * out[6] - out[3] * out[5],
+        out[3] * out[4] - out[1] * out[6],
+        out[1] * out[5] - out[2] * out[4],
+    )
+    out[side] = out[side + 3] = 1.0
+    out[side + 1] = out[side + 2] = 0.0
+    out[side + 4] = bend(s, tx, ty, tz, tx, ty, tz) + core[RADIUS]
+    out[side + 5] = out[side + 6] = bend(s, tx, ty, tz, ux, uy, uz)
+    out[side + 7] = bend(s, ux, uy, uz, ux, uy, uz) + core[RADIUS]

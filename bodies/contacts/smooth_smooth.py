@@ -1,0 +1,84 @@
+"""Two bodies with smooth support functions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.curvature import SIDE_A, SIDE_B
+from bodies.contacts.dual_newton import climb
+from bodies.contacts.frames import point_in_world
+from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, between_axes, forth, write_core
+from bodies.contacts.tangents import write_tangent
+from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.support_function import support_of
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
+    """Write the geometry block of two cores, the tuples of :mod:`bodies.contacts.smooth_core`; one is no point.
+
+    The gap is nan where Newton's method does not end with a residual of round-off.
+    """
+    axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
+    ax, ay, az = point_in_world(a, first[6], first[7], first[8])
+    bx, by, bz = point_in_world(b, second[6], second[7], second[8])
+    x, y, z = back(axes_a, bx - ax, by - ay, bz - az)
+    g, nx, ny, nz = climb(first, second, between_axes(axes_a, axes_b), x, y, z, 0.0, 0.0, 0.0, x, y, z)
+    out[0] = g - first[RADIUS] - second[RADIUS]
+    out[1], out[2], out[3] = forth(axes_a, nx, ny, nz)
+    mx, my, mz = back(axes_b, -out[1], -out[2], -out[3])
+    p, q = support_of(first, nx, ny, nz), support_of(second, mx, my, mz)
+    px, py, pz = forth(axes_a, p[1], p[2], p[3])
+    qx, qy, qz = forth(axes_b, q[1], q[2], q[3])
+    out[7], out[8], out[9] = ax + px, ay + py, az + pz
+    out[10], out[11], out[12] = bx + qx, by + qy, bz + qz
+    for i in range(3):
+        out[7 + i] += first[RADIUS] * out[1 + i]
+        out[10 + i] -= second[RADIUS] * out[1 + i]
+    write_tangent(a, out)
+    write_core(out, SIDE_A, first, axes_a, nx, ny, nz)
+    write_core(out, SIDE_B, second, axes_b, mx, my, mz)
+
+
+@final
+@dataclass(frozen=True)
+class SmoothSmooth(ContactKinematics):
+    """One contact of two smooth bodies; its normal is the one that separates them most.
+
+    Attributes
+    ----------
+    first : SmoothShape
+        The one.
+    second : SmoothShape
+        The other.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SmoothShape, SmoothShape)
+
+    first: SmoothShape
+    second: SmoothShape
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[SmoothSmooth, ...]:
+        """Return the single contact of two smooth shapes."""
+        assert isinstance(first, SmoothShape)
+        assert isinstance(second, SmoothShape)
+        return (cls(first, second),)
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the numbers of both support functions."""
+        return {"first": self.first.core, "second": self.second.core}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's method on the support functions."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("smooth-smooth",)

@@ -1,0 +1,148 @@
+"""What a mesh must be to enclose a body: each rule with the number that shows where it is broken, and the remedy."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bodies.meshes.counting import MANY
+from bodies.meshes.crossings import count_crossings
+from bodies.meshes.integrals import volume_of, winding_number
+from bodies.meshes.topology import Integers, edge_counts, half_edges, shells
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces.body import Vector
+
+FLAT = 1e-12
+"""Height over longest edge below which a triangle has no area."""
+_EMPTY = 1e-12
+"""Volume over the cube of the largest extent below which there is none."""
+
+
+def check_surface(thing: str, vertices: Vector, faces: Integers) -> None:
+    """Check that the triangles are the surface of one body, cavities allowed.
+
+    Raises
+    ------
+    InvalidInput
+        If a vertex is not finite, a triangle without area, an edge not that of two triangles,
+        neighbours are wound against each other, the volume is negative or nothing, there is more than one body, or the
+        surface passes through itself.
+    """
+    check_finite(thing, vertices)
+    flat = int(np.sum(flat_triangles(vertices, faces)))
+    if flat:
+        raise InvalidInput(
+            thing, "must have no triangle of zero area", flat, "Repair with 'zero_area', which says what it changes."
+        )
+    _check_edges(thing, faces)
+    volume = volume_of(vertices, faces)
+    extent = float(np.max(np.ptp(vertices, axis=0)))
+    if abs(volume) <= _EMPTY * extent**3:
+        raise InvalidInput(thing, "must enclose a volume [m^3]", volume, "Is it a sheet, or wound half and half?")
+    if volume < 0.0:
+        raise InvalidInput(
+            thing,
+            "must be wound counter-clockwise seen from outside, with a positive volume [m^3]",
+            volume,
+            "It is inside out: repair with 'winding', which turns it.",
+        )
+    _check_shells(thing, vertices, faces)
+    crossings = count_crossings(vertices, faces) if len(faces) <= MANY else 0
+    if crossings:
+        raise InvalidInput(
+            thing,
+            "must not pass through itself, but there are pairs of triangles that do",
+            crossings,
+            "What overlaps would count twice: unite the parts (boolean union) in the program that made the mesh.",
+        )
+
+
+def check_indices(thing: str, vertices: Vector, faces: Integers) -> None:
+    """Raise InvalidInput unless there are triangles, of vertices that exist."""
+    if len(faces) == 0:
+        raise InvalidInput(thing, "must have triangles", 0, "An empty mesh encloses nothing.")
+    outside = int(np.sum((faces < 0) | (faces >= len(vertices))))
+    if outside:
+        raise InvalidInput(
+            thing, f"must name vertices from 0 to {len(vertices) - 1} only", f"{outside} others", "Check the indices."
+        )
+
+
+def check_finite(thing: str, vertices: Vector) -> None:
+    """Raise InvalidInput unless all vertices are finite."""
+    wrong = int(np.sum(~np.all(np.isfinite(vertices), axis=1)))
+    if wrong:
+        raise InvalidInput(
+            thing,
+            "must have finite vertices only, but there are some with nan or infinity",
+            wrong,
+            f"They are {wrong} of {len(vertices)}. Export it anew; or repair with ('not_finite', 'holes').",
+        )
+
+
+def flat_triangles(vertices: Vector, faces: Integers) -> np.ndarray:
+    """Return which triangles have no area, shape [m]."""
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    longest = np.max([np.sum(side**2, axis=1) for side in (b - a, c - b, a - c)], axis=0)
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) <= FLAT * longest)
+
+
+def _check_edges(thing: str, faces: Integers) -> None:
+    edges, counts, which = edge_counts(faces)
+    opened, crowded = int(np.sum(counts == 1)), int(np.sum(counts > 2))
+    if opened:
+        raise InvalidInput(
+            thing,
+            "must be closed, but there are open edges",
+            opened,
+            f"They are {opened} of {len(edges)} edges. Repair with 'merge' if vertices that should meet nearly do, "
+            "with 'holes' if there are some: both say what they change.",
+        )
+    if crowded:
+        raise InvalidInput(
+            thing,
+            "must have two triangles at every edge, but there are edges with more",
+            crowded,
+            "Walls inside, or triangles that come twice: repair with 'duplicates', or unite parts where it was made.",
+        )
+    halves = half_edges(faces)
+    senses = np.where(halves[:, 0] < halves[:, 1], 1, -1)
+    against = int(np.sum(np.bincount(which, weights=senses) != 0.0))
+    if against:
+        raise InvalidInput(
+            thing,
+            "must have neighbours wound alike, but there are edges whose two triangles are not",
+            against,
+            "Repair with 'winding', which turns triangles round.",
+        )
+
+
+def _check_shells(thing: str, vertices: Vector, faces: Integers) -> None:
+    """One shell is the body's outside; others are cavities, wound the other way, inside of it and not of each other."""
+    number = shells(faces)
+    count = int(np.max(number)) + 1
+    if count == 1:
+        return
+    parts = [faces[number == i] for i in range(count)]
+    volumes = [volume_of(vertices, part) for part in parts]
+    bodies = [i for i in range(count) if volumes[i] > 0.0]
+    if len(bodies) != 1:
+        told = ", ".join(f"{volume:.3g}" for volume in sorted(volumes, key=abs, reverse=True)[:8])
+        raise InvalidInput(
+            thing,
+            "must be one body, but there are shells with a volume of their own",
+            len(bodies),
+            f"Volumes [m^3]: {told}{', ...' if count > 8 else ''}. Unite parts that overlap (they would count twice); "
+            "export bodies that do not one by one, and join them by Compound where they belong together.",
+        )
+    for i, part in enumerate(parts):
+        if i == bodies[0]:
+            continue
+        point = vertices[part[0, 0]]
+        around = [round(winding_number(vertices, other, point)) for j, other in enumerate(parts) if j != i]
+        if sum(around) != 1 or min(around) < 0:
+            raise InvalidInput(
+                thing,
+                "must have its cavities inside of its outer shell and apart from each other",
+                f"a shell of {volumes[i]:.3g} m^3 is not",
+                "A shell wound inside out is a cavity: repair with 'winding' if it should not be one.",
+            )

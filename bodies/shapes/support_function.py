@@ -1,0 +1,66 @@
+"""The support function of a core (:func:`bodies.shapes.smooth.core_numbers`) with its derivatives."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+Support: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float]
+"""h, the point (gradient), and xx, yy, zz, yz, xz, xy of the second derivative."""
+
+
+@compiled
+def support_of(core: Floats, x: float, y: float, z: float) -> Support:
+    """Return the support function of the core, without the radius, at the unit vector (x, y, z) of its own axes."""
+    a, b, c, p, q = core[0], core[1], core[2], core[3], core[4]
+    if a == 0.0:
+        h = 0.0
+        return h, h, h, h, h, h, h, h, h, h
+    if p == 2.0 and q == 2.0:
+        aa, bb, cc = a * a, b * b, c * c
+        h = math.sqrt(aa * x * x + bb * y * y + cc * z * z)
+        px, py, pz = aa * x / h, bb * y / h, cc * z / h
+        return (
+            h,
+            px,
+            py,
+            pz,
+            (aa - px * px) / h,
+            (bb - py * py) / h,
+            (cc - pz * pz) / h,
+            -py * pz / h,
+            -px * pz / h,
+            -px * py / h,
+        )
+    # two norms, one in the other: r of (X, Y), h of (r, Z); every ratio is at most 1
+    ax, by, cz = a * abs(x), b * abs(y), c * abs(z)
+    larger, smaller = max(ax, by), min(ax, by)
+    r = 0.0
+    rx, ry = 1.0, 0.0
+    if larger > 0.0:
+        r = larger * (1.0 + (smaller / larger) ** q) ** (1.0 / q)
+        rx, ry = ax / r, by / r
+    larger, smaller = max(r, cz), min(r, cz)
+    h = larger * (1.0 + (smaller / larger) ** p) ** (1.0 / p)
+    hr, hz = r / h, cz / h
+    # the factors of the second derivatives, then those of the first
+    fx, fy, fr, fz = rx ** (q - 2.0), ry ** (q - 2.0), hr ** (p - 2.0), hz ** (p - 2.0)
+    gx, gy, gr, gz = fx * rx, fy * ry, fr * hr, fz * hz
+    curve_h, curve_r = (p - 1.0) / h, (q - 1.0) / h * fr
+    h_rr, h_zz, h_rz = curve_h * fr * gz * hz, curve_h * fz * gr * hr, -curve_h * gr * gz
+    sx, sy, sz = math.copysign(a, x), math.copysign(b, y), math.copysign(c, z)
+    return (
+        h,
+        sx * gr * gx,
+        sy * gr * gy,
+        sz * gz,
+        a * a * (h_rr * gx * gx + curve_r * fx * gy * ry),
+        b * b * (h_rr * gy * gy + curve_r * fy * gx * rx),
+        c * c * h_zz,
+        sy * sz * h_rz * gy,
+        sx * sz * h_rz * gx,
+        sx * sy * (h_rr - curve_r) * gx * gy,
+    )

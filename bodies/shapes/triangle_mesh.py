@@ -1,0 +1,122 @@
+"""TriangleMesh: any closed surface of triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from bodies.meshes.surface import Surface
+from bodies.meshes.topology import Integers
+from bodies.meshes.triangles import Triangles
+from bodies.shapes.placement import with_axes
+from bodies.shapes.polytope import MOST_VERTICES
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import parameter
+from nonsmooth.vectors import UNIT_PART, unit_vector
+
+
+@final
+@dataclass(frozen=True)
+class TriangleMesh(Shape):
+    """The solid inside a closed surface, convex or not, which stands at (x, y, z) turned by a unit quaternion.
+
+    Attributes
+    ----------
+    surface : Surface
+        The triangles: a :class:`bodies.MeshFile` or :class:`bodies.Triangles`.
+    """
+
+    surface: Surface
+    x: float = parameter(0.0, doc="origin of the surface's axes in the body, first coordinate", unit="m")
+    y: float = parameter(0.0, doc="origin, second coordinate", unit="m")
+    z: float = parameter(0.0, doc="origin, third coordinate", unit="m")
+    orientation_w: float = parameter(1.0, doc="quaternion from its axes to the body's, scalar part", **UNIT_PART)
+    orientation_x: float = parameter(0.0, doc="quaternion, first component", **UNIT_PART)
+    orientation_y: float = parameter(0.0, doc="quaternion, second component", **UNIT_PART)
+    orientation_z: float = parameter(0.0, doc="quaternion, third component", **UNIT_PART)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a tetrahedron."""
+        corners = ((0.0, 0.0, 0.0), (0.02, 0.0, 0.0), (0.0, 0.02, 0.0), (0.0, 0.0, 0.02))
+        return {"surface": Triangles(corners, ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)), "of the example")}
+
+    def _check(self) -> None:
+        if not isinstance(self.surface, Surface):
+            raise InvalidInput(
+                "TriangleMesh.surface",
+                "must be a surface",
+                type(self.surface).__name__,
+                'For example MeshFile("part.stl", unit="mm").',
+            )
+        orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
+        unit_vector("TriangleMesh orientation", orientation, 4)
+
+    @property
+    def _axes(self) -> Vector:
+        return with_axes(self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z)
+
+    def _placed(self, points: Vector) -> Vector:
+        return np.asarray(points @ self._axes.T + np.array([self.x, self.y, self.z]))
+
+    @property
+    def corners(self) -> Vector:
+        """Corners of its convex hull in the body frame [m], shape [n, 3]."""
+        return self._placed(self.surface.mesh.hull.corners)
+
+    @property
+    def length(self) -> float:
+        """Distance of the farthest corner [m]."""
+        return float(np.max(np.linalg.norm(self.corners, axis=1)))
+
+    @property
+    def advice(self) -> str:
+        """How far from convex it is, and that a decomposition helps; or that it has too many corners."""
+        mesh = self.surface.mesh
+        if mesh.is_convex:
+            return (
+                f"The mesh {mesh.name} is convex but has {len(mesh.hull.corners)} corners; only up to {MOST_VERTICES} "
+                "make a convex hull that touches other bodies than planes. Take a coarser mesh, or a shape in closed "
+                "form if it stands for a rounded body."
+            )
+        return (
+            f"The mesh {mesh.name} has {mesh.volume_ratio:.1%} of the volume of its convex hull, and surfaces that are "
+            "not convex touch planes only: give its body a decomposition into convex pieces, "
+            "MeshBody(..., decomposition=Decomposition())."
+        )
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the farthest corner along a direction (shape [3]) [m], shape [3]."""
+        corners = self.corners
+        return np.asarray(corners[int(np.argmax(corners @ direction))])
+
+    @property
+    def bounds(self) -> tuple[Vector, Vector]:
+        """Lowest and highest coordinates in the body frame [m], shape [3] each."""
+        corners = self.corners
+        return np.min(corners, axis=0), np.max(corners, axis=0)
+
+    @property
+    def volume(self) -> float:
+        """Volume [m^3]."""
+        return self.surface.mesh.volume
+
+    @property
+    def centroid(self) -> Vector:
+        """Centre of the volume in the body frame [m], shape [3]."""
+        return self._placed(self.surface.mesh.centroid)
+
+    @property
+    def inertia(self) -> Vector:
+        """Inertia at density 1 about the centroid in the axes of the body frame [m^5], shape [3, 3]."""
+        return np.asarray(self._axes @ self.surface.mesh.inertia @ self._axes.T)
+
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Integers]:
+        """Return its vertices in the body frame [m], shape [n, 3], and its triangles, shape [m, 3]."""
+        mesh = self.surface.mesh
+        return self._placed(mesh.vertices), mesh.faces

@@ -1,0 +1,1 @@
+"""The spinning egg that stands up."""

@@ -1,0 +1,208 @@
+"""The spinning egg: it stands up, though its mass centre has to rise, because it slips."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bodies import EllipsoidBody, Plate, Rest
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.parameters import parameter, rules
+from nonsmooth.simulate import Progress
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+
+Floats = NDArray[np.float64]
+
+GRAVITY = 9.81
+_SAMPLES = 8000
+_RISEN = 4.0
+"""After which the egg of the default parameters stands [s]."""
+_UPRIGHT = math.radians(10.0)
+
+
+@final
+@dataclass(frozen=True)
+class EggOnTable(Scenario):
+    """A hard-boiled egg, an ellipsoid of revolution, spun on a table with its long axis nearly level.
+
+    References
+    ----------
+    H. K. Moffatt, Y. Shimomura, "Spinning eggs - a paradox resolved", Nature 416 (2002) 385-386.
+    Y. Shimomura, M. Branicki, H. K. Moffatt, "Dynamics of an axisymmetric body spinning on a horizontal surface. II.
+    Self-induced jumping", Proc. R. Soc. A 461 (2005) 1753-1774.
+    """
+
+    title: ClassVar[str] = "Egg on a table"
+
+    semi_long: float = parameter(0.03, doc="semi-axis of revolution a", unit="m", above=0.0, usual=(1e-3, 1.0))
+    semi_across: float = parameter(0.022, doc="semi-axis across b", unit="m", above=0.0, usual=(1e-3, 1.0))
+    mass: float = parameter(0.06, doc="mass", unit="kg", above=0.0)
+    friction: float = parameter(0.1, doc="friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), law="friction")
+    restitution: float = parameter(
+        0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
+    )
+    spin: float = parameter(140.0, doc="spin about the vertical at the start", unit="rad/s", usual=(1.0, 1e3))
+    tilt: float = parameter(
+        math.radians(85.0), doc="angle of the axis from the vertical at the start", unit="rad", minimum=0.0, maximum=3.2
+    )
+    t_end: float = parameter(4.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))
+
+    def resolved(self) -> Mapping[str, Any]:
+        """Return all parameters as given."""
+        return {name: getattr(self, name) for name in rules(type(self))}
+
+    @property
+    def sample_interval(self) -> float:
+        """An eight-thousandth of the run [s]."""
+        return self.t_end / _SAMPLES
+
+    def body(self) -> EllipsoidBody:
+        """Return the egg, its long axis the third."""
+        return EllipsoidBody(self.semi_across, self.semi_across, self.semi_long, mass=self.mass)
+
+    def build(self) -> System:
+        """Return table and egg at their start: it spins about the vertical through its mass centre at rest."""
+        egg, table = self.body(), Plate(Rest())
+        friction = Coulomb(self.friction) if self.friction > 0.0 else Frictionless()
+        system = System([table, egg], gravity=GRAVITY)
+        system.contact(egg, table, normal=Unilateral(), friction=friction, impact=EnergeticImpact(self.restitution))
+        c, s = math.cos(self.tilt), math.sin(self.tilt)
+        system.place(
+            egg,
+            position=(0.0, 0.0, math.hypot(self.semi_across * s, self.semi_long * c)),
+            orientation=(math.cos(0.5 * self.tilt), math.sin(0.5 * self.tilt), 0.0, 0.0),
+            angular_velocity=(0.0, self.spin * s, self.spin * c),
+        )
+        return system
+
+    def normals(self, q: Floats) -> Floats:
+        """Return the upward normal in body axes, in states of the run, shape [n, 7] -> [n, 3]."""
+        a, b, c, d = q[:, 3:].T
+        n: Floats = np.column_stack([2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d])
+        n /= np.sum(q[:, 3:] ** 2, axis=1)[:, None]
+        return n
+
+    def tilts(self, q: Floats) -> Floats:
+        """Return the angle of the axis from the vertical, at most a right one, either end up [rad], shape [n]."""
+        n = self.normals(q)
+        tilts: Floats = np.arctan2(np.hypot(n[:, 0], n[:, 1]), np.abs(n[:, 2]))
+        return tilts
+
+    def levers(self, q: Floats) -> Floats:
+        """Return the vector from the lowest point to the mass centre in body axes [m], shape [n, 3]."""
+        stretched = self.normals(q) * np.array([self.semi_across, self.semi_across, self.semi_long]) ** 2
+        levers: Floats = stretched / np.sqrt(np.sum(stretched * self.normals(q), axis=1))[:, None]
+        return levers
+
+    def jellett(self, q: Floats, u: Floats) -> Floats:
+        """Return L_z h, angular momentum about the vertical times height of the mass centre [kg m^3/s], shape [n].
+
+        In the balance of a fast spin it is the A Omega h of Moffatt and Shimomura, which stays while the egg rises.
+        """
+        n = self.normals(q)
+        heights = np.sum(self.levers(q) * n, axis=1)
+        constant: Floats = np.sum(u[:, 3:] * np.array(self.body().inertia) * n, axis=1) * heights
+        return constant
+
+    def upright_spin(self) -> float:
+        """Return the spin with which it stands, by A Omega h: A b / (C a) times that at the start [rad/s]."""
+        across, _, along = self.body().inertia
+        height = math.hypot(self.semi_across * math.sin(self.tilt), self.semi_long * math.cos(self.tilt))
+        start = across * math.sin(self.tilt) ** 2 + along * math.cos(self.tilt) ** 2
+        return self.spin * start * height / (along * self.semi_long)
+
+    def gaps(self, q: Floats) -> Floats:
+        """Return the gap between egg and table [m], shape [n]."""
+        gaps: Floats = q[:, 2] - np.sum(self.levers(q) * self.normals(q), axis=1)
+        return gaps
+
+    def slips(self, q: Floats, u: Floats) -> Floats:
+        """Return the slip speed of the lowest point [m/s], shape [n]."""
+        a, vector = q[:, 3:4], q[:, 4:7]
+        own = np.cross(u[:, 3:], -self.levers(q))
+        scale = np.sum(q[:, 3:] ** 2, axis=1)[:, None]
+        velocity = u[:, :3] + own + 2.0 * np.cross(vector, np.cross(vector, own) + a * own) / scale
+        slips: Floats = np.hypot(velocity[:, 0], velocity[:, 1])
+        return slips
+
+    def coordinates(self, solution: Solution) -> Mapping[str, Any]:
+        """Return x, y, z [m], tilt [rad], vertical spin [rad/s], slip [m/s], gap [m], L_z h over the samples."""
+        q, u = solution.q, solution.u
+        return {
+            **{name: q[:, i] for i, name in enumerate("xyz")},
+            "tilt": self.tilts(q),
+            "spin": np.sum(self.normals(q) * u[:, 3:], axis=1),
+            "slip": self.slips(q, u),
+            "gap": self.gaps(q),
+            "jellett": self.jellett(q, u),
+        }
+
+    def final(self, solution: Solution) -> Mapping[str, list[float]]:
+        """Return {q, u} at the end: position and quaternion, velocity and angular velocity in body axes."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+
+    def summarise(self, solution: Solution) -> Mapping[str, Any]:
+        """Return when it stands [s], tilt [rad] and spin [rad/s] at the end, how often it left the table, losses [J].
+
+        It stands once its axis is within 10 degrees of the vertical for the rest of the run.
+        """
+        tilt = self.tilts(solution.q)
+        leaning = np.flatnonzero(tilt > _UPRIGHT)
+        last = int(leaning[-1]) if len(leaning) > 0 else -1
+        touching = solution.events.after[:, 0] & 1
+        return {
+            "upright": float(solution.t[last + 1]) if last + 1 < len(tilt) else None,
+            "tilt": float(tilt[-1]),
+            "spin": float(np.sum(self.normals(solution.q_end[None]) * solution.u_end[None, 3:])),
+            "flights": int(np.count_nonzero((touching[:-1] == 1) & (touching[1:] == 0))),
+            "energy_lost": solution.energy.loss,
+        }
+
+    def balance(self, solution: Solution) -> float:
+        """Return how far L . r changes otherwise than by L . r', r the lever, in units of its start.
+
+        A force in the contact point has no moment along r; the integral is that of a spline through the samples.
+        """
+        from scipy.interpolate import CubicSpline
+
+        lever = self.levers(solution.q)
+        momentum = solution.u[:, 3:] * np.array(self.body().inertia)
+        product = np.sum(momentum * lever, axis=1)
+        # both in body axes, in which a fixed vector turns against the body
+        rate = CubicSpline(solution.t, lever).derivative()(solution.t) + np.cross(solution.u[:, 3:], lever)
+        gained = CubicSpline(solution.t, np.sum(momentum * rate, axis=1)).antiderivative()(solution.t)
+        return float(np.max(np.abs(product - product[0] - gained)) / abs(product[0]))
+
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the balance of angular momentum and, of the default egg, that it stands, and with which spin."""
+        source = "no moment along the line from the contact point to the mass centre"
+        found = [Criterion("change of L . r that is none of r", self.balance(solution), 0.0, 1e-4, source)]
+        if self.t_end >= _RISEN and dataclasses.replace(self, t_end=_RISEN) == EggOnTable(t_end=_RISEN):
+            summary = self.summarise(solution)
+            source = "Moffatt and Shimomura (2002): the egg rises"
+            found.append(Criterion("tilt at the end [rad]", summary["tilt"], 0.0, _UPRIGHT, source))
+            source = "A Omega h stays: A b / (C a) of that at the start"
+            part = summary["spin"] / self.upright_spin()
+            found.append(Criterion("spin at the end over that of Jellett's constant", part, 0.97, 1.03, source))
+        return tuple(found)
+
+    def figures(self, solution: Solution) -> Mapping[str, Any]:
+        """Return tilt, spin, slip and Jellett's constant over time."""
+        from scenarios.egg_on_table.figures import history
+
+        return {"history": history(self, solution)}
+
+    @classmethod
+    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+        """Return the history of the default egg, the rise for other spin and friction, and a fast egg's jumps."""
+        from scenarios.egg_on_table.figures import gallery
+
+        return gallery(cls, progress)

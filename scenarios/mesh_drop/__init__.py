@@ -1,0 +1,1 @@
+"""A part, given as a mesh, is dropped on flat ground."""

@@ -1,0 +1,1 @@
+"""The rattleback: an ellipsoid with skewed inertia that turns its spin round."""

@@ -1,0 +1,72 @@
+"""An ellipsoid that rolls on a plane without slipping, in equations of its own: normal and angular velocity."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+Floats = NDArray[np.float64]
+
+
+def contact_point(semi: Floats, offset: float, n: Floats) -> tuple[Floats, Floats]:
+    """Return the point below the mass centre and its derivative by the upward normal n, in body axes.
+
+    With S the squares of the semi-axes the point is r = offset e_z - S n / h, h = sqrt(n . S n) the support function.
+
+    Parameters
+    ----------
+    semi : ndarray
+        Semi-axes [m], shape [3].
+    offset : float
+        Centre of the ellipsoid over the mass centre [m].
+    n : ndarray
+        The upward normal in body axes, shape [3].
+    """
+    stretched = semi**2 * n
+    h = float(np.sqrt(n @ stretched))
+    return np.array([0.0, 0.0, offset]) - stretched / h, np.outer(stretched, stretched) / h**3 - np.diag(semi**2) / h
+
+
+def roll(
+    semi: Floats,
+    offset: float,
+    mass: float,
+    tensor: Floats,
+    gravity: float,
+    n: Floats,
+    spin: Floats,
+    times: Floats,
+) -> tuple[Floats, Floats]:
+    """Return normals and angular velocities in body axes at the times, shapes [n, 3].
+
+    From J w' + w x J w = r x m (a + g n) with the mass centre's velocity -w x r and n' = -w x n.
+
+    Parameters
+    ----------
+    semi, offset, n
+        As for :func:`contact_point`, n at the start.
+    mass : float
+        Mass [kg].
+    tensor : ndarray
+        Inertia tensor about the mass centre, in body axes [kg m^2], shape [3, 3].
+    gravity : float
+        [m/s^2].
+    spin : ndarray
+        Angular velocity at the start, in body axes [rad/s], shape [3].
+    times : ndarray
+        [s], rising, from the start on.
+    """
+
+    def rates(_: float, y: Floats) -> Floats:
+        n, w = y[:3], y[3:]
+        turning = -np.cross(w, n)
+        r, by_normal = contact_point(semi, offset, n)
+        # what is left of the acceleration without w'
+        bias = -np.cross(w, by_normal @ turning) - np.cross(w, np.cross(w, r)) + gravity * n
+        matrix = tensor + mass * (r @ r * np.eye(3) - np.outer(r, r))
+        return np.concatenate([turning, np.linalg.solve(matrix, mass * np.cross(r, bias) - np.cross(w, tensor @ w))])
+
+    start = np.concatenate([n, spin])
+    found = solve_ivp(rates, (times[0], times[-1]), start, "DOP853", times, rtol=1e-12, atol=1e-13)
+    return found.y[:3].T, found.y[3:].T
