@@ -40,7 +40,8 @@ def _astray(frame: Floats, edge: Floats, sign: float, x: float, y: float, z: flo
     """Return the sine of the angle by which a vector across an edge, times ``sign``, leaves the normals of the body."""
     ux, uy, uz = vector_in_world(frame, edge[7], edge[8], edge[9])
     vx, vy, vz = vector_in_world(frame, edge[10], edge[11], edge[12])
-    return max(sign * (x * ux + y * uy + z * uz), sign * (x * vx + y * vy + z * vz))
+    one, other = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz
+    return float(max(sign * one, sign * other))
 
 
 def _evaluate(

@@ -20,7 +20,8 @@ DEEP = 1e-6
 def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[float, float, float]:
     """Return the normal of a face in the axes of the other body."""
     x, y, z = vector_in_world(frame, faces[face], faces[face + 1], faces[face + 2])
-    return vector_in_body(other, x, y, z)
+    x, y, z = vector_in_body(other, x, y, z)
+    return x, y, z
 
 
 @compiled

@@ -97,7 +97,8 @@ def _installed(kind: type[Shape]) -> type[Shape]:
     """Return a class of shapes, or of one that is only a base the first installed that derives from it."""
     if not inspect.isabstract(kind):
         return kind
-    derived = [shape for shape in registry.load_all("shapes").values() if issubclass(shape, kind)]
+    shapes: list[type[Shape]] = list(registry.load_all("shapes").values())
+    derived = [shape for shape in shapes if issubclass(shape, kind)]
     if not derived:
         raise InvalidInput(
             "check", "must be of a pair of shapes that are installed", kind.__name__, "No installed shape is one."

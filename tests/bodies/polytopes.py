@@ -43,7 +43,7 @@ def tetrahedron(rng: np.random.Generator, size: float) -> ConvexHull:
 
 def random_shapes(rng: np.random.Generator) -> dict[str, tuple[Polyhedron, Polyhedron]]:
     """Return pairs of shapes, half-sizes 4 to 10 mm."""
-    one, two = (Box(*rng.uniform(4e-3, 1e-2, 3), x=1e-3, **_axes(rng)) for _ in range(2))
+    one, two = (Box(*rng.uniform(4e-3, 1e-2, 3).tolist(), **_axes(rng)) for _ in range(2))
     return {
         "box-box": (one, two),
         "box-hull": (one, random_hull(rng, 12, 8e-3)),
@@ -87,19 +87,19 @@ class Posed:
             # edges that are nearly parallel cross nowhere
             while True:
                 facing = _turn(out, -n, rng.uniform(0.0, 2.0 * np.pi))
-                ways = [np.subtract(*[p.vertices[v] for v in p.edges[e][:2]]) for p, e in ((one, i), (two, j))]
+                ways = [np.diff([p.vertices[v] for v in p.edges[e][:2]], axis=0)[0] for p, e in ((one, i), (two, j))]
                 way = facing.apply(ways[1])
                 if np.linalg.norm(np.cross(ways[0], way)) > 0.1 * np.linalg.norm(ways[0]) * np.linalg.norm(way):
                     break
             self.number = i * len(two.edges) + j
         elif kind == "face-vertex":
-            own, n, f = self._face(rng, one)
+            own, n, _ = self._face(rng, one)
             other, out, v = self._vertex(rng, two)
             facing = _turn(out, -n, rng.uniform(0.0, 2.0 * np.pi))
             self.number = n_edges + v
         else:
             own, n, v = self._vertex(rng, one)
-            other, out, f = self._face(rng, two)
+            other, out, _ = self._face(rng, two)
             facing = _turn(out, -n, rng.uniform(0.0, 2.0 * np.pi))
             self.number = n_edges + n_two + v
         self.normal = turn.apply(n)

@@ -71,7 +71,7 @@ def test_rates_are_derivatives(build: Any, name: str, kind: str) -> None:
                 return rig.geometry[posed.number, 0], rig.rate[posed.number, 0]
 
             near = {i: np.subtract(at(i * _STEP), at(-i * _STEP)) / _STEP for i in _WEIGHTS}
-            rate, second = sum(_WEIGHTS[i] * near[i] for i in _WEIGHTS)
+            rate, second = np.sum([weight * near[i] for i, weight in _WEIGHTS.items()], axis=0)
             at(0.0)
             assert rig.rate[posed.number, 0] == pytest.approx(rate, rel=1e-8, abs=1e-10)
             assert rig.bias[posed.number, 0] == pytest.approx(second, rel=1e-6, abs=1e-8)
