@@ -96,9 +96,7 @@ class DiceThrow(Scenario):
     def upright(self, solution: Solution) -> Floats:
         """Return the vertical components of the axes of every die at the end [n, 3]."""
         a, b, c, d = solution.q_end.reshape(-1, 7)[:, 3:].T
-        found: Floats = np.column_stack(
-            [2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d]
-        )
+        found: Floats = np.column_stack([2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d])
         return found
 
     def heights(self, solution: Solution) -> Floats:
@@ -139,7 +137,9 @@ class DiceThrow(Scenario):
         account = solution.energy
         start, end = account.kinetic_start + account.potential_start, account.kinetic_end + account.potential_end
         found = [
-            Criterion.near("energy lost over losses booked", (start - end) / account.loss, 1.0, 1e-6, "balance of energy")
+            Criterion.near(
+                "energy lost over losses booked", (start - end) / account.loss, 1.0, 1e-6, "balance of energy"
+            )
         ]
         if self.on_a_face(solution):
             lowest = float(np.max(np.abs(self.heights(solution)[-1] / (0.5 * self.edge) - 1.0)))

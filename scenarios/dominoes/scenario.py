@@ -153,9 +153,7 @@ class Dominoes(Scenario):
         return float(
             quad(
                 lambda x: (
-                    2.0
-                    * x
-                    / math.sqrt(2.0 * rate * math.sin(self.lean + 0.5 * x * x) * math.sin(0.5 * x * x))
+                    2.0 * x / math.sqrt(2.0 * rate * math.sin(self.lean + 0.5 * x * x) * math.sin(0.5 * x * x))
                     if x > 0.0
                     else 2.0 / math.sqrt(rate * math.sin(self.lean))
                 ),
