@@ -67,8 +67,8 @@ from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
-from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.superellipsoid_body import SuperellipsoidBody
 
 __all__ = [
