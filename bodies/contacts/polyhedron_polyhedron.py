@@ -79,6 +79,7 @@ def _evaluate(
             nx, ny, nz = tangent_of(ex, ey, ez)
         s, over, past = 0.0, 0.0, size * _PARALLEL
     gap = wx * nx + wy * ny + wz * nz
+    overlap = 0.0
     if past <= 0.0:
         plus = max(_astray(a, edge_a, 1.0, nx, ny, nz), _astray(b, edge_b, -1.0, nx, ny, nz))
         minus = max(_astray(a, edge_a, -1.0, nx, ny, nz), _astray(b, edge_b, 1.0, nx, ny, nz))
@@ -102,11 +103,12 @@ def _evaluate(
             if gap < 0.0:
                 past = max(past, over - _INSIDE * gap - margin)
         if deep and past > 0.0:
-            gap, past = max(-abs(gap), outside), -margin
+            # they overlap elsewhere: no contact of these edges, but a sign that another one was passed
+            overlap = max(-abs(gap), outside)
     if past > 0.0:
         if gap < 0.0:
             nx, ny, nz = -nx, -ny, -nz
-        gap = math.sqrt(gap * gap + past * past)
+        gap = overlap if overlap < 0.0 else math.sqrt(gap * gap + past * past)
     out[0], out[29], out[30] = gap, 0.0, past
     out[1], out[2], out[3] = nx, ny, nz
     out[7], out[8], out[9] = ax + s * ex, ay + s * ey, az + s * ez

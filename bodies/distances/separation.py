@@ -118,8 +118,8 @@ def _judged(
         size = min(first.shape.extent, second.shape.extent)
         if not -_BELOW * (distance + size) <= distance - lower <= _DOUBT * (distance + size):
             raise DoubtfulDistance(
-                f"{library}: it says that {names} are {distance:.6g} m apart, but support functions along its line give "
-                f"{lower:.6g} m at least, which is not what nearest points give."
+                f"{library}: it says that {names} are {distance:.6g} m apart, but support functions along its line "
+                f"give {lower:.6g} m at least, which is not what nearest points give."
             )
     return Separation(distance, one, two, lower)
 

@@ -178,5 +178,7 @@ def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> in
 
 @kernel("i8(S, F, I, i8)")
 def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
-    """Return 1 if guard ``i`` is a gap, whose rate is known."""
-    return 1 if i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN else 0
+    """Return 1 if guard ``i`` is a gap whose rate is known."""
+    if i >= 2 * S.n_contacts or k[S.mode + i // 2] != OPEN:
+        return 0
+    return 1 if w[S.geometry + GEOMETRY * (i // 2) + PAST_END] <= 0.0 else 0

@@ -63,7 +63,7 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
         evaluate_geometry(S, w, k, c)
         evaluate_rates(S, w, k, c)
         rate = w[S.rate + 3 * c]
-        if w[S.geometry + GEOMETRY * c + PAST_END] > S.gap_tolerance:
+        if w[S.geometry + GEOMETRY * c + PAST_END] > S.gap_tolerance and w[S.geometry + GEOMETRY * c] > 0.0:
             k[S.touching + c] = 0
             continue
         if k[S.normal_function + c] != 0:

@@ -32,7 +32,7 @@ tangent plane; they commute).  A sphere of radius r has slide 1, turn r; a plane
 turn 0.  A point contact needs a curved or sharp side: two planes have none.  Then comes the number of the pair of
 features that are in contact, out of the kinematics' ``features``, and last how far the witness points are past the
 ends of features that end, such as edges and the faces of a polyhedron [m]: negative within, 0 where nothing ends.  Past
-an end the gap is a positive number that no rate belongs to, and a closed contact opens.
+an end the gap is a number that no rate belongs to, positive unless the bodies overlap, and a closed contact opens.
 
 A joint writes :data:`JOINT_ROW` floats per row: residual [m or 1], axis and moment, a point on either body, bias.
 The row's rate is axis . (velocity of the second body at its point - of the first at its own) + moment . (difference

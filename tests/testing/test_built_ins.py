@@ -24,6 +24,7 @@ from bodies import (
     FunctionMotion,
     Harmonic,
     LineBody,
+    MeshBody,
     Part,
     PlanarBody,
     Plane,
@@ -37,6 +38,8 @@ from bodies import (
     SuperellipsoidBody,
     Table,
     TorsionSpring,
+    TriangleMesh,
+    Triangles,
     TurningFrame,
 )
 from laws import (
@@ -96,6 +99,7 @@ from nonsmooth.testing import (
 from nonsmooth.testing.registered import make
 from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.tippe_top.friction import SpinningCoulomb
+from tests.bodies.meshes import parts
 from tests.bodies.planar_functions import PART, planar
 from tests.bodies.test_contact_pairs import PAIRS
 from tests.bodies.test_joints import JOINTS
@@ -142,6 +146,7 @@ BODIES: list[Body] = [
     SuperellipsoidBody(0.02, 0.03, 0.04, 1.4, 1.2, 0.01),
     planar((TurningFrame(carried=(Sphere(0.1),), **PART),), 2.0, 0.5),
     LineBody(1.0, carried=(Sphere(0.1),)),
+    MeshBody(Triangles(*parts.bracket())),
     PlanarBody(2.0, 1.0, (Point(),)),
     Plate(),
     Plate(ConstantVelocity((0.3, 0.1, -0.2), 0.7, centre=(0.2, 0.1, 0.0))),
@@ -168,6 +173,7 @@ MOTIONS: list[Motion] = [
 SHAPES: list[tuple[Shape, Shape]] = [
     *((a, b) for a, b, _ in PAIRS.values()),
     (Plane(0.1), Point(0.1, -0.05, 0.07)),
+    (Plane(0.1), TriangleMesh(Triangles(*parts.bracket()), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)),
     # a face that looks down exactly, where round-off must not choose the tangent
     (Box(1.0, 1.0, 1.0), Sphere(1.0)),
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import subprocess
 import sys
 import warnings
 from pathlib import Path
@@ -35,6 +36,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.model.assembly import assemble
 from nonsmooth.parameters import UnusualValue
 from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.rocking_block.spatial import RockingBlock3D
 from tests.bodies.meshes import parts
 
 BOX, BRACKET = Triangles(*parts.box(), "box"), Triangles(*parts.bracket(), "bracket")
@@ -104,6 +106,32 @@ def test_a_mesh_of_a_box_moves_as_a_box(build: Any) -> None:
     assert mesh.counters.impacts == box.counters.impacts > 2
     np.testing.assert_allclose(mesh.events.time, box.events.time, rtol=0, atol=1e-9)
     np.testing.assert_allclose(mesh.q_end, box.q_end, rtol=0, atol=1e-9)
+
+
+@pytest.mark.skipif(PLAIN, reason="minutes in plain mode")
+@pytest.mark.parametrize("direction", [0.0, 0.7])
+def test_a_mesh_of_a_block_rocks_as_the_block(direction: float) -> None:
+    """On an edge and on a corner, through several landings: the same times, the same motion."""
+    scenario = RockingBlock3D(direction=direction, t_end=1.5)
+    system = scenario.build()
+    contact, block = system.contacts[0], system.bodies[1]
+    surface = Triangles(*parts.box(scenario.base, scenario.depth, scenario.height, at=(1.0, 0.0, -2.0)), "block")
+    ground, body = Plate(), MeshBody(surface, mass=scenario.mass)
+    other = ns.System([ground, body])
+    assert contact.impact is not None
+    other.contact(ground, body, normal=contact.normal, friction=contact.friction, impact=contact.impact)
+    other.set_start(body, *system.start(block))
+    one, two = ns.simulate(system, scenario.t_end), ns.simulate(other, scenario.t_end)
+    assert one.counters.impacts == two.counters.impacts >= 3
+    np.testing.assert_allclose(two.events.time, one.events.time, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(two.q_end, one.q_end, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(two.u_end, one.u_end, rtol=0, atol=1e-8)
+
+
+def test_nothing_heavy_is_imported_at_the_start() -> None:
+    code = "import sys, bodies; print(sorted({'trimesh', 'fcl', 'coal', 'vhacdx'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout.strip() == "[]"
 
 
 def test_a_mesh_that_is_not_convex_meets_a_plane_with_its_hull(build: Any) -> None:
