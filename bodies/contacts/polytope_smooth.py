@@ -17,7 +17,7 @@ from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_wor
 from bodies.contacts.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth, write_core
 from bodies.contacts.tangents import write_tangent
-from bodies.shapes.support_function import support_of
+from bodies.shapes.support_function import gauge_of, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -26,7 +26,7 @@ _HERE, _VERTEX, _EDGE, _FACE = -1, 0, 1, 2
 _ON_BORDER = 1e-14
 """How far a point may be over a border, in units of the size, and a normal over that of its cone."""
 _SHALLOW = 1e-6
-"""Overlap of the cores, in units of the size, up to which the first stop of the walk is taken."""
+"""Overlap of the cores, in units of the size, up to which it is not asked for a proof."""
 
 Point: TypeAlias = tuple[float, float, float]
 Stop: TypeAlias = tuple[float, float, float, float, int, int, Point]
@@ -200,6 +200,11 @@ def _nearest(
             return g, nx, ny, nz, _feature(hull, kind, number)
         # a plane that the centre has passed is no face that the body is before
         if after == _HERE and nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0:
+            # the point of the polytope lies in the smooth body: they do overlap
+            px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
+            px, py, pz = back(turn, px - g * nx - x, py - g * ny - y, pz - g * nz - z)
+            if gauge_of(core, px, py, pz) < 1.0:
+                return g, nx, ny, nz, _feature(hull, kind, number)
             best, bx, by, bz, feature = g, nx, ny, nz, _feature(hull, kind, number)
         if g != g or after == _HERE:
             break

@@ -64,3 +64,16 @@ def support_of(core: Floats, x: float, y: float, z: float) -> Support:
         sx * sz * h_rz * gx,
         sx * sy * (h_rr - curve_r) * gx * gy,
     )
+
+
+@compiled
+def gauge_of(core: Floats, x: float, y: float, z: float) -> float:
+    """Return by how much the core, without the radius, has to grow about its centre to reach (x, y, z) of its axes.
+
+    The norm of which the support function is the dual one, with the powers p / (p - 1) and q / (q - 1).
+    """
+    if core[0] == 0.0:
+        return math.inf
+    p, q = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
+    r = ((abs(x) / core[0]) ** q + (abs(y) / core[1]) ** q) ** (1.0 / q)
+    return float((r**p + (abs(z) / core[2]) ** p) ** (1.0 / p))

@@ -24,7 +24,7 @@ from bodies import (
     Superellipsoid,
     SuperellipsoidBody,
 )
-from bodies.shapes.support_function import support_of
+from bodies.shapes.support_function import gauge_of, support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.kernel import PLAIN
 
@@ -142,6 +142,8 @@ def test_radii_of_curvature_are_derivatives_of_the_support_point(along: float, a
     h, x, y, z, xx, yy, zz, yz, xz, xy = support_of(core, *n.tolist())
     assert h == pytest.approx(float(n @ [x, y, z]), rel=1e-13)
     second = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    # the point lies on the surface
+    assert gauge_of(core, x, y, z) == pytest.approx(1.0, rel=1e-13)
     # it does not change along the direction itself
     np.testing.assert_allclose(second @ n, 0.0, rtol=0, atol=1e-12)
     step = 1e-6 * np.eye(3)

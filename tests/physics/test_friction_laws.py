@@ -232,7 +232,7 @@ def test_drilling_ends_after_its_time() -> None:
 def test_rolling_ends_after_its_way() -> None:
     """A rolling ball slows down with 5 rho g / (7 R) and stops."""
     length, speed = 1e-4, 0.1
-    law = CoulombContensou(0.3, rolling_length=length, prerolling=1e-6, relaxation=1e-5)
+    law = CoulombContensou(0.3, rolling_length=length, prerolling=1e-5, relaxation=1e-4)
     slowing = 5.0 * length * G / (7.0 * RADIUS)
     half = _ball(_soft(law), 0.5 * speed / slowing, (speed, 0.0, 0.0), (0.0, speed / RADIUS, 0.0))
     assert half.u_end[0] == pytest.approx(0.5 * speed, rel=1e-3)
