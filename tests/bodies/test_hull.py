@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bodies import Box, BoxBody, Compound, ConvexHull, HullBody, Part
+from bodies import Box, BoxBody, Compound, ConvexHull, HullBody, Part, Polyhedron
 from nonsmooth import InvalidInput
 from tests.bodies.polytopes import dodecahedron, random_hull
 
@@ -77,10 +77,12 @@ def test_a_hull_of_corners_has_the_mass_properties_of_the_box() -> None:
     turn = (0.8, 0.36, -0.48, 0.0)
     two = [Compound((Part(body, (0.1, 0.2, 0.3), turn),)) for body in (box, HullBody(corners.tolist()))]
     np.testing.assert_allclose(two[1].inertia, two[0].inertia, rtol=1e-12)
-    shapes = [compound.shapes[0] for compound in two]
-    assert isinstance(shapes[0], Box)
-    assert isinstance(shapes[1], ConvexHull)
-    placed = [np.array(sorted(np.round(shape.polytope.vertices, 12).tolist())) for shape in shapes]
+    placed = []
+    for compound, kind in zip(two, (Box, ConvexHull), strict=True):
+        shape = compound.shapes[0]
+        assert isinstance(shape, kind)
+        assert isinstance(shape, Polyhedron)
+        placed.append(np.array(sorted(np.round(shape.polytope.vertices, 12).tolist())))
     np.testing.assert_allclose(placed[1], placed[0], rtol=0, atol=1e-11)
     assert HullBody(CUBE, mass=3.0).total_mass == 3.0
 
