@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from bodies import Box, BoxBody, Compound, ConvexHull, HullBody, Part, Polyhedron
 from nonsmooth import InvalidInput
@@ -68,8 +69,8 @@ def test_faces_bound_all_vertices(seed: int, n: int, size: float) -> None:
 def test_a_hull_of_corners_has_the_mass_properties_of_the_box() -> None:
     """Wherever its points have their origin, and as a turned part of a compound."""
     box = BoxBody(0.1, 0.2, 0.3)
-    corners = np.array(Box(0.1, 0.2, 0.3).vertices)
-    hull = HullBody(([*corners, 1.0, -2.0, 0.5]).tolist())
+    corners: NDArray[np.float64] = np.array(Box(0.1, 0.2, 0.3).vertices)
+    hull = HullBody(np.add(corners, (1.0, -2.0, 0.5)).tolist())
     assert hull.total_mass == pytest.approx(box.total_mass, rel=1e-12)
     np.testing.assert_allclose(hull.inertia, box.inertia, rtol=1e-11)
     np.testing.assert_allclose(hull.products, 0.0, atol=1e-11)
@@ -77,7 +78,7 @@ def test_a_hull_of_corners_has_the_mass_properties_of_the_box() -> None:
     turn = (0.8, 0.36, -0.48, 0.0)
     two = [Compound((Part(body, (0.1, 0.2, 0.3), turn),)) for body in (box, HullBody(corners.tolist()))]
     np.testing.assert_allclose(two[1].inertia, two[0].inertia, rtol=1e-12)
-    placed = []
+    placed: list[NDArray[np.float64]] = []
     for compound, kind in zip(two, (Box, ConvexHull), strict=True):
         shape = compound.shapes[0]
         assert isinstance(shape, kind)
