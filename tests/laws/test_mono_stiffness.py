@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from typing import Any
 
 import numpy as np
@@ -95,7 +96,9 @@ def test_alone_it_is_the_bi_stiffness_law(seed: int, e: float) -> None:
     """On one contact, with friction, where the energy is lost does not matter."""
     problem = draw(seed, 1)
     mono, bi = solve([MonoStiffnessImpact(e)], problem)[0], solve([EnergeticImpact(e)], problem)[0]
-    np.testing.assert_allclose(mono, bi, rtol=0, atol=1e-9)
+    # an error of 1e-11 in the energy moves a rebound at e v by 1e-11 / e, and one from nothing by its root
+    small = min(1e-11 / e, math.sqrt(1e-11)) if e > 0.0 else 0.0
+    np.testing.assert_allclose(mono, bi, rtol=0, atol=max(1e-9, small))
 
 
 def test_both_ends_of_the_coefficient() -> None:
