@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import inspect
 import math
+from collections.abc import Callable
 
 from nonsmooth.interfaces import (
     AnisotropicFrictionLaw,
@@ -15,6 +16,15 @@ from nonsmooth.interfaces import (
 )
 
 Pair = tuple[float, float]
+
+
+def coefficient_of(law: FrictionLaw) -> Callable[[float], float]:
+    """Return the coefficient of a law as a function of the slip speed [m/s] alone, inner states as they start."""
+    offered: dict[str, object] = dict(law.parameters())
+    if isinstance(law, StatefulFrictionLaw):
+        offered["state"] = law.initial_state
+    names = list(inspect.signature(law.coefficient).parameters)[1:]
+    return functools.partial(law.coefficient, **{name: offered[name] for name in names})
 
 
 def opposes_slip(law: FrictionLaw, slip: Pair, normal_force: float, tangential_force: Pair, tolerance: float) -> bool:
@@ -34,12 +44,8 @@ def opposes_slip(law: FrictionLaw, slip: Pair, normal_force: float, tangential_f
         Deviation that counts as zero [m/s, N].
     """
     speed = math.hypot(*slip)
-    offered: dict[str, object] = dict(law.parameters())
-    if isinstance(law, StatefulFrictionLaw):
-        offered["state"] = law.initial_state
-    names = list(inspect.signature(law.coefficient).parameters)[1:]
     rests = speed <= tolerance
-    bound = float(law.coefficient(0.0 if rests else speed, **{name: offered[name] for name in names})) * normal_force
+    bound = coefficient_of(law)(0.0 if rests else speed) * normal_force
     if rests:
         return math.hypot(*tangential_force) <= bound + tolerance
     # a distance, so that the verdict is the same in any axes
@@ -63,9 +69,7 @@ def lies_in_half_ellipses(
     Slip and force are along the law's axis and across it; for the rest see :func:`opposes_slip`.
     """
     forward, backward, across = law.ratios
-    offered = law.parameters()
-    names = list(inspect.signature(law.coefficient).parameters)[1:]
-    mu = functools.partial(law.coefficient, **{name: offered[name] for name in names})
+    mu = coefficient_of(law)
     if math.hypot(*slip) <= tolerance:
         along = forward if tangential_force[0] < 0.0 else backward
         gauge = math.hypot(tangential_force[0] / along, tangential_force[1] / across)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -109,9 +109,9 @@ def polytope_of(thing: str, points: tuple[Point, ...]) -> Polytope:
     return _assemble(thing, loops, unit, array)
 
 
-def _coplanar(hull: object) -> list[list[int]]:
+def _coplanar(hull: Any) -> list[list[int]]:
     """Return the groups of neighbouring facets in one plane."""
-    equations, neighbours = hull.equations, hull.neighbors  # type: ignore[attr-defined]
+    equations, neighbours = hull.equations, hull.neighbors
     group_of: dict[int, int] = {}
     groups: list[list[int]] = []
     for seed in range(len(equations)):

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Sequence
 
+from nonsmooth.certificates import coefficient_of
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw, StatefulFrictionLaw
+from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw
 from nonsmooth.system.contact import Contact
 
 _MOST = 2
@@ -21,18 +21,10 @@ def check_sharing(where: str, contacts: Sequence[Contact]) -> None:
     if len(contacts) <= _MOST or not isinstance(contacts[0].normal, CompliantNormalLaw):
         return
     friction = contacts[0].friction
-    if isinstance(friction, FrictionLaw) and _static_coefficient(friction) > 0.0:
+    if isinstance(friction, FrictionLaw) and coefficient_of(friction)(0.0) > 0.0:
         raise InvalidInput(
             f"{where}: {type(friction).__name__}",
             f"can hold at most {_MOST} compliant contacts between two bodies",
             len(contacts),
             "Take bristles, which share the load by their stiffness (bristle, coulomb_contensou), or rigid contacts.",
         )
-
-
-def _static_coefficient(law: FrictionLaw) -> float:
-    offered: dict[str, object] = dict(law.parameters())
-    if isinstance(law, StatefulFrictionLaw):
-        offered["state"] = law.initial_state
-    names = list(inspect.signature(law.coefficient).parameters)[1:]
-    return float(law.coefficient(0.0, **{name: offered[name] for name in names}))

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import itertools
-import math
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -91,14 +90,13 @@ def test_row_of_three_balls_is_that_of_springs(e: float, exponent: float) -> Non
 
 
 @settings(max_examples=40)
+@example(seed=1921, e=0.003)
 @given(seed=st.integers(0, 10**6), e=st.floats(0.0, 1.0))
 def test_alone_it_is_the_bi_stiffness_law(seed: int, e: float) -> None:
     """On one contact, with friction, where the energy is lost does not matter."""
     problem = draw(seed, 1)
     mono, bi = solve([MonoStiffnessImpact(e)], problem)[0], solve([EnergeticImpact(e)], problem)[0]
-    # an error of 1e-11 in the energy moves a rebound at e v by 1e-11 / e, and one from nothing by its root
-    small = min(1e-11 / e, math.sqrt(1e-11)) if e > 0.0 else 0.0
-    np.testing.assert_allclose(mono, bi, rtol=0, atol=max(1e-9, small))
+    np.testing.assert_allclose(mono, bi, rtol=0, atol=1e-9)
 
 
 def test_both_ends_of_the_coefficient() -> None:
