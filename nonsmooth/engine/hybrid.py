@@ -228,6 +228,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.mode + c] == OPEN and arrived:
             S.fresh = 0
             return _settle_event(S, w, k, _closing_cause(S, k, c), c)
+        # what put the contacts on their constraints may have put one past its end
+        if k[S.mode + c] != OPEN and w[S.guard_end + 2 * S.n_contacts + S.n_own_guards + c] < 0.0:
+            S.fresh = 0
+            return _settle_event(S, w, k, FEATURE_END, c)
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
     status = _accepted_step(S, w, k)
