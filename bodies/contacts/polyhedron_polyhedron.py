@@ -12,7 +12,7 @@ from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polyhedron_point import PointPolyhedron, PolyhedronPoint
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
-from bodies.contacts.tangents import tangent_of, write_tangent
+from bodies.contacts.tangents import tangent_of
 from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
@@ -116,7 +116,8 @@ def _evaluate(
     out[7], out[8], out[9] = ax + s * ex, ay + s * ey, az + s * ez
     for i in range(3):
         out[10 + i] = out[7 + i] + gap * out[1 + i]
-    write_tangent(a, out)
+    # fixed to a body even where the edge lies in a face and the normal is that of the face but for round-off
+    out[4], out[5], out[6] = ex, ey, ez
     write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)
 
