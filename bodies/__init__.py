@@ -26,6 +26,7 @@ from bodies.contacts.polyhedron_smooth import PolyhedronSmooth
 from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.smooth_smooth import SmoothSmooth
 from bodies.contacts.sphere_sphere import SphereSphere
+from bodies.contacts.swept_swept import SweptSwept
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
 from bodies.driven_body import DrivenBody
@@ -68,6 +69,7 @@ from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.superellipsoid_body import SuperellipsoidBody
 
@@ -141,6 +143,8 @@ __all__ = [
     "Spring",
     "Superellipsoid",
     "SuperellipsoidBody",
+    "SweptPolytope",
+    "SweptSwept",
     "Table",
     "TorsionSpring",
     "TriangleMesh",
