@@ -63,6 +63,8 @@ from bodies.shapes.capsule import Capsule
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
+from bodies.shapes.ground import Ground
+from bodies.shapes.half_space import HalfSpace
 from bodies.shapes.hull import ConvexHull
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
@@ -106,6 +108,8 @@ __all__ = [
     "FunctionLoad",
     "FunctionMotion",
     "GeneralisedBody",
+    "Ground",
+    "HalfSpace",
     "Harmonic",
     "Hinge",
     "HullBody",

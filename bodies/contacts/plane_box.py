@@ -8,7 +8,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.plane_point import evaluate_ball_over_plane
 from bodies.shapes.box import Box
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 
@@ -18,7 +18,7 @@ from nonsmooth.parameters import parameter
 class PlaneBox(ContactKinematics):
     """One vertex of a box, with its rounding, over a plane; a box has eight such contacts."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Box)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Box)
 
     x: float = parameter(doc="vertex in its body frame, first coordinate", unit="m")
     y: float = parameter(doc="vertex in its body frame, second coordinate", unit="m")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.plane_point import evaluate_ball_over_plane
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
@@ -18,7 +18,7 @@ from nonsmooth.parameters import parameter
 class PlanePolyhedron(ContactKinematics):
     """One vertex of a polyhedron, with its rounding, over a plane; it has as many such contacts as vertices."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Polyhedron)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Polyhedron)
 
     x: float = parameter(doc="vertex in its body frame, first coordinate", unit="m")
     y: float = parameter(doc="vertex in its body frame, second coordinate", unit="m")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ def random_shapes(rng: np.random.Generator) -> dict[str, tuple[SweptPolytope, Sw
     def box(rounding: float) -> Box:
         q = rng.normal(size=4)
         axes: Any = dict(zip([f"orientation_{c}" for c in "wxyz"], (q / np.linalg.norm(q)).tolist(), strict=True))
-        return Box(*rng.uniform(4e-3, 1e-2, 3).tolist(), **axes, rounding=rounding)
+        return replace(Box(*rng.uniform(4e-3, 1e-2, 3).tolist(), **axes), rounding=rounding)
 
     def rounded(hull: ConvexHull, rounding: float) -> ConvexHull:
         return ConvexHull(hull.points, rounding=rounding)
