@@ -8,6 +8,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
+from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.polytope_tables import FACE, Numbers, face_table, vertex_table
 from bodies.contacts.tangents import tangent_of
 from bodies.contacts.vertex_face import nearest_face
@@ -116,11 +117,13 @@ class PolyhedronPoint(ContactKinematics):
         return self.tables.values()
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[PolyhedronPoint, ...]:
-        """Return the single contact of a polyhedron and a point."""
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the single contact of a polyhedron and a point, which for a rounded one is the smallest ball."""
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Point)
-        own = first.polytope
+        if first.rounding > 0.0:
+            return (PolyhedronSphere.of_ball(first, (second.x, second.y, second.z), 0.0),)
+        own = first.core
         return (cls(_Tables(face_table(own), (second.x, second.y, second.z), 0, own.size)),)
 
     @classmethod
@@ -159,8 +162,11 @@ class PointPolyhedron(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PointPolyhedron, ...]:
-        """Return the single contact of a point and a polyhedron."""
-        return tuple(cls(other.tables) for other in PolyhedronPoint.between(second, first))
+        """Return the single contact of a point and a sharp polyhedron."""
+        assert isinstance(first, Point)
+        assert isinstance(second, Polyhedron)
+        own = second.polytope
+        return (cls(_Tables(face_table(own), (first.x, first.y, first.z), 0, own.size)),)
 
     @classmethod
     def of_vertices(cls, first: Polytope, second: Polytope) -> tuple[PointPolyhedron, ...]:
