@@ -186,9 +186,9 @@ def _may_face(S: Scalars, w: Floats, k: Integers, h: float) -> int:
 
 @kernel("f8(S, F, I, f8, f8, f8)")
 def _sampled(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float) -> float:
-    """Return the first of some fractions of the step in between at which a gap has closed, guards in ``guard``, or 0."""
-    for i in range(1, _SAMPLES):
-        theta = low + (high - low) * i / _SAMPLES
+    """Return the first of some fractions in between at which a gap has closed, its guards in ``guard``, or 0."""
+    for part in range(1, _SAMPLES):
+        theta = low + (high - low) * part / _SAMPLES
         guards_within(S, w, k, h, theta, 0)
         if first_fired(S, w, k, 0, -1) >= 0:
             guards_within(S, w, k, h, theta, _any_closed(S, w, k))
