@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
-from bodies.contacts.swept_vertex import END, UNFACED, SweptVertex, VertexSwept, size_of
+from bodies.contacts.swept_vertex import END, SweptVertex, VertexSwept, size_of
 from bodies.contacts.tangents import tangent_of, write_tangent
 from bodies.contacts.vertex_face import height_over
 from bodies.shapes.swept import SweptPolytope
@@ -126,9 +125,6 @@ class SweptSwept(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
-    departures: ClassVar[Mapping[str, str]] = MappingProxyType(
-        dict.fromkeys(("gap rate", "second-order terms"), UNFACED)
-    )
     edge_a: Numbers
     edge_b: Numbers
     faces_a: Numbers

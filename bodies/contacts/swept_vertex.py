@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
@@ -26,7 +25,6 @@ END = 1e-8
 gives it back after twice that way: neither none of them is closed nor both of them for long."""
 NEAR = 1e-6
 """A wider gap, in units of the size, ends nowhere: it is that of a sphere that is part of the body."""
-UNFACED = "two given features face each other in hardly any random pose; the tests make poses from those that do"
 
 
 @compiled
@@ -191,9 +189,6 @@ class SweptVertex(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
-    departures: ClassVar[Mapping[str, str]] = MappingProxyType(
-        dict.fromkeys(("gap rate", "second-order terms"), UNFACED)
-    )
     tables: _Tables
 
     def parameters(self) -> dict[str, Value]:
@@ -230,7 +225,6 @@ class VertexSwept(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
-    departures: ClassVar[Mapping[str, str]] = SweptVertex.departures
     tables: _Tables
 
     def parameters(self) -> dict[str, Value]:

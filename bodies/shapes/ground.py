@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from typing import final
 
 from nonsmooth.interfaces import Shape
@@ -11,7 +12,10 @@ from nonsmooth.interfaces import Shape
 class Ground(Shape):
     """All that lies below the plane z = height of the body frame, whose third axis is the normal."""
 
-    height: float
+    @property
+    @abstractmethod
+    def height(self) -> float:
+        """Height of the plane over the origin of the body frame [m]."""
 
     @property
     @final

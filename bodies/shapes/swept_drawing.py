@@ -40,12 +40,12 @@ def draw_swept(core: Polytope, radius: float, fineness: int) -> tuple[Vector, Ve
         arcs[one][right] = left, rows[0]
         arcs[two][left] = right, rows[1][::-1]
     for vertex, own in arcs.items():
-        start = face_now = next(iter(own))
+        start = at = next(iter(own))
         loop: list[int] = []
         while True:
-            face_now, row = own[face_now]
+            at, row = own[at]
             loop += row[:-1]
-            if face_now == start:
+            if at == start:
                 break
         axis = np.sum([normals[f] for f in own], axis=0)
         axis /= np.linalg.norm(axis)

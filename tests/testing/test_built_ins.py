@@ -183,7 +183,8 @@ SHAPES: list[tuple[Shape, Shape]] = [
     (Plane(0.1), Point(0.1, -0.05, 0.07)),
     (HalfSpace(0.1), Point(0.1, -0.05, 0.07)),
     (Box(0.3, 0.4, 0.5, rounding=0.1), Sphere(0.1)),
-    (Box(0.3, 0.4, 0.5), Capsule(0.1, 0.3)),
+    # so long that its side crosses each of the edges at some of the places drawn
+    (Box(0.3, 0.4, 0.5), Capsule(0.05, 1.0)),
     (Plane(0.1), TriangleMesh(Triangles(*parts.bracket()), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)),
     (Plane(0.1), ConvexHull(WEDGE)),
     (Box(0.3, 0.4, 0.5), Point(0.1, -0.05, 0.07)),
