@@ -28,6 +28,8 @@ _TRUSTED = 2.0
 """The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 _MOST_ROOTS = 30
 """So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
+_FEW_ROOTS = 4
+"""So many guards that fire one before the other within the time tolerance were wrong from the start."""
 _SAMPLES = 8
 """Parts of half a step, or of the way to an event, at whose ends it is asked whether features face each other."""
 _SHORT = 1e-7
@@ -320,6 +322,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     roots = 0
     while first >= 0:
         if roots >= 3 * S.n_contacts + S.n_own_guards or (closed == 1 and roots == _MOST_ROOTS):
+            return -1.0
+        if roots > _FEW_ROOTS and theta * h < S.time_tolerance:
             return -1.0
         roots += 1
         S.trigger = first
