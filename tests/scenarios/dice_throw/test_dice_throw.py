@@ -33,6 +33,16 @@ def test_every_throw_of_rounded_dice_ends(throw: float) -> None:
     assert all(one.fulfilled for one in dice.acceptance(solution))
 
 
+@pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
+@pytest.mark.parametrize("throw", [6.0, 20.0, 59.0, 102.0, 114.0])
+def test_sharp_dice_slide_off_each_other(throw: float) -> None:
+    """A vertex put past its end, one that comes in through a side, edges that cross for microseconds, a faint guard."""
+    dice = DiceThrow(throw=throw, rounding=0.0)
+    solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval)
+    assert solution.t_end == dice.t_end
+    assert all(one.fulfilled for one in dice.acceptance(solution))
+
+
 def test_figures() -> None:
     pytest.importorskip("matplotlib")
     dice = DiceThrow(number=1.0, t_end=0.5)
