@@ -1,0 +1,133 @@
+"""Contacts of meshes that are not convex: against distances found another way, and what the patches must be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from bodies import Box, MeshSphere, Point, Sphere, TriangleMesh, Triangles
+from bodies.contacts import mesh_mesh
+from bodies.contacts.mesh_point import MeshPoint, PointMesh
+from nonsmooth import InvalidInput
+from nonsmooth.interfaces import Shape
+from nonsmooth.testing.kinematics import check_contact_kinematics
+from tests.bodies.carriers import Rig
+from tests.bodies.meshes.parts import bracket, torus
+from tests.bodies.polytopes import random_shapes
+from tests.bodies.surfaces import distances, is_inside
+
+Array = NDArray[Any]
+BRACKET = TriangleMesh(Triangles(*bracket(), "bracket"), 2e-3, -1e-3, 3e-3, 0.8, 0.36, -0.48)
+TORUS = TriangleMesh(Triangles(*torus(8, 6), "torus"))
+PLACE = np.array([0.1, 0.2, 0.3])
+UNIT = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize(("name", "n"), [("bracket", 2), ("torus", None)])
+def test_the_nearest_patch_has_the_distance_of_the_surface(build: Any, name: str, n: int | None) -> None:
+    """At random places outside; past the end of its features a patch is never nearer."""
+    mesh, rng = {"bracket": BRACKET, "torus": TORUS}[name], np.random.default_rng(3)
+    ball = Sphere(4e-3, x=1e-3)
+    rig = Rig((mesh, ball), build.laws())
+    assert n is None or len(rig.contacts) == n
+    corners = mesh.features.vertices[mesh.features.triangles]
+    low, high = mesh.bounds
+    faced = 0
+    for place in rng.uniform(low - 8e-3, high + 8e-3, (400, 3)):
+        if is_inside(place[None], corners)[0]:
+            continue
+        distance = float(distances(place[None], corners)[0])
+        turn = Rotation.random(random_state=rng)
+        center = turn.apply(place) + PLACE
+        rig.put([(PLACE, np.roll(turn.as_quat(), 1)), (center - [1e-3, 0.0, 0.0], UNIT)], np.zeros(12))
+        gaps, past = rig.geometry[:, 0], rig.geometry[:, 30]
+        facing = past <= 0.0
+        faced += int(np.sum(facing))
+        assert np.any(facing)
+        assert np.min(gaps[facing]) == pytest.approx(distance - ball.radius, abs=1e-15)
+        assert np.all(gaps[~facing] > min(distance - ball.radius, 0.0))
+        for block in rig.geometry[facing]:
+            # the witness point lies on the surface
+            point = turn.inv().apply(block[7:10] - PLACE)
+            assert distances(point[None], corners)[0] < 1e-15
+    assert faced > 300
+
+
+def test_a_ball_in_an_inner_corner_has_a_contact_with_either_wall(build: Any) -> None:
+    mesh = TriangleMesh(Triangles(*bracket(), "bracket"))
+    rig = Rig((mesh, Sphere(2e-3)), build.laws())
+    rig.put([(np.zeros(3), UNIT), (np.array([0.012, 0.012, 0.007]), UNIT)], np.zeros(12))
+    np.testing.assert_allclose(rig.geometry[:, 0], 0.0, atol=1e-17)
+    assert np.all(rig.geometry[:, 30] < 0.0)
+    np.testing.assert_allclose(sorted(rig.geometry[:, 1:4].tolist()), [[0, 1, 0], [1, 0, 0]], atol=1e-15)
+
+
+def test_a_ball_whose_centre_is_inside_overlaps(build: Any) -> None:
+    mesh = TriangleMesh(Triangles(*bracket(), "bracket"))
+    rig = Rig((mesh, Sphere(2e-3)), build.laws())
+    rig.put([(np.zeros(3), UNIT), (np.array([0.02, 0.009, 0.007]), UNIT)], np.zeros(12))
+    assert np.min(rig.geometry[:, 0]) == pytest.approx(-3e-3, abs=1e-17)
+    # below the flange is outside, though under the plane of its upper face
+    rig.put([(np.zeros(3), UNIT), (np.array([0.02, -0.004, 0.007]), UNIT)], np.zeros(12))
+    assert np.min(rig.geometry[:, 0]) == pytest.approx(2e-3, abs=1e-17)
+
+
+def test_contacts_with_points_and_balls_have_the_properties_of_the_kit() -> None:
+    pairs: list[tuple[Any, Shape, Shape]] = [
+        (contact, BRACKET, ball) for ball in [Sphere(4e-3)] for contact in MeshSphere.between(BRACKET, ball)[:1]
+    ]
+    tip = Point(1e-3, 2e-3)
+    pairs += [(MeshPoint.between(BRACKET, tip)[0], BRACKET, tip), (PointMesh.between(tip, BRACKET)[0], tip, BRACKET)]
+    for contact, first, second in pairs:
+        for check in check_contact_kinematics(contact, first, second):
+            check()
+
+
+@pytest.mark.parametrize("name", ["box-box", "box-hull", "tetrahedra"])
+def test_a_convex_mesh_has_the_contacts_of_its_hull(build: Any, name: str) -> None:
+    """At random poses near contact: the gaps of what faces each other are those of the polyhedra."""
+    rng = np.random.default_rng(5)
+    shapes = random_shapes(rng)[name]
+    one, two = (TriangleMesh(Triangles(s.polytope.vertices, s.polytope.triangles)) for s in shapes)
+    rigs = Rig(shapes, build.laws()), Rig((one, shapes[1]), build.laws()), Rig((one, two), build.laws())
+    compared = 0
+    for _ in range(60):
+        turn = [np.roll(Rotation.random(random_state=rng).as_quat(), 1) for _ in range(2)]
+        way = rng.normal(size=3)
+        poses = [(np.zeros(3), turn[0]), (way / np.linalg.norm(way) * rng.uniform(0.012, 0.025), turn[1])]
+        least = []
+        for rig in rigs:
+            rig.put(poses, np.zeros(12))
+            block = rig.geometry
+            # past the end of its features a contact is below 0 only where the bodies overlap
+            nearest = np.min(block[block[:, 30] <= 0.0, 0], initial=np.inf)
+            least.append(nearest if np.min(block[:, 0]) > 0.0 else -1.0)
+        if 0.0 < least[0] < 5e-3:
+            compared += 1
+            assert least[1] == pytest.approx(least[0], abs=1e-15)
+            assert least[2] == pytest.approx(least[0], abs=1e-15)
+    assert compared > 5
+
+
+def test_a_block_in_an_inner_corner_stands_on_both_walls(build: Any) -> None:
+    """Four of its vertices touch the wall, four the flange, two of them both."""
+    mesh, block = TriangleMesh(Triangles(*bracket(), "bracket")), Box(3e-3, 2e-3, 4e-3)
+    rig = Rig((mesh, block), build.laws())
+    rig.put([(np.zeros(3), UNIT), (np.array([0.013, 0.012, 0.007]), UNIT)], np.zeros(12))
+    touching = rig.geometry[(np.abs(rig.geometry[:, 0]) < 1e-15) & (rig.geometry[:, 30] <= 0.0)]
+    normals = touching[:, 1:4].round(12).tolist()
+    assert normals.count([1.0, 0.0, 0.0]) >= 4
+    assert normals.count([0.0, 1.0, 0.0]) >= 4
+    assert all(normal in ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]) for normal in normals)
+
+
+def test_too_many_features_are_refused_with_their_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(InvalidInput, match=r"at most 4000 pairs.*convex edges.*decomposition"):
+        mesh_mesh.MeshMesh.between(TORUS, TORUS)
+    monkeypatch.setattr(mesh_mesh, "MOST_NUMBERS", 1000)
+    with pytest.raises(InvalidInput, match="20 triangles against 20"):
+        mesh_mesh.MeshMesh.between(BRACKET, BRACKET)
