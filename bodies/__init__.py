@@ -12,6 +12,7 @@ from bodies.contacts.cylinder_sphere import CylinderSphere
 from bodies.contacts.disc_sphere import DiscSphere
 from bodies.contacts.mesh_mesh import MeshMesh, MeshPolyhedron
 from bodies.contacts.mesh_point import MeshPoint
+from bodies.contacts.mesh_smooth import MeshSmooth
 from bodies.contacts.mesh_sphere import MeshSphere
 from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
@@ -116,6 +117,7 @@ __all__ = [
     "MeshMesh",
     "MeshPoint",
     "MeshPolyhedron",
+    "MeshSmooth",
     "MeshSphere",
     "Part",
     "PlanarBody",

@@ -9,14 +9,24 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, MeshSphere, Point, Sphere, TriangleMesh, Triangles
+from bodies import (
+    Box,
+    ConvexHull,
+    Ellipsoid,
+    MeshSphere,
+    Point,
+    Sphere,
+    Superellipsoid,
+    TriangleMesh,
+    Triangles,
+)
 from bodies.contacts import mesh_mesh
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from nonsmooth import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
-from tests.bodies.meshes.parts import bracket, torus
+from tests.bodies.meshes.parts import box, bracket, torus
 from tests.bodies.polytopes import random_shapes
 from tests.bodies.surfaces import distances, is_inside
 
@@ -131,3 +141,29 @@ def test_too_many_features_are_refused_with_their_numbers(monkeypatch: pytest.Mo
     monkeypatch.setattr(mesh_mesh, "MOST_NUMBERS", 1000)
     with pytest.raises(InvalidInput, match="20 triangles against 20"):
         mesh_mesh.MeshMesh.between(BRACKET, BRACKET)
+
+
+@pytest.mark.parametrize("kind", ["ellipsoid", "superellipsoid"])
+def test_a_smooth_body_has_the_gap_of_a_hull_or_of_a_ball(build: Any, kind: str) -> None:
+    """Over a convex mesh that of the hull; a smooth body that is a ball, over any mesh, that of the ball."""
+    rng = np.random.default_rng(9)
+    smooth = Ellipsoid(6e-3, 4e-3, 9e-3, x=1e-3) if kind == "ellipsoid" else Superellipsoid(6e-3, 4e-3, 9e-3, 1.5, 1.2)
+    round_one = Ellipsoid(4e-3, 4e-3, 4e-3, x=1e-3) if kind == "ellipsoid" else Superellipsoid(4e-3, 4e-3, 4e-3, x=1e-3)
+    box_mesh = TriangleMesh(Triangles(*box()))
+    hull = ConvexHull(box_mesh.features.vertices.tolist())
+    ball = Sphere(4e-3, x=1e-3)
+    for first, second in (((hull, smooth), (box_mesh, smooth)), ((BRACKET, ball), (BRACKET, round_one))):
+        rigs = Rig(first, build.laws()), Rig(second, build.laws())
+        low, high = first[0].bounds
+        compared = 0
+        for place in rng.uniform(low - 9e-3, high + 9e-3, (120, 3)):
+            turn = np.roll(Rotation.random(random_state=rng).as_quat(), 1)
+            least = []
+            for rig in rigs:
+                rig.put([(np.zeros(3), UNIT), (place, turn)], np.zeros(12))
+                block = rig.geometry
+                least.append(np.min(block[block[:, 30] <= 0.0, 0], initial=np.inf))
+            if least[0] > -5e-4:
+                compared += 1
+                assert least[1] == pytest.approx(least[0], abs=1e-15)
+        assert compared > 30
