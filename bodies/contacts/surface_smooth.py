@@ -20,8 +20,10 @@ from bodies.contacts.surface_search import (
     Point,
     box_square,
     depth_inside,
+    face_height,
     in_triangle,
     over_ends,
+    past_edge,
 )
 from bodies.contacts.surface_tables import (
     CORNER,
@@ -57,6 +59,16 @@ def _point_against(core: Floats, turn: Axes, center: Point, normal: Point) -> Po
     s = support_of(core, mx, my, mz)
     px, py, pz = forth(turn, s[1], s[2], s[3])
     return center[0] + px, center[1] + py, center[2] + pz
+
+
+@compiled
+def _least(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
+    """Return a distance that the body keeps at least from what is nowhere nearer than this vector to its centre."""
+    apart = math.sqrt(x * x + y * y + z * z)
+    if apart == 0.0:
+        return -1e300
+    mx, my, mz = back(turn, -x / apart, -y / apart, -z / apart)
+    return float(apart - support_of(core, mx, my, mz)[0] - core[RADIUS])
 
 
 @compiled
@@ -124,44 +136,52 @@ def _nearest(
     margin, n_edges = REACH * surface[SIZE], int(surface[N_EDGES])
     best, missed = 1e300, 1e300
     distance, past, kind, number, bx, by, bz = 1e300, 1e300, ON_FACE, 0, 0.0, 0.0, 1.0
-    node = 0
-    while node < int(surface[N_NODES]):
-        at = nodes + NODE * node
-        least = math.sqrt(box_square(surface, at, x, y, z)) - size
-        if least > best:
-            node = int(surface[at + 6])
-            continue
-        for i in range(int(surface[at + 8])):
-            member = int(surface[members + int(surface[at + 7]) + i])
-            g, beyond, nx, ny, nz = 0.0, 0.0, 0.0, 0.0, 0.0
-            if member < n_triangles:
-                what, which = ON_FACE, int(surface[int(surface[TRIANGLES]) + TRIANGLE * member + 9])
-                if surface[int(surface[FACES]) + FACE * which + 4] != patch:
-                    continue
-                g, beyond, nx, ny, nz = _on_face(surface, member, core, turn, center)
-            elif member < n_triangles + n_edges:
-                what, which = ON_EDGE, member - n_triangles
-                e = int(surface[EDGES]) + EDGE * which
-                if surface[e + 13] != patch:
-                    continue
-                g, beyond, nx, ny, nz = _on_edge(surface, e, core, point, turn, center, size)
-            else:
-                what, which = ON_CORNER, member - n_triangles - n_edges
-                c = int(surface[CORNERS]) + CORNER * which
-                if surface[c + 3] != patch:
-                    continue
-                g, beyond, nx, ny, nz = _on_corner(surface, c, core, point, turn, center, size)
-            if g != g:
-                missed = min(missed, least)
+    # faces first: they cost least, and rule out most of the others
+    for stage in range(2):
+        node = 0
+        while node < int(surface[N_NODES]):
+            at = nodes + NODE * node
+            if math.sqrt(box_square(surface, at, x, y, z)) - size > best:
+                node = int(surface[at + 6])
                 continue
-            beyond, gap = beyond - margin, g - core[RADIUS]
-            key = gap
-            if beyond > 0.0:
-                gap = max(gap, 0.0)
-                key = math.sqrt(gap * gap + beyond * beyond)
-            if key < best:
-                best, distance, past, kind, number, bx, by, bz = key, g, beyond, what, which, nx, ny, nz
-        node += 1
+            for i in range(int(surface[at + 8])):
+                member = int(surface[members + int(surface[at + 7]) + i])
+                if (member >= n_triangles) != (stage == 1):
+                    continue
+                g, beyond, nx, ny, nz, least = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+                if member < n_triangles:
+                    what, which = ON_FACE, int(surface[int(surface[TRIANGLES]) + TRIANGLE * member + 9])
+                    f = int(surface[FACES]) + FACE * which
+                    if surface[f + 4] != patch or face_height(surface, f, x, y, z) - size > best:
+                        continue
+                    g, beyond, nx, ny, nz = _on_face(surface, member, core, turn, center)
+                elif member < n_triangles + n_edges:
+                    what, which = ON_EDGE, member - n_triangles
+                    e = int(surface[EDGES]) + EDGE * which
+                    if surface[e + 13] != patch:
+                        continue
+                    _, px, py, pz = past_edge(surface, e, x, y, z)
+                    least = _least(core, turn, x - px, y - py, z - pz)
+                    if least > best:
+                        continue
+                    g, beyond, nx, ny, nz = _on_edge(surface, e, core, point, turn, center, size)
+                else:
+                    what, which = ON_CORNER, member - n_triangles - n_edges
+                    c = int(surface[CORNERS]) + CORNER * which
+                    if surface[c + 3] != patch:
+                        continue
+                    least = _least(core, turn, x - surface[c], y - surface[c + 1], z - surface[c + 2])
+                    if least > best:
+                        continue
+                    g, beyond, nx, ny, nz = _on_corner(surface, c, core, point, turn, center, size)
+                if g != g:
+                    missed = min(missed, least)
+                    continue
+                beyond, gap = beyond - margin, g - core[RADIUS]
+                key = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
+                if key < best:
+                    best, distance, past, kind, number, bx, by, bz = key, g, beyond, what, which, nx, ny, nz
+            node += 1
     return (distance if missed >= best else math.nan), past, kind, number, bx, by, bz
 
 
@@ -176,7 +196,6 @@ def evaluate_surface_smooth(
     g, past, kind, number, nx, ny, nz = _nearest(surface, patch, second, point, turn, (x, y, z))
     gap, depth = g - second[RADIUS], 0.0
     if past > 0.0:
-        gap = max(gap, 0.0)
         gap = math.sqrt(gap * gap + past * past)
         depth = depth_inside(surface, x, y, z)
         if depth > 0.0:

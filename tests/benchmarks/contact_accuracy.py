@@ -5,7 +5,8 @@ against it, put the gap apart: gap, normal and witness points are known to round
 4 to 10 mm, and anywhere within 0.1 m of the origin.  The rates are those of the engine, against differences of the gap
 itself over seven places along a motion with constant velocity and spin.
 
-A pair of shapes is one line of :data:`PAIRS`.
+A pair of shapes is one line of :data:`PAIRS`, or, where features are chosen on both sides, of
+:data:`tests.benchmarks.mesh_pairs.MESHES`.
 """
 
 from __future__ import annotations
@@ -24,11 +25,12 @@ from bodies import Box, Capsule, ConvexHull, Ellipsoid, Plane, Sphere, Superelli
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
-from nonsmooth.model.layout import FRAME, GEOMETRY
+from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
 from nonsmooth.plugins.compile import bind
 from nonsmooth.system.pairing import nearest_pair
 from nonsmooth.testing.rig import Rig, rotation, turned
+from tests.benchmarks.mesh_pairs import MESHES
 
 Array = NDArray[np.float64]
 Touch = tuple[Shape, Array, Array]
@@ -55,6 +57,7 @@ class Pose:
     gap: float
     normal: Array
     witness: Array
+    contact: int = 0
 
 
 @dataclass(frozen=True)
@@ -194,6 +197,8 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
     "capsule-superellipsoid": (on_capsule, superellipsoid),
 }
 """How the first shape is touched, and the second, which has one farthest point in every direction."""
+NAMES = (*PAIRS, *MESHES)
+"""All lines."""
 
 
 def _least_radius(shape: ConvexShape, n: Array) -> float:
@@ -207,6 +212,8 @@ def _least_radius(shape: ConvexShape, n: Array) -> float:
 
 def pose(pair: str, gap: float, rng: Generator) -> Pose:
     """Return a pose of a pair; one that overlaps more than its second shape is round there is drawn again."""
+    if pair in MESHES:
+        return Pose(*MESHES[pair](gap, rng))
     touch, draw = PAIRS[pair]
     while True:
         (first, point, normal), second = touch(rng), draw(rng)
@@ -231,7 +238,7 @@ def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[ContactKinematics, ...]:
 
 def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float], tuple[float, ...] | None]:
     """Return errors of gap, normal and witness; rate, its error, acceleration, its error, if the motion is smooth."""
-    contact = kinematics_of(found.shapes)[0]
+    contact = kinematics_of(found.shapes)[found.contact]
     rig = Rig(contact, found.shapes)
     u = np.concatenate([rng.normal(size=3) * size for size in (_SPEED, _SPIN, _SPEED, _SPIN)])
     rig.put(found.poses, u)
@@ -251,7 +258,7 @@ def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float]
             ]
             rig.put(moved, u)
             gaps.append(float(rig.geometry[0]))
-            features.add(float(rig.geometry[29]))
+            features.add(-1.0 if rig.geometry[PAST_END] > 0.0 else float(rig.geometry[29]))
         return float(_FIRST @ gaps) / step, float(_SECOND @ gaps) / step**2, features
 
     smooth = False
@@ -272,7 +279,7 @@ def _cost(poses: list[Pose], rounds: int = 20) -> float:
         return math.nan
     total, calls = 0.0, 0
     for one in poses:
-        contact = kinematics_of(one.shapes)[0]
+        contact = kinematics_of(one.shapes)[one.contact]
         address, heap = bind(contact.evaluator, "pair", contact.parameters(), "benchmark")
         function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address)
         numbers, out = np.array(heap), np.zeros(GEOMETRY)
@@ -309,7 +316,7 @@ def table(draws: int = 40) -> str:
     """Return the table of all pairs in Markdown."""
     titles = "pair", "gap [m]", "normal [rad]", "witness [m]", "$g'$", "$g''$", "query [µs]"
     lines = ["| " + " | ".join(titles) + " |", "|---" * len(titles) + "|"]
-    for name in PAIRS:
+    for name in NAMES:
         e = measure(name, draws)
         numbers = [f"{x:.0e}" for x in (e.gap, e.normal, e.witness, e.rate, e.acceleration)]
         lines.append("| " + " | ".join([name, *numbers, f"{e.cost:.1f}"]) + " |")
