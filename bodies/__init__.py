@@ -10,6 +10,7 @@ from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
 from bodies.contacts.cylinder_sphere import CylinderSphere
 from bodies.contacts.disc_sphere import DiscSphere
+from bodies.contacts.mesh_capsule import MeshCapsule
 from bodies.contacts.mesh_mesh import MeshMesh, MeshPolyhedron
 from bodies.contacts.mesh_point import MeshPoint
 from bodies.contacts.mesh_smooth import MeshSmooth
@@ -113,6 +114,7 @@ __all__ = [
     "HullBody",
     "LineBody",
     "MeshBody",
+    "MeshCapsule",
     "MeshFile",
     "MeshMesh",
     "MeshPoint",

@@ -89,13 +89,13 @@ class TriangleMesh(Shape):
         if mesh.is_convex:
             return (
                 f"The mesh {mesh.name} is convex but has {len(mesh.hull.corners)} corners; only up to {MOST_VERTICES} "
-                "make a convex hull, which touches more shapes than planes, spheres, polyhedra and meshes. Take a "
-                "coarser mesh, or a shape in closed form if it stands for a rounded body."
+                "make a convex hull, which touches more shapes than a mesh does. Take a coarser mesh, or a shape in "
+                "closed form if it stands for a rounded body."
             )
         return (
             f"The mesh {mesh.name} has {mesh.volume_ratio:.1%} of the volume of its convex hull, and surfaces that are "
-            "not convex touch planes, spheres, polyhedra and meshes only: give its body a decomposition into convex "
-            "pieces, MeshBody(..., decomposition=Decomposition())."
+            "not convex touch planes, smooth shapes, capsules, polyhedra and meshes only: give its body a "
+            "decomposition into convex pieces, MeshBody(..., decomposition=Decomposition())."
         )
 
     def support(self, direction: Vector) -> Vector:

@@ -90,6 +90,15 @@ def _round(rng: Generator, kind: str) -> Round:
     return Superellipsoid(*sizes, *rng.uniform(1.1, 1.5, 2).tolist())
 
 
+def _least_radius(shape: Round, n: Array) -> float:
+    """Return the least radius of curvature where ``n`` is the normal [m], by differences."""
+    first = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
+    first /= np.linalg.norm(first)
+    tangents, e = (first, np.cross(n, first)), 1e-4
+    rows = [[t @ (shape.support(n + e * s) - shape.support(n - e * s)) / (2.0 * e) for s in tangents] for t in tangents]
+    return float(np.linalg.eigvalsh(np.array(rows))[0])
+
+
 def _patch(patches: Patches, part: str, number: int) -> int:
     return {"face": patches.of_faces, "edge": patches.of_edges, "vertex": patches.of_corners}[part][number]
 
@@ -107,8 +116,7 @@ def _with_round(kind: str, part: str) -> Callable[[float, Generator], Known]:
             number, point, n = _feature(rng, features, part, kind != "sphere" or gap > 1e-2)
             m = rng.normal(size=3)
             m /= np.linalg.norm(m)
-            curved = np.linalg.norm(second.support(m + 1e-3 * np.cross(m, n)) - second.support(m)) / 1e-3
-            if gap < 0.0 and curved < -4.0 * gap:
+            if gap < 0.0 and _least_radius(second, m) < -4.0 * gap:
                 continue
             if isinstance(second, Sphere):
                 center = (point + (gap + second.radius) * n)[None]

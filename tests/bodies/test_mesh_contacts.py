@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from bodies import (
     Box,
+    Capsule,
     ConvexHull,
     Ellipsoid,
     MeshSphere,
@@ -167,3 +168,67 @@ def test_a_smooth_body_has_the_gap_of_a_hull_or_of_a_ball(build: Any, kind: str)
                 compared += 1
                 assert least[1] == pytest.approx(least[0], abs=1e-15)
         assert compared > 30
+
+
+def test_a_capsule_has_the_distance_of_its_axis(build: Any) -> None:
+    """At random places outside: the nearest of what faces each other, against many points of the axis."""
+    capsule, rng = Capsule(2e-3, 8e-3, 1e-3, 0.0, 0.0, 0.6, 0.0, 0.8), np.random.default_rng(11)
+    rig = Rig((BRACKET, capsule), build.laws())
+    corners = BRACKET.features.vertices[BRACKET.features.triangles]
+    low, high = BRACKET.bounds
+    part = np.linspace(0.0, 1.0, 401)[:, None]
+    axis = (1.0 - part) * capsule.ends[0] + part * capsule.ends[1]
+    compared = set[str]()
+    for place in rng.uniform(low - 8e-3, high + 8e-3, (150, 3)):
+        turn = Rotation.random(random_state=rng)
+        points = turn.apply(axis) + place
+        distance = float(np.min(distances(points, corners)))
+        if distance < 1e-4 or np.any(is_inside(points, corners)):
+            continue
+        rig.put([(np.zeros(3), UNIT), (place, np.roll(turn.as_quat(), 1))], np.zeros(12))
+        facing = np.flatnonzero(rig.geometry[:, 30] <= 0.0)
+        nearest = facing[np.argmin(rig.geometry[facing, 0])]
+        # a fifth of a tenth of a millimetre between two of the points
+        assert -1e-6 < rig.geometry[nearest, 0] - (distance - capsule.radius) < 1e-15
+        compared.add(rig.contacts[nearest].kinematics.features[int(rig.geometry[nearest, 29])].split()[0])
+    assert compared == {"face", "edge", "corner"}
+
+
+def test_rates_of_the_side_of_a_capsule_are_derivatives(build: Any) -> None:
+    """Across an edge and over a corner: gap rate and second-order term against differences."""
+    mesh, capsule = TriangleMesh(Triangles(*box())), Capsule(2e-3, 0.05)
+    rig, rng = Rig((mesh, capsule), build.laws()), np.random.default_rng(2)
+    step, seen = 1e-4, set[str]()
+    for way in ((1.0, 1.0, 0.0), (0.3, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, -1.0, 0.8)):
+        n = np.array(way) / np.linalg.norm(way)
+        across = np.cross(n, [0.0, 0.0, 1.0] if way[2] == 0.0 else [0.6, -0.3, 0.5])
+        tilt = Rotation.align_vectors([across / np.linalg.norm(across), n], [[0, 0, 1], [1, 0, 0]])[0]
+        touched = np.sign(way) * [0.01, 0.015, 0.025] if way[2] != 0.0 else np.array([0.01, 0.015, 0.004])
+        place, u = touched + 3e-3 * n, rng.normal(size=12) * np.repeat([0.02, 1.0, 0.02, 1.0], 3)
+
+        def put(t: float, place: Array = place, tilt: Rotation = tilt, u: Array = u) -> None:
+            turns = [Rotation.from_rotvec(t * u[3:6]), Rotation.from_rotvec(t * u[9:12]) * tilt]
+            rig.put(
+                [
+                    (p + t * v, np.roll(turn.as_quat(), 1))
+                    for p, v, turn in zip((np.zeros(3), place), (u[:3], u[6:9]), turns, strict=True)
+                ],
+                np.concatenate([u[:3], turns[0].inv().apply(u[3:6]), u[6:9], turns[1].inv().apply(u[9:12])]),
+            )
+
+        put(0.0)
+        for i in np.flatnonzero((rig.geometry[:, 30] <= 0.0) & (rig.geometry[:, 0] < 5e-3)):
+            name = rig.contacts[i].kinematics.features[0]
+            if "side" not in name:
+                continue
+            seen.add(name.split()[0])
+            rate, bias = rig.rate[i, 0], rig.bias[i, 0]
+            values = {}
+            for k in (-2, -1, 1, 2):
+                put(k * step)
+                values[k] = np.array([rig.geometry[i, 0], rig.rate[i, 0]])
+            first = (8.0 * (values[1] - values[-1]) - (values[2] - values[-2])) / (12.0 * step)
+            assert rate == pytest.approx(first[0], rel=1e-8, abs=1e-10)
+            assert bias == pytest.approx(first[1], rel=1e-6, abs=1e-7)
+            put(0.0)
+    assert seen == {"edge", "corner"}
