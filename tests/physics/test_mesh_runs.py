@@ -12,10 +12,22 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Ball, Box, DrivenBody, Plate, Rest, TriangleMesh, Triangles
+from bodies import (
+    Ball,
+    Box,
+    Capsule,
+    DrivenBody,
+    Ellipsoid,
+    Plate,
+    Rest,
+    Sphere,
+    Superellipsoid,
+    TriangleMesh,
+    Triangles,
+)
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import CAUSES
-from nonsmooth.interfaces import Body
+from nonsmooth.interfaces import Body, Shape
 from tests.bodies.carriers import Carrier
 from tests.bodies.meshes.parts import box, bracket
 from tests.bodies.meshes.test_features import finer
@@ -156,6 +168,39 @@ def test_brackets_collide_without_passing_into_each_other(
             others = turn[1 - i].inv().apply(turn[i].apply(seen) + q[7 * i : 7 * i + 3] - q[7 - 7 * i : 10 - 7 * i])
             inside = is_inside(others, corners)
             assert not np.any(distances(others[inside], corners) > 1e-9)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [Sphere(8e-3), Ellipsoid(6e-3, 4e-3, 9e-3), Superellipsoid(6e-3, 4e-3, 9e-3, 1.5, 1.2), Capsule(3e-3, 8e-3)],
+    ids=lambda shape: type(shape).__name__,
+)
+def test_round_bodies_collide_with_a_bracket(build: Any, shape: Shape) -> None:
+    """Momentum and energy are kept."""
+    points, triangles = bracket()
+    mesh = TriangleMesh(Triangles(points - [0.01, 0.006, 0.0075], triangles))
+    for seed in range(3):
+        solution, momentum = _collision(build, (mesh, shape), seed)
+        assert solution.counters.impacts > 0
+        np.testing.assert_allclose(momentum[1], momentum[0], rtol=0, atol=1e-12)
+        assert solution.energy.residual < 1e-9
+
+
+def test_an_ellipsoid_and_a_capsule_move_over_triangles_as_over_a_plane(build: Any) -> None:
+    points, triangles = finer(*box(0.6, 0.4, 0.02, at=(0.0, 0.0, -0.01)))
+    mesh = DrivenBody(Rest(), (TriangleMesh(Triangles(points, triangles)),))
+    options = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
+    for shape in (Ellipsoid(0.01, 0.012, 0.008), Capsule(6e-3, 8e-3)):
+        ends = []
+        for ground in (mesh, Plate()):
+            body = Carrier((shape,), 0.03, (1e-6, 1.2e-6, 0.8e-6))
+            system = ns.System([ground, body], gravity=9.81)
+            system.contact(ground, body, **build.laws(friction=0.3))
+            system.place(body, position=(0.02, 0.01, 0.03), velocity=(0.3, 0.1, 0.0), angular_velocity=(3.0, 2.0, 1.0))
+            ends.append(ns.simulate(system, 0.2, options=options))
+        assert ends[1].counters.impacts > 1
+        assert ends[0].counters.impacts == ends[1].counters.impacts
+        np.testing.assert_allclose(ends[0].q_end, ends[1].q_end, rtol=0, atol=1e-9)
 
 
 def test_a_block_falls_into_an_inner_corner_and_rests_on_both_walls(build: Any) -> None:
