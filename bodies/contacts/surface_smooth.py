@@ -22,6 +22,7 @@ from bodies.contacts.surface_search import (
     depth_inside,
     face_height,
     in_triangle,
+    nearest_in_patch,
     over_ends,
     past_edge,
 )
@@ -122,6 +123,39 @@ def _on_corner(
 
 
 @compiled
+def _look_at(
+    surface: Floats, patch: float, member: int, core: Floats, point: Floats, turn: Axes, center: Point, best: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return distance of the core, way past the end and normal of a member of the tree, and the least it can have.
+
+    The distance is infinite of one of another patch or that cannot be nearer than ``best``, nan where none was found.
+    """
+    x, y, z = center
+    n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
+    size = max(core[0], core[1], core[2]) + core[RADIUS]
+    if member < n_triangles:
+        f = int(surface[FACES]) + FACE * int(surface[int(surface[TRIANGLES]) + TRIANGLE * member + 9])
+        least = face_height(surface, f, x, y, z) - size
+        if surface[f + 4] != patch or least > best:
+            return math.inf, 0.0, 0.0, 0.0, 1.0, least
+        g, past, nx, ny, nz = _on_face(surface, member, core, turn, center)
+    elif member < n_triangles + n_edges:
+        e = int(surface[EDGES]) + EDGE * (member - n_triangles)
+        _, px, py, pz = past_edge(surface, e, x, y, z)
+        least = _least(core, turn, x - px, y - py, z - pz)
+        if surface[e + 13] != patch or least > best:
+            return math.inf, 0.0, 0.0, 0.0, 1.0, least
+        g, past, nx, ny, nz = _on_edge(surface, e, core, point, turn, center, size)
+    else:
+        c = int(surface[CORNERS]) + CORNER * (member - n_triangles - n_edges)
+        least = _least(core, turn, x - surface[c], y - surface[c + 1], z - surface[c + 2])
+        if surface[c + 3] != patch or least > best:
+            return math.inf, 0.0, 0.0, 0.0, 1.0, least
+        g, past, nx, ny, nz = _on_corner(surface, c, core, point, turn, center, size)
+    return g, past - REACH * surface[SIZE], nx, ny, nz, least
+
+
+@compiled
 def _nearest(
     surface: Floats, patch: float, core: Floats, point: Floats, turn: Axes, center: Point
 ) -> tuple[float, float, int, int, float, float, float]:
@@ -133,10 +167,17 @@ def _nearest(
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     x, y, z = center
     size = max(core[0], core[1], core[2]) + core[RADIUS]
-    margin, n_edges = REACH * surface[SIZE], int(surface[N_EDGES])
-    best, missed = 1e300, 1e300
-    distance, past, kind, number, bx, by, bz = 1e300, 1e300, ON_FACE, 0, 0.0, 0.0, 1.0
-    # faces first: they cost least, and rule out most of the others
+    best, missed, found = 1e300, 1e300, 0
+    distance, past, bx, by, bz = 1e300, 1e300, 0.0, 0.0, 1.0
+    # the feature nearest to the centre, then faces, which cost least: they rule out most of the others
+    _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z)
+    if kind != ON_FACE:
+        found = number + n_triangles + (int(surface[N_EDGES]) if kind == ON_CORNER else 0)
+        g, beyond, nx, ny, nz, _ = _look_at(surface, patch, found, core, point, turn, center, best)
+        if g == g:
+            gap = g - core[RADIUS]
+            best = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
+            distance, past, bx, by, bz = g, beyond, nx, ny, nz
     for stage in range(2):
         node = 0
         while node < int(surface[N_NODES]):
@@ -146,43 +187,25 @@ def _nearest(
                 continue
             for i in range(int(surface[at + 8])):
                 member = int(surface[members + int(surface[at + 7]) + i])
-                if (member >= n_triangles) != (stage == 1):
+                if (member < n_triangles) != (stage == 0):
                     continue
-                g, beyond, nx, ny, nz, least = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-                if member < n_triangles:
-                    what, which = ON_FACE, int(surface[int(surface[TRIANGLES]) + TRIANGLE * member + 9])
-                    f = int(surface[FACES]) + FACE * which
-                    if surface[f + 4] != patch or face_height(surface, f, x, y, z) - size > best:
-                        continue
-                    g, beyond, nx, ny, nz = _on_face(surface, member, core, turn, center)
-                elif member < n_triangles + n_edges:
-                    what, which = ON_EDGE, member - n_triangles
-                    e = int(surface[EDGES]) + EDGE * which
-                    if surface[e + 13] != patch:
-                        continue
-                    _, px, py, pz = past_edge(surface, e, x, y, z)
-                    least = _least(core, turn, x - px, y - py, z - pz)
-                    if least > best:
-                        continue
-                    g, beyond, nx, ny, nz = _on_edge(surface, e, core, point, turn, center, size)
-                else:
-                    what, which = ON_CORNER, member - n_triangles - n_edges
-                    c = int(surface[CORNERS]) + CORNER * which
-                    if surface[c + 3] != patch:
-                        continue
-                    least = _least(core, turn, x - surface[c], y - surface[c + 1], z - surface[c + 2])
-                    if least > best:
-                        continue
-                    g, beyond, nx, ny, nz = _on_corner(surface, c, core, point, turn, center, size)
+                g, beyond, nx, ny, nz, least = _look_at(surface, patch, member, core, point, turn, center, best)
                 if g != g:
                     missed = min(missed, least)
                     continue
-                beyond, gap = beyond - margin, g - core[RADIUS]
+                gap = g - core[RADIUS]
                 key = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
                 if key < best:
-                    best, distance, past, kind, number, bx, by, bz = key, g, beyond, what, which, nx, ny, nz
+                    best, distance, past, found, bx, by, bz = key, g, beyond, member, nx, ny, nz
             node += 1
-    return (distance if missed >= best else math.nan), past, kind, number, bx, by, bz
+    if not missed >= best:
+        distance = math.nan
+    if found < n_triangles:
+        return distance, past, ON_FACE, int(surface[int(surface[TRIANGLES]) + TRIANGLE * found + 9]), bx, by, bz
+    found -= n_triangles
+    if found < int(surface[N_EDGES]):
+        return distance, past, ON_EDGE, found, bx, by, bz
+    return distance, past, ON_CORNER, found - int(surface[N_EDGES]), bx, by, bz
 
 
 def evaluate_surface_smooth(
