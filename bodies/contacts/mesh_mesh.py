@@ -10,7 +10,7 @@ from typing import ClassVar, final
 import numpy as np
 
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
-from bodies.contacts.polyhedron_polyhedron import MOST_CONTACTS
+from bodies.contacts.swept_swept import MOST_CONTACTS
 from bodies.contacts.surface_edges import evaluate_edges
 from bodies.contacts.surface_tables import NODE, TRIANGLE, Numbers, edge_row, surface_numbers
 from bodies.meshes.features import Features, features_of
