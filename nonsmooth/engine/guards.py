@@ -174,9 +174,8 @@ def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     c = i // 2
     if k[S.mode + c] != OPEN or i != 2 * c or k[S.guard_deflated + i] == 1:
         return 0
-    block = S.geometry + GEOMETRY * c
-    rests = w[block] > -S.gap_tolerance and w[S.gap_rate + c] > -S.velocity_tolerance
-    return 1 if w[block + PAST_END] != 0.0 and rests else 0
+    rests = w[S.guard + i] > -S.gap_tolerance and w[S.gap_rate + c] > -S.velocity_tolerance
+    return 1 if w[S.geometry + GEOMETRY * c + PAST_END] != 0.0 and rests else 0
 
 
 @kernel("i8(S, F, I, i8, i8)")

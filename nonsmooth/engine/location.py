@@ -248,6 +248,8 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     if theta == 0.0:
         for i in range(3 * S.n_contacts + S.n_own_guards):
             w[S.guard + i] = w[S.guard_end + i]
+        for c in range(S.n_contacts):
+            w[S.gap_rate + c] = w[S.gap_rate_end + c]
         deflate(S, w, k, h)
         # guards armed only in the middle of the step count as well
         if first_fired(S, w, k, 1, -1) >= 0:
