@@ -1,0 +1,154 @@
+"""The gap of two cores of any kind: by normals where both have radii of curvature, else by points of the boxy one."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.boxy_line import across_line
+from bodies.contacts.boxy_newton import Answer, climb_boxy, write_boxy
+from bodies.contacts.boxy_pair import meet
+from bodies.contacts.dual_newton import climb
+from bodies.contacts.smooth_core import Axes, back, forth, write_core
+from bodies.shapes.support_function import is_boxy, support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+
+@compiled
+def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
+    """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
+
+    The gap is nan where none was found.
+
+    Parameters
+    ----------
+    first, second : Floats
+        The cores; their radii are left out.
+    turn : Axes
+        Rotation from the axes of the second core to those of the first.
+    x, y, z : float
+        The second core's centre from the first's [m].
+    """
+    if is_boxy(first):
+        if is_boxy(second):
+            g, px, py, pz, nx, ny, nz = _both(first, second, turn, x, y, z)
+        else:
+            other = second[0], second[1], second[2], second[3], second[4]
+            g, px, py, pz, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, x, y, z)
+        return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
+    if is_boxy(second):
+        other = first[0], first[1], first[2], first[3], first[4]
+        ax, ay, az = back(turn, -x, -y, -z)
+        g, px, py, pz, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, ax, ay, az)
+        nx, ny, nz = forth(turn, -nx, -ny, -nz)
+        px, py, pz = forth(turn, px, py, pz)
+        return g, x + px, y + py, z + pz, nx, ny, nz
+    g, nx, ny, nz = climb(first, second, turn, x, y, z, 0.0, 0.0, 0.0, x, y, z)
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    s = support_of(second, mx, my, mz)
+    px, py, pz = forth(turn, s[1], s[2], s[3])
+    return g, x + px, y + py, z + pz, nx, ny, nz
+
+
+@compiled
+def opposite(turn: Axes) -> Axes:
+    """Return the inverse of a rotation."""
+    return turn[0], turn[3], turn[6], turn[1], turn[4], turn[7], turn[2], turn[5], turn[8]
+
+
+@compiled
+def _both(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
+    """Return the same for two boxy cores, with the first's point; beginning where one is an ellipsoid."""
+    other = second[0], second[1], second[2], 2.0, 2.0
+    g, _, _, _, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, x, y, z)
+    found: Answer = _from(first, second, turn, x, y, z, nx, ny, nz)
+    if g == g and found[0] == found[0]:
+        return found
+    other = first[0], first[1], first[2], 2.0, 2.0
+    ax, ay, az = back(turn, -x, -y, -z)
+    g, _, _, _, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, ax, ay, az)
+    nx, ny, nz = forth(turn, -nx, -ny, -nz)
+    found = _from(first, second, turn, x, y, z, nx, ny, nz)
+    if g == g and found[0] == found[0]:
+        return found
+    found = meet(first, second, turn, x, y, z, (x, y, z), (-x, -y, -z))
+    if found[0] == found[0]:
+        return found
+    # bodies deep in each other: of the ways out along the axes of either the shortest that there is
+    for axis in range(12):
+        i, sign = axis % 3, 1.0 if axis < 6 else -1.0
+        nx, ny, nz = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
+        if axis % 6 >= 3:
+            nx, ny, nz = forth(turn, nx, ny, nz)
+        way: Answer = _from(first, second, turn, x, y, z, nx, ny, nz)
+        if way[0] == way[0] and not found[0] >= way[0]:
+            found = way
+    return found
+
+
+@compiled
+def _from(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
+) -> Answer:
+    """Begin with the points of a normal."""
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    a, b = support_of(first, nx, ny, nz), support_of(second, mx, my, mz)
+    qx, qy, qz = forth(turn, b[1], b[2], b[3])
+    found: Answer = meet(first, second, turn, x, y, z, (a[1], a[2], a[3]), (qx, qy, qz))
+    return found
+
+
+@compiled
+def widest_from(
+    hull: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    along_x: float,
+    along_y: float,
+    along_z: float,
+    start_x: float,
+    start_y: float,
+    start_z: float,
+) -> tuple[float, float, float, float]:
+    """Return what :func:`bodies.contacts.dual_newton.climb` does for a point or a line, and a core of any kind."""
+    if not is_boxy(core):
+        g, nx, ny, nz = climb(hull, core, turn, x, y, z, along_x, along_y, along_z, start_x, start_y, start_z)
+        return g, nx, ny, nz
+    if along_x == 0.0 and along_y == 0.0 and along_z == 0.0:
+        point = (0.0, 0.0, 0.0, 2.0, 2.0)
+        ax, ay, az = back(turn, -x, -y, -z)
+        sx, sy, sz = back(turn, -start_x, -start_y, -start_z)
+        g, _, _, _, nx, ny, nz = climb_boxy(core, point, opposite(turn), ax, ay, az, sx, sy, sz)
+        nx, ny, nz = forth(turn, -nx, -ny, -nz)
+        return g, nx, ny, nz
+    along = start_x * along_x + start_y * along_y + start_z * along_z
+    nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z
+    length = math.sqrt(nx * nx + ny * ny + nz * nz)
+    if length == 0.0:
+        return math.nan, start_x, start_y, start_z
+    nx, ny, nz = nx / length, ny / length, nz / length
+    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz)
+    return g, nx, ny, nz
+
+
+@compiled
+def write_surface(
+    out: Floats,
+    side: int,
+    core: Floats,
+    axes: Axes,
+    nx: float,
+    ny: float,
+    nz: float,
+    px: float,
+    py: float,
+    pz: float,
+) -> None:
+    """Write slide and turn of a core of any kind at its point p with the outward normal n, both in its own axes."""
+    if is_boxy(core):
+        write_boxy(out, side, core, axes, px, py, pz)
+    else:
+        write_core(out, side, core, axes, nx, ny, nz)
