@@ -9,16 +9,24 @@ from bodies.contacts.boxy_newton import Answer, climb_boxy, write_boxy
 from bodies.contacts.boxy_pair import meet
 from bodies.contacts.dual_newton import climb
 from bodies.contacts.smooth_core import Axes, back, forth, write_core
-from bodies.shapes.support_function import is_boxy, support_of
+from bodies.shapes.support_function import gauge_of, is_boxy, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+_DEEP = 1e-2
+"""Overlap, in units of the least semi-axis, that is no doubt the shortest way out."""
+
+_TOUCHING = 1e-12
+"""Overlap, in units of the distance of the centres, that is not asked for a proof."""
 
 
 @compiled
 def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
     """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
 
-    The gap is nan where none was found.
+    The gap is nan where none was found.  One above 0 is the only one; one below is told only with a point that both
+    bodies have.  Thin bodies that overlap, or nearly touch, have ways out that are longer than another: where the first
+    answer is one of a body deep in the other, or none, the search begins from the axes of both as well.
 
     Parameters
     ----------
@@ -29,21 +37,74 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
     x, y, z : float
         The second core's centre from the first's [m].
     """
+    best: Answer = _proved(first, second, turn, x, y, z, _from_start(first, second, turn, x, y, z, x, y, z))
+    if best[0] >= -_DEEP * _thickness(first, second):
+        return best
+    for axis in range(12):
+        i, sign = axis % 3, 1.0 if axis < 6 else -1.0
+        sx, sy, sz = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
+        if axis % 6 >= 3:
+            sx, sy, sz = forth(turn, sx, sy, sz)
+        found: Answer = _proved(first, second, turn, x, y, z, _from_start(first, second, turn, x, y, z, sx, sy, sz))
+        if found[0] == found[0] and not best[0] >= found[0]:
+            best = found
+            if best[0] >= 0.0:
+                break
+    return best
+
+
+@compiled
+def _proved(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> Answer:
+    """Return an answer, its gap nan where it says that bodies overlap and no point is known to be in both.
+
+    Looked at are the points themselves, the middle between them, and the line of centres.
+    """
+    g, qx, qy, qz, nx, ny, nz = found
+    if g >= -_TOUCHING * (abs(x) + abs(y) + abs(z)) or gauge_of(first, qx, qy, qz) <= 1.0:
+        return found
+    px, py, pz = qx - g * nx, qy - g * ny, qz - g * nz
+    bx, by, bz = back(turn, px - x, py - y, pz - z)
+    if gauge_of(second, bx, by, bz) <= 1.0:
+        return found
+    mx, my, mz = 0.5 * (px + qx), 0.5 * (py + qy), 0.5 * (pz + qz)
+    bx, by, bz = back(turn, mx - x, my - y, mz - z)
+    if gauge_of(first, mx, my, mz) <= 1.0 and gauge_of(second, bx, by, bz) <= 1.0:
+        return found
+    # on the line of centres either body has a part next to its own
+    ax, ay, az = back(turn, -x, -y, -z)
+    if 1.0 / gauge_of(first, x, y, z) + 1.0 / gauge_of(second, ax, ay, az) >= 1.0:
+        return found
+    return math.nan, qx, qy, qz, nx, ny, nz
+
+
+@compiled
+def _thickness(first: Floats, second: Floats) -> float:
+    """Return the least semi-axis of two cores, of which one may be a point [m]."""
+    a, b = min(first[0], first[1], first[2]), min(second[0], second[1], second[2])
+    return a if b == 0.0 or (a > 0.0 and a < b) else b
+
+
+@compiled
+def _from_start(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same from one direction to begin with."""
     if is_boxy(first):
         if is_boxy(second):
-            g, px, py, pz, nx, ny, nz = _both(first, second, turn, x, y, z)
+            g, px, py, pz, nx, ny, nz = _both(first, second, turn, x, y, z, sx, sy, sz)
         else:
             other = second[0], second[1], second[2], second[3], second[4]
-            g, px, py, pz, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, x, y, z)
+            g, px, py, pz, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
         return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
     if is_boxy(second):
         other = first[0], first[1], first[2], first[3], first[4]
         ax, ay, az = back(turn, -x, -y, -z)
-        g, px, py, pz, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, ax, ay, az)
+        sx, sy, sz = back(turn, -sx, -sy, -sz)
+        g, px, py, pz, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, sx, sy, sz)
         nx, ny, nz = forth(turn, -nx, -ny, -nz)
         px, py, pz = forth(turn, px, py, pz)
         return g, x + px, y + py, z + pz, nx, ny, nz
-    g, nx, ny, nz = climb(first, second, turn, x, y, z, 0.0, 0.0, 0.0, x, y, z)
+    g, nx, ny, nz = climb(first, second, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     s = support_of(second, mx, my, mz)
     px, py, pz = forth(turn, s[1], s[2], s[3])
@@ -57,32 +118,26 @@ def opposite(turn: Axes) -> Axes:
 
 
 @compiled
-def _both(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
+def _both(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
     """Return the same for two boxy cores, with the first's point; beginning where one is an ellipsoid."""
     other = second[0], second[1], second[2], 2.0, 2.0
-    g, _, _, _, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, x, y, z)
+    g, _, _, _, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
     found: Answer = _from(first, second, turn, x, y, z, nx, ny, nz)
     if g == g and found[0] == found[0]:
         return found
     other = first[0], first[1], first[2], 2.0, 2.0
     ax, ay, az = back(turn, -x, -y, -z)
-    g, _, _, _, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, ax, ay, az)
+    bx, by, bz = back(turn, -sx, -sy, -sz)
+    g, _, _, _, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, bx, by, bz)
     nx, ny, nz = forth(turn, -nx, -ny, -nz)
     found = _from(first, second, turn, x, y, z, nx, ny, nz)
     if g == g and found[0] == found[0]:
         return found
-    found = meet(first, second, turn, x, y, z, (x, y, z), (-x, -y, -z))
-    if found[0] == found[0]:
-        return found
-    # bodies deep in each other: of the ways out along the axes of either the shortest that there is
-    for axis in range(12):
-        i, sign = axis % 3, 1.0 if axis < 6 else -1.0
-        nx, ny, nz = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
-        if axis % 6 >= 3:
-            nx, ny, nz = forth(turn, nx, ny, nz)
-        way: Answer = _from(first, second, turn, x, y, z, nx, ny, nz)
-        if way[0] == way[0] and not found[0] >= way[0]:
-            found = way
+    found = _from(first, second, turn, x, y, z, sx, sy, sz)
+    if found[0] != found[0]:
+        found = meet(first, second, turn, x, y, z, (sx, sy, sz), (-sx, -sy, -sz))
     return found
 
 
@@ -90,7 +145,9 @@ def _both(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: floa
 def _from(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> Answer:
-    """Begin with the points of a normal."""
+    """Begin with the points of a normal, of any length."""
+    length = math.sqrt(nx * nx + ny * ny + nz * nz)
+    nx, ny, nz = nx / length, ny / length, nz / length
     mx, my, mz = back(turn, -nx, -ny, -nz)
     a, b = support_of(first, nx, ny, nz), support_of(second, mx, my, mz)
     qx, qy, qz = forth(turn, b[1], b[2], b[3])

@@ -19,6 +19,8 @@ from nonsmooth.vectors import UNIT_PART, unit_vector
 
 EXPONENT: Mapping[str, Any] = MappingProxyType({"minimum": 0.2, "maximum": 1.8})
 """Bounds of an exponent."""
+THINNEST = 10.0
+"""Greatest ratio of two semi-axes of a boxy body."""
 
 
 @final
@@ -71,6 +73,14 @@ class Superellipsoid(SmoothShape):
                 across,
                 "The curvature at the third axis would jump from one direction to the next; "
                 "give exponent_along a value on the same side of 1, or exchange the axes.",
+            )
+        semi = self.semi_x, self.semi_y, self.semi_z
+        if min(along, across) < 1.0 and max(semi) > THINNEST * min(semi):
+            raise InvalidInput(
+                "Superellipsoid: the ratio of the longest semi-axis to the shortest",
+                f"must be at most {THINNEST:g} with an exponent below 1",
+                max(semi) / min(semi),
+                "The gap of thinner boxy bodies is not found at every pose; take a Box, or exponents from 1.",
             )
         if min(along, across) < 1.0 and self.rounding > 0.0:
             raise InvalidInput(

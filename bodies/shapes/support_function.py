@@ -16,7 +16,7 @@ Support: TypeAlias = tuple[float, float, float, float, float, float, float, floa
 def support_of(core: Floats, x: float, y: float, z: float) -> Support:
     """Return the support function of the core, without the radius, at the unit vector (x, y, z) of its own axes.
 
-    Of a boxy core (:func:`is_boxy`), whose second derivative is infinite at the axes, that is left out: zeros.
+    Of a boxy core (:func:`is_boxy`), whose second derivative is infinite at the axes, that is not a number.
     """
     found: Support = support_by(core[0], core[1], core[2], core[3], core[4], x, y, z)
     return found
@@ -30,7 +30,8 @@ def support_by(a: float, b: float, c: float, p: float, q: float, x: float, y: fl
         return h, h, h, h, h, h, h, h, h, h
     if p < 2.0:
         h, px, py, pz = _norm_and_gradient(a, b, c, p, q, x, y, z)
-        return h, px, py, pz, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        none = math.nan
+        return h, px, py, pz, none, none, none, none, none, none
     found: Support = norm_of(a, b, c, p, q, x, y, z)
     return found
 

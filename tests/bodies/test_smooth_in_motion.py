@@ -129,6 +129,8 @@ def test_exponents_without_curvatures_are_refused() -> None:
             Superellipsoid(0.1, 0.2, 0.3, along, across)
     with pytest.raises(ns.InvalidInput, match="must be 1 where exponent_along is 1"):
         SuperellipsoidBody(0.1, 0.2, 0.3, 1.0, 1.2)
+    with pytest.raises(ns.InvalidInput, match=r"ratio of the longest semi-axis.* at most 10 .*it is 31"):
+        Superellipsoid(0.31, 0.2, 0.01, 0.5, 0.5)
     with pytest.raises(ns.InvalidInput, match=r"Superellipsoid\.rounding must be 0 with an exponent below 1"):
         Superellipsoid(0.1, 0.2, 0.3, 0.5, 0.5, 0.01)
 
