@@ -64,6 +64,8 @@ def test_the_farthest_point(along: float) -> None:
     assert body.length == pytest.approx(-best.fun, rel=1e-9)
     cube = Superellipsoid(0.1, 0.1, 0.1, along, along)
     # |x|^(2/e) three times is 1
+    assert cube.boxy
+    assert not Superellipsoid(0.1, 0.1, 0.1, 1.2, 1.2).boxy
     assert cube.length == pytest.approx(np.sqrt(3.0) * 0.1 * 3.0 ** (-0.5 * along), rel=1e-12)
 
 
