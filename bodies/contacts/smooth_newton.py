@@ -19,6 +19,13 @@ _DEEP = 1e-2
 _TOUCHING = 1e-12
 """Overlap, in units of the distance of the centres, that is not asked for a proof."""
 
+_SAMPLES = 8
+"""Parts of the way between the points of an answer at whose ends a point of both is looked for."""
+_NOWHERE = 1e-300
+"""Gauge of a centre, which is 0, to divide by."""
+_ON_SURFACE = 1e-12
+"""What the gauge of a point of the surface is off 1 at most."""
+
 
 @compiled
 def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
@@ -37,44 +44,46 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
     x, y, z : float
         The second core's centre from the first's [m].
     """
-    best: Answer = _proved(first, second, turn, x, y, z, _from_start(first, second, turn, x, y, z, x, y, z))
-    if best[0] >= -_DEEP * _thickness(first, second):
+    best: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
+    overlap = _share_a_point(first, second, turn, x, y, z, best)
+    if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
         return best
     for axis in range(12):
         i, sign = axis % 3, 1.0 if axis < 6 else -1.0
         sx, sy, sz = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
         if axis % 6 >= 3:
             sx, sy, sz = forth(turn, sx, sy, sz)
-        found: Answer = _proved(first, second, turn, x, y, z, _from_start(first, second, turn, x, y, z, sx, sy, sz))
+        found: Answer = _from_start(first, second, turn, x, y, z, sx, sy, sz)
         if found[0] == found[0] and not best[0] >= found[0]:
             best = found
             if best[0] >= 0.0:
-                break
+                return best
+        overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
+    if not overlap:
+        return math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
     return best
 
 
 @compiled
-def _proved(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> Answer:
-    """Return an answer, its gap nan where it says that bodies overlap and no point is known to be in both.
+def _share_a_point(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> bool:
+    """Return whether a point is known that both bodies have, where an answer says that they overlap.
 
-    Looked at are the points themselves, the middle between them, and the line of centres.
+    Looked at are the points of the answer, some between them, and the line of centres.
     """
     g, qx, qy, qz, nx, ny, nz = found
-    if g >= -_TOUCHING * (abs(x) + abs(y) + abs(z)) or gauge_of(first, qx, qy, qz) <= 1.0:
-        return found
-    px, py, pz = qx - g * nx, qy - g * ny, qz - g * nz
-    bx, by, bz = back(turn, px - x, py - y, pz - z)
-    if gauge_of(second, bx, by, bz) <= 1.0:
-        return found
-    mx, my, mz = 0.5 * (px + qx), 0.5 * (py + qy), 0.5 * (pz + qz)
-    bx, by, bz = back(turn, mx - x, my - y, mz - z)
-    if gauge_of(first, mx, my, mz) <= 1.0 and gauge_of(second, bx, by, bz) <= 1.0:
-        return found
+    if g >= -_TOUCHING * (abs(x) + abs(y) + abs(z)):
+        return True
+    for i in range(_SAMPLES + 1):
+        # from the first body's point to the second's
+        part = g * (1.0 - i / _SAMPLES)
+        px, py, pz = qx - part * nx, qy - part * ny, qz - part * nz
+        bx, by, bz = back(turn, px - x, py - y, pz - z)
+        if gauge_of(second, bx, by, bz) <= 1.0 + _ON_SURFACE and gauge_of(first, px, py, pz) <= 1.0 + _ON_SURFACE:
+            return True
     # on the line of centres either body has a part next to its own
     ax, ay, az = back(turn, -x, -y, -z)
-    if 1.0 / gauge_of(first, x, y, z) + 1.0 / gauge_of(second, ax, ay, az) >= 1.0:
-        return found
-    return math.nan, qx, qy, qz, nx, ny, nz
+    one, two = max(gauge_of(first, x, y, z), _NOWHERE), max(gauge_of(second, ax, ay, az), _NOWHERE)
+    return bool(1.0 / one + 1.0 / two >= 1.0)
 
 
 @compiled

@@ -61,3 +61,13 @@ def test_deep_in_each_other_no_guess_is_made() -> None:
         told += 1
         assert g >= apart - 1e-12
     assert told >= (4 if PLAIN else 55)
+
+
+def test_one_in_the_middle_of_the_other() -> None:
+    """Equal centres, a point in an ellipsoid included: the shortest way out is along the shortest axis."""
+    same = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    one, small = np.array(Superellipsoid(0.03, 0.02, 0.01).core), np.array(Superellipsoid(0.003, 0.002, 0.001).core)
+    point = np.array([0.0] * 3 + [2.0] * 2 + [0.0] * 13)
+    assert widest(one, small, same, 0.0, 0.0, 0.0)[0] == pytest.approx(-0.011, abs=1e-15)
+    assert widest(one, point, same, 0.0, 0.0, 1e-9)[0] == pytest.approx(-0.01, abs=1e-8)
+    assert widest(one, point, same, 0.0, 0.0, 0.0)[0] == pytest.approx(-0.01, abs=1e-15)
