@@ -26,6 +26,7 @@ from bodies.contacts.polyhedron_smooth import PolyhedronSmooth
 from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.smooth_smooth import SmoothSmooth
 from bodies.contacts.sphere_sphere import SphereSphere
+from bodies.contacts.swept_swept import SweptSwept
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
 from bodies.driven_body import DrivenBody
@@ -62,12 +63,15 @@ from bodies.shapes.capsule import Capsule
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
+from bodies.shapes.ground import Ground
+from bodies.shapes.half_space import HalfSpace
 from bodies.shapes.hull import ConvexHull
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.superellipsoid_body import SuperellipsoidBody
 
@@ -104,6 +108,8 @@ __all__ = [
     "FunctionLoad",
     "FunctionMotion",
     "GeneralisedBody",
+    "Ground",
+    "HalfSpace",
     "Harmonic",
     "Hinge",
     "HullBody",
@@ -141,6 +147,8 @@ __all__ = [
     "Spring",
     "Superellipsoid",
     "SuperellipsoidBody",
+    "SweptPolytope",
+    "SweptSwept",
     "Table",
     "TorsionSpring",
     "TriangleMesh",

@@ -235,7 +235,7 @@ def _ellipsoid(rng: np.random.Generator) -> Body:
 
 RUNS: dict[str, tuple[Callable[[], ns.System], float]] = {
     "dumbbell of ellipsoids": (dumbbell, 4.0),
-    "three dice": (lambda: DiceThrow().build(), 1.0),
+    "three sharp dice": (lambda: DiceThrow(rounding=0.0).build(), 1.0),
     "20 polytopes": (lambda: _cloud(_polytope, 20), 0.3),
     "50 ellipsoids": (lambda: _cloud(_ellipsoid, 50), 0.3),
     "mesh drop": (lambda: MeshDrop().build(), 0.3),

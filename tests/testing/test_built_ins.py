@@ -12,6 +12,7 @@ from bodies import (
     Box,
     BoxBody,
     Bushing,
+    Capsule,
     CapsuleBody,
     Compound,
     ConstantVelocity,
@@ -23,6 +24,7 @@ from bodies import (
     EllipsoidBody,
     FunctionLoad,
     FunctionMotion,
+    HalfSpace,
     Harmonic,
     HullBody,
     LineBody,
@@ -139,6 +141,7 @@ LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
 BODIES: list[Body] = [
     Ball(0.02),
     BoxBody(0.01, 0.02, 0.035),
+    BoxBody(0.01, 0.02, 0.035, rounding=0.002),
     CapsuleBody(0.01, 0.03, density=900.0),
     Compound((Part(BoxBody(0.01, 0.02, 0.03), (0.02, 0.0, -0.01)), Part(CylinderBody(0.01, 0.04)))),
     CylinderBody(0.02, 0.03, mass=0.2),
@@ -147,6 +150,7 @@ BODIES: list[Body] = [
     Dumbbell(),
     EllipsoidBody(0.01, 0.02, 0.03),
     HullBody(WEDGE, mass=0.2),
+    HullBody(WEDGE, rounding=0.005),
     SuperellipsoidBody(0.02, 0.03, 0.04, 0.5, 0.6),
     SuperellipsoidBody(0.02, 0.03, 0.04, 1.4, 1.2, 0.01),
     planar((TurningFrame(carried=(Sphere(0.1),), **PART),), 2.0, 0.5),
@@ -178,6 +182,10 @@ MOTIONS: list[Motion] = [
 SHAPES: list[tuple[Shape, Shape]] = [
     *((a, b) for a, b, _ in PAIRS.values()),
     (Plane(0.1), Point(0.1, -0.05, 0.07)),
+    (HalfSpace(0.1), Point(0.1, -0.05, 0.07)),
+    (Box(0.3, 0.4, 0.5, rounding=0.1), Sphere(0.1)),
+    # so long that its side crosses each of the edges at some of the places drawn
+    (Box(0.3, 0.4, 0.5), Capsule(0.05, 1.0)),
     (Plane(0.1), TriangleMesh(Triangles(*parts.bracket()), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)),
     (Plane(0.1), ConvexHull(WEDGE)),
     (Box(0.3, 0.4, 0.5), Point(0.1, -0.05, 0.07)),
