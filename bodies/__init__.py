@@ -10,6 +10,11 @@ from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
 from bodies.contacts.cylinder_sphere import CylinderSphere
 from bodies.contacts.disc_sphere import DiscSphere
+from bodies.contacts.mesh_capsule import MeshCapsule
+from bodies.contacts.mesh_mesh import MeshMesh, MeshPolyhedron
+from bodies.contacts.mesh_point import MeshPoint
+from bodies.contacts.mesh_smooth import MeshSmooth
+from bodies.contacts.mesh_sphere import MeshSphere
 from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_cylinder import PlaneCylinder
@@ -115,7 +120,13 @@ __all__ = [
     "HullBody",
     "LineBody",
     "MeshBody",
+    "MeshCapsule",
     "MeshFile",
+    "MeshMesh",
+    "MeshPoint",
+    "MeshPolyhedron",
+    "MeshSmooth",
+    "MeshSphere",
     "Part",
     "PlanarBody",
     "Plane",

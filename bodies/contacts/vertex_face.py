@@ -64,7 +64,7 @@ def _past_end(
 ) -> float:
     """Return how far a point is past the end of a face; under its plane only what lies inside the body touches it."""
     beyond = past_face(faces, n_faces, FACE * face, height, x, y, z)
-    return max(beyond, deepest) if height < 0.0 else beyond
+    return float(max(beyond, deepest)) if height < 0.0 else float(beyond)
 
 
 @compiled

@@ -36,7 +36,7 @@ def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the way left to the end of the features of a closed contact, -1 if it has other ones than at the start."""
     block = S.geometry + GEOMETRY * c
     if w[block + PAST_END] != 0.0:
-        return _LATE * S.gap_tolerance - w[block + PAST_END]
+        return float(_LATE * S.gap_tolerance - w[block + PAST_END])
     return 1.0 if k[S.feature + c] < 0 or int(w[block + FEATURE]) == k[S.feature + c] else -1.0
 
 

@@ -29,7 +29,7 @@ _TRUSTED = 2.0
 _MOST_ROOTS = 30
 """So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
 _FEW_ROOTS = 4
-"""So many guards that fire one before the other within the time tolerance were wrong from the start."""
+"""After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
 _SAMPLES = 8
 """Parts of half a step, or of the way to an event, at whose ends it is asked whether features face each other."""
 _SHORT = 1e-7
@@ -323,7 +323,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     while first >= 0:
         if roots >= 3 * S.n_contacts + S.n_own_guards or (closed == 1 and roots == _MOST_ROOTS):
             return -1.0
-        if roots > _FEW_ROOTS and theta * h < S.time_tolerance:
+        if closed == 1 and roots > _FEW_ROOTS and w[S.guard_first + first] < 0.0:
             return -1.0
         roots += 1
         S.trigger = first

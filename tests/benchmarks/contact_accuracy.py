@@ -6,7 +6,7 @@ against it, put the gap apart: gap, normal and witness points are known to round
 itself over seven places along a motion with constant velocity and spin.
 
 A pair of shapes is one line of :data:`PAIRS`, or, where features are chosen on both sides, of
-:data:`tests.benchmarks.swept_pairs.SWEPT`.
+:data:`tests.benchmarks.swept_pairs.SWEPT` and :data:`tests.benchmarks.mesh_pairs.MESHES`.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from nonsmooth.plugins import registry
 from nonsmooth.plugins.compile import bind
 from nonsmooth.system.pairing import nearest_pair
 from nonsmooth.testing.rig import Rig, rotation, turned
+from tests.benchmarks.mesh_pairs import MESHES
 from tests.benchmarks.swept_pairs import SWEPT
 
 Array = NDArray[np.float64]
@@ -216,7 +217,8 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
     "capsule-boxy": (on_capsule, boxy),
 }
 """How the first shape is touched, and the second, which has one farthest point in every direction."""
-NAMES = (*PAIRS, *SWEPT)
+CHOSEN = {**SWEPT, **MESHES}
+NAMES = (*PAIRS, *CHOSEN)
 """All lines."""
 
 
@@ -231,8 +233,8 @@ def _least_radius(shape: ConvexShape, n: Array) -> float:
 
 def pose(pair: str, gap: float, rng: Generator) -> Pose:
     """Return a pose of a pair; one that overlaps more than its second shape is round there is drawn again."""
-    if pair in SWEPT:
-        return Pose(*SWEPT[pair](gap, rng))
+    if pair in CHOSEN:
+        return Pose(*CHOSEN[pair](gap, rng))
     touch, draw = PAIRS[pair]
     while True:
         (first, point, normal), second = touch(rng), draw(rng)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import numpy as np
 import pytest
 
 from bodies import (
@@ -21,6 +22,7 @@ from bodies import (
     DiscBody,
     DrivenBody,
     Dumbbell,
+    Ellipsoid,
     EllipsoidBody,
     FunctionLoad,
     FunctionMotion,
@@ -179,6 +181,10 @@ MOTIONS: list[Motion] = [
     Table((0.0, 0.1, 0.3), ((0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.0, 0.1)), orientation=(0.5, 0.5, 0.5, 0.5)),
     make(Table, "table", {}),
 ]
+CUBOID = TriangleMesh(Triangles(*parts.box(0.6, 0.4, 0.8)), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)
+TETRAHEDRON = TriangleMesh(
+    Triangles(0.3 * (np.eye(4, 3) - 0.25), ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2))), 0.01, 0.02
+)
 SHAPES: list[tuple[Shape, Shape]] = [
     *((a, b) for a, b, _ in PAIRS.values()),
     (Plane(0.1), Point(0.1, -0.05, 0.07)),
@@ -187,6 +193,12 @@ SHAPES: list[tuple[Shape, Shape]] = [
     # so long that its side crosses each of the edges at some of the places drawn
     (Box(0.3, 0.4, 0.5), Capsule(0.05, 1.0)),
     (Plane(0.1), TriangleMesh(Triangles(*parts.bracket()), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)),
+    (CUBOID, Sphere(0.2, x=-0.05, y=0.1, z=0.02)),
+    (CUBOID, Ellipsoid(0.2, 0.35, 0.5)),
+    (CUBOID, Capsule(0.15, 0.4, axis_y=-0.6, axis_z=0.8)),
+    (CUBOID, Point(0.1, -0.05, 0.07)),
+    (TETRAHEDRON, ConvexHull(WEDGE)),
+    (TETRAHEDRON, TETRAHEDRON),
     (Plane(0.1), ConvexHull(WEDGE)),
     (Box(0.3, 0.4, 0.5), Point(0.1, -0.05, 0.07)),
     (Box(0.3, 0.4, 0.5), Box(0.01, 0.02, 0.03)),
