@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
+from bodies.contacts.dual_newton import climb
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
-from bodies.contacts.smooth_newton import widest_from, write_surface
+from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth, write_core
 from bodies.contacts.surface_search import (
     ON_CORNER,
     ON_EDGE,
@@ -99,7 +99,7 @@ def _on_edge(
     """Return the same of the line of an edge; the distance is nan where none was found."""
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
     ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
-    g, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, ex, ey, ez, wx, wy, wz)
+    g, nx, ny, nz = climb(point, core, turn, wx, wy, wz, ex, ey, ez, wx, wy, wz)
     px, py, pz = _point_against(core, turn, (wx, wy, wz), (nx, ny, nz))
     s = px * ex + py * ey + pz * ez
     past = max(-s, s - surface[e + 6])
@@ -114,7 +114,7 @@ def _on_corner(
 ) -> tuple[float, float, float, float, float]:
     """Return the same of a corner."""
     wx, wy, wz = center[0] - surface[c], center[1] - surface[c + 1], center[2] - surface[c + 2]
-    g, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, 0.0, 0.0, 0.0, wx, wy, wz)
+    g, nx, ny, nz = climb(point, core, turn, wx, wy, wz, 0.0, 0.0, 0.0, wx, wy, wz)
     past, star = -(nx * wx + ny * wy + nz * wz), int(surface[STARS]) + int(surface[c + 4])
     for _ in range(int(surface[c + 5])):
         past = max(past, size * (nx * surface[star] + ny * surface[star + 1] + nz * surface[star + 2]))
@@ -234,8 +234,7 @@ def evaluate_surface_smooth(
         out[7 + i] = out[10 + i] - gap * out[1 + i]
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
-    px, py, pz = back(turn, px - x, py - y, pz - z)
-    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, px, py, pz)
+    write_core(out, SIDE_B, second, axes_b, mx, my, mz)
     out[29] = float(number)
     if kind == ON_FACE:
         write_flat(out, SIDE_A)

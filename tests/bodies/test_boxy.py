@@ -13,13 +13,14 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import BoxBody, EllipsoidBody, Plate, Superellipsoid, SuperellipsoidBody
+from bodies import BoxBody, EllipsoidBody, MeshBody, Plate, Superellipsoid, SuperellipsoidBody, Triangles
 from bodies.contacts.boxy_newton import place_on
 from bodies.contacts.smooth_newton import widest
 from bodies.inertia import tensor_of
 from bodies.shapes.support_function import boxy_gauge_of, support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.kernel import PLAIN
+from tests.bodies.meshes import parts
 
 Array = NDArray[np.float64]
 GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9, -1e-9, -1e-7, -1e-5, -1e-4)
@@ -121,6 +122,15 @@ def test_a_body_on_its_face_is_found_at_its_middle() -> None:
     same = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     found = widest(core, ball, same, 0.0, 0.0, 0.017)
     np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.011, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
+
+
+def test_a_mesh_that_is_not_convex_takes_none() -> None:
+    """Its features are found by radii of curvature."""
+    mesh = MeshBody(Triangles(*parts.bracket()))
+    boxy = SuperellipsoidBody(0.01, 0.01, 0.01, 0.5, 0.5)
+    system = ns.System([mesh, boxy])
+    with pytest.raises(ns.InvalidInput, match="contact of a mesh must be with a body whose radii of curvature"):
+        system.contact(mesh, boxy, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.5))
 
 
 def _fall(body: Any, friction: Any, restitution: float, t_end: float, **start: Any) -> ns.Solution:
