@@ -24,7 +24,8 @@ class SuperellipsoidBody(FreeBody):
     semi_x, semi_y, semi_z : float
         Semi-axes, without the rounding [m].
     exponent_along, exponent_across : float
-        Its exponents along the third axis and across it, 1 for an ellipsoid, towards 2 for an octahedron.
+        Its exponents along the third axis and across it, 1 for an ellipsoid, towards 0 for a box, towards
+        2 for an octahedron.
     rounding : float
         Radius of the sphere that sweeps it [m].
     density : float, optional

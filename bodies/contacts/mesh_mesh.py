@@ -10,9 +10,9 @@ from typing import ClassVar, final
 import numpy as np
 
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
-from bodies.contacts.swept_swept import MOST_CONTACTS
 from bodies.contacts.surface_edges import evaluate_edges
 from bodies.contacts.surface_tables import NODE, TRIANGLE, Numbers, edge_row, surface_numbers
+from bodies.contacts.swept_swept import MOST_CONTACTS
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.polyhedron import Polyhedron

@@ -9,7 +9,8 @@ from typing import ClassVar, final
 from bodies.contacts.curvature import SIDE_B
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.plane_point import place_over_plane
-from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, forth, write_core
+from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, forth
+from bodies.contacts.smooth_newton import write_surface
 from bodies.shapes.ground import Ground
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import support_of
@@ -26,7 +27,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) 
     px, py, pz = forth(axes, s[1], s[2], s[3])
     r = second[RADIUS]
     place_over_plane(a, out, x + px - r * a[5], y + py - r * a[8], z + pz - r * a[11], height)
-    write_core(out, SIDE_B, second, axes, mx, my, mz)
+    write_surface(out, SIDE_B, second, axes, mx, my, mz, s[1], s[2], s[3])
 
 
 @final

@@ -11,13 +11,14 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
+from bodies.contacts.boxy_line import nearest_to_line
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
-from bodies.contacts.dual_newton import climb
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
-from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth, write_core
+from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
+from bodies.contacts.smooth_newton import widest_from, write_surface
 from bodies.contacts.tangents import write_tangent
-from bodies.shapes.support_function import gauge_of, support_of
+from bodies.shapes.support_function import gauge_of, is_boxy, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -118,7 +119,7 @@ def _look_at_edge(
     one, two = int(hull[at]), int(hull[at + 1])
     vx, vy, vz = _vertex(hull, one)
     ex, ey, ez, length = _edge(hull, number)
-    g, nx, ny, nz = climb(hull, core, turn, x - vx, y - vy, z - vz, ex, ey, ez, begin[0], begin[1], begin[2])
+    g, nx, ny, nz = widest_from(hull, core, turn, x - vx, y - vy, z - vz, ex, ey, ez, begin[0], begin[1], begin[2])
     px, py, pz = _point_along(core, turn, x - vx, y - vy, z - vz, nx, ny, nz)
     s = px * ex + py * ey + pz * ez
     if s < -near or s > length + near:
@@ -142,7 +143,7 @@ def _look_at_vertex(
     hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, number: int, begin: Point
 ) -> Stop:
     vx, vy, vz = _vertex(hull, number)
-    g, nx, ny, nz = climb(hull, core, turn, x - vx, y - vy, z - vz, 0.0, 0.0, 0.0, begin[0], begin[1], begin[2])
+    g, nx, ny, nz = widest_from(hull, core, turn, x - vx, y - vy, z - vz, 0.0, 0.0, 0.0, begin[0], begin[1], begin[2])
     star = int(hull[STARS]) + 2 * number
     steepest, most = -1, _ON_BORDER
     for i in range(int(hull[star + 1])):
@@ -275,6 +276,22 @@ def _feature(hull: Floats, kind: int, number: int) -> int:
     return number + int(hull[COUNTS + 2]) + (int(hull[COUNTS + 1]) if kind == _VERTEX else 0)
 
 
+@compiled
+def _over(
+    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, number: int, g: float, n: Point, near: Point
+) -> Point:
+    """Return the point of a boxy body over an edge or a vertex, edges first, which the normal may not tell well."""
+    n_edges = int(hull[COUNTS + 1])
+    if number >= n_edges:
+        vx, vy, vz = _vertex(hull, number - n_edges)
+        return vx + g * n[0], vy + g * n[1], vz + g * n[2]
+    foot = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * number]))
+    ex, ey, ez, _ = _edge(hull, number)
+    px, py, pz = nearest_to_line(core, turn, x, y, z, foot, ex, ey, ez, near)
+    s = (px - foot[0]) * ex + (py - foot[1]) * ey + (pz - foot[2]) * ez
+    return foot[0] + s * ex + g * n[0], foot[1] + s * ey + g * n[1], foot[2] + s * ez + g * n[2]
+
+
 def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
     """Write the geometry block of a polytope (:mod:`bodies.contacts.polytope`) and a core.
 
@@ -286,6 +303,9 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     turn = between_axes(axes_a, axes_b)
     g, nx, ny, nz, feature = _nearest(first, second, turn, x, y, z)
     px, py, pz = _point_along(second, turn, x, y, z, nx, ny, nz)
+    n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
+    if is_boxy(second) and feature >= n_faces:
+        px, py, pz = _over(first, second, turn, x, y, z, feature - n_faces, g, (nx, ny, nz), (px, py, pz))
     out[0] = g - first[RADIUS] - second[RADIUS]
     out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
     out[10], out[11], out[12] = point_in_world(a, px, py, pz)
@@ -295,8 +315,8 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     out[29] = feature
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
-    write_core(out, SIDE_B, second, axes_b, mx, my, mz)
-    n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
+    px, py, pz = back(turn, px - x, py - y, pz - z)
+    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, px, py, pz)
     if feature < n_faces:
         write_flat(out, SIDE_A)
     elif feature < n_faces + n_edges:

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B
-from bodies.contacts.dual_newton import climb
 from bodies.contacts.frames import point_in_world
-from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, between_axes, forth, write_core
+from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, between_axes, forth
+from bodies.contacts.smooth_newton import widest, write_surface
 from bodies.contacts.tangents import write_tangent
 from bodies.shapes.smooth_shape import SmoothShape
-from bodies.shapes.support_function import support_of
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -27,21 +26,23 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) 
     ax, ay, az = point_in_world(a, first[6], first[7], first[8])
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
     x, y, z = back(axes_a, bx - ax, by - ay, bz - az)
-    g, nx, ny, nz = climb(first, second, between_axes(axes_a, axes_b), x, y, z, 0.0, 0.0, 0.0, x, y, z)
+    turn = between_axes(axes_a, axes_b)
+    g, qx, qy, qz, nx, ny, nz = widest(first, second, turn, x, y, z)
+    px, py, pz = qx - g * nx, qy - g * ny, qz - g * nz
     out[0] = g - first[RADIUS] - second[RADIUS]
     out[1], out[2], out[3] = forth(axes_a, nx, ny, nz)
-    mx, my, mz = back(axes_b, -out[1], -out[2], -out[3])
-    p, q = support_of(first, nx, ny, nz), support_of(second, mx, my, mz)
-    px, py, pz = forth(axes_a, p[1], p[2], p[3])
-    qx, qy, qz = forth(axes_b, q[1], q[2], q[3])
-    out[7], out[8], out[9] = ax + px, ay + py, az + pz
-    out[10], out[11], out[12] = bx + qx, by + qy, bz + qz
+    wx, wy, wz = forth(axes_a, px, py, pz)
+    out[7], out[8], out[9] = ax + wx, ay + wy, az + wz
+    wx, wy, wz = forth(axes_a, qx, qy, qz)
+    out[10], out[11], out[12] = ax + wx, ay + wy, az + wz
     for i in range(3):
         out[7 + i] += first[RADIUS] * out[1 + i]
         out[10 + i] -= second[RADIUS] * out[1 + i]
     write_tangent(a, out)
-    write_core(out, SIDE_A, first, axes_a, nx, ny, nz)
-    write_core(out, SIDE_B, second, axes_b, mx, my, mz)
+    write_surface(out, SIDE_A, first, axes_a, nx, ny, nz, px, py, pz)
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    qx, qy, qz = back(turn, qx - x, qy - y, qz - z)
+    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, qx, qy, qz)
 
 
 @final

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 
-from bodies.meshes.counting import MANY
-from bodies.meshes.crossings import count_crossings
+from bodies.meshes.crossings import MOST_PAIRS, TooManyPairs, count_crossings
 from bodies.meshes.integrals import volume_of, winding_number
 from bodies.meshes.topology import Integers, edge_counts, half_edges, shells
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import UnusualValue
 
 FLAT = 1e-12
 """Height over longest edge below which a triangle has no area."""
@@ -46,7 +48,21 @@ def check_surface(thing: str, vertices: Vector, faces: Integers) -> None:
             "It is inside out: repair with 'winding', which turns it.",
         )
     _check_shells(thing, vertices, faces)
-    crossings = count_crossings(vertices, faces) if len(faces) <= MANY else 0
+    _check_crossings(thing, vertices, faces)
+
+
+def _check_crossings(thing: str, vertices: Vector, faces: Integers) -> None:
+    try:
+        crossings = count_crossings(vertices, faces)
+    except TooManyPairs as many:
+        warnings.warn(
+            f"{thing} was not looked at for passing through itself: of {len(faces)} triangles {many.args[0]} pairs are "
+            f"near each other, more than {MOST_PAIRS}. What overlaps would count twice. Simplify the mesh, or remesh "
+            "it without long thin triangles.",
+            UnusualValue,
+            stacklevel=2,
+        )
+        return
     if crossings:
         raise InvalidInput(
             thing,

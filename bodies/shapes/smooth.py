@@ -37,7 +37,7 @@ def core_numbers(
     semi : tuple of float
         a, b and c [m], all positive or all 0.
     powers : tuple of float
-        p and q, not below 2.
+        p and q, not below 2, or not above 2 and above 1: boxes with round edges.
     radius : float
         All points within this distance of the core belong to the shape [m].
     center : tuple of float
@@ -60,9 +60,25 @@ def support_point(core: tuple[float, ...], direction: Vector) -> Vector:
 def farthest(core: tuple[float, ...]) -> float:
     """Return the distance of the farthest point from the origin of the body frame [m], a bound if it is not known.
 
-    Of a shape about the origin it is an axis's, powers p >= q of 2 and more, as the core lies in the ellipsoid.
+    Of a shape about the origin it is an axis's, powers of 2 and more, as the core lies in the ellipsoid.  In the
+    squares of the coordinates a boxy core is one of the same kind, and their sum the support function of that.
     """
-    return math.hypot(*core[6:9]) + max(core[:3]) + core[5]
+    return math.hypot(*core[6:9]) + (_corner(core) if core[3] < 2.0 else max(core[:3])) + core[5]
+
+
+def _corner(core: tuple[float, ...]) -> float:
+    """Return the distance of the farthest point of a boxy core from its centre [m]."""
+
+    def norm(one: float, two: float, power: float) -> float:
+        # p of the gauge is p / (p - 1), of the squares' gauge half of it, of its dual p / (2 - p)
+        larger, smaller = max(one, two), min(one, two)
+        if power == 2.0:
+            return larger
+        dual = power / (2.0 - power)
+        return float(larger * (1.0 + (smaller / larger) ** dual) ** (1.0 / dual))
+
+    a, b, c = (axis * axis for axis in core[:3])
+    return math.sqrt(norm(norm(a, b, core[4]), c, core[3]))
 
 
 def drawn(core: tuple[float, ...], fineness: int) -> tuple[Vector, Vector]:

@@ -17,8 +17,10 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
-EXPONENT: Mapping[str, Any] = MappingProxyType({"minimum": 1.0, "maximum": 1.8})
+EXPONENT: Mapping[str, Any] = MappingProxyType({"minimum": 0.2, "maximum": 1.8})
 """Bounds of an exponent."""
+THINNEST = 10.0
+"""Greatest ratio of two semi-axes of a boxy body."""
 
 
 @final
@@ -26,10 +28,12 @@ EXPONENT: Mapping[str, Any] = MappingProxyType({"minimum": 1.0, "maximum": 1.8})
 class Superellipsoid(SmoothShape):
     """All points within ``rounding`` of ((x/a)^(2/e2) + (y/b)^(2/e2))^(e2/e1) + (z/c)^(2/e1) <= 1.
 
-    The exponents e1 and e2 go from 1, the ellipsoid, towards 2, the octahedron.  Its contacts follow from the support
-    function, whose powers are p = 2/(2 - e1) and q = 2/(2 - e2) with the semi-axes as factors; radii of curvature that
-    do not jump ask for p >= 2, q >= 2, and for q = 2 where p = 2.  Exponents below 1 (bodies like boxes) have flat
-    points, where these radii are infinite, and are refused; a rounded box has none of their trouble.
+    The exponents e1 and e2 go from 0.2, nearly a box, over 1, the ellipsoid, towards 2, the octahedron.  The support
+    function has the powers p = 2/(2 - e1) and q = 2/(2 - e2) with the semi-axes as factors.  From 1 on the contacts
+    follow from it: its radii of curvature do not jump for p >= 2, q >= 2, and q = 2 where p = 2.  Below 1 the body is
+    boxy: it has flat points in the middle of its faces and flat lines across them, where these radii are infinite, and
+    the contacts follow from its gauge, whose curvatures are finite (:mod:`bodies.contacts.boxy_newton`).  Both
+    exponents are of the same kind, and a boxy body takes no rounding.
 
     References
     ----------
@@ -54,13 +58,36 @@ class Superellipsoid(SmoothShape):
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
         unit_vector("Superellipsoid orientation", orientation, 4)
-        if self.exponent_along == 1.0 < self.exponent_across:
+        along, across = self.exponent_along, self.exponent_across
+        if min(along, across) < 1.0 < max(along, across):
+            raise InvalidInput(
+                "Superellipsoid.exponent_across",
+                f"must be {'at most' if along < 1.0 else 'at least'} 1 where exponent_along is {along:g}",
+                across,
+                "With one below 1 and the other above the body has flat points and edges with no radius.",
+            )
+        if along == 1.0 != across:
             raise InvalidInput(
                 "Superellipsoid.exponent_across",
                 "must be 1 where exponent_along is 1",
-                self.exponent_across,
-                "The radii of curvature at the third axis would jump from one direction to the next; "
-                "give exponent_along a value above 1, or exchange the axes.",
+                across,
+                "The curvature at the third axis would jump from one direction to the next; "
+                "give exponent_along a value on the same side of 1, or exchange the axes.",
+            )
+        semi = self.semi_x, self.semi_y, self.semi_z
+        if min(along, across) < 1.0 and max(semi) > THINNEST * min(semi):
+            raise InvalidInput(
+                "Superellipsoid: the ratio of the longest semi-axis to the shortest",
+                f"must be at most {THINNEST:g} with an exponent below 1",
+                max(semi) / min(semi),
+                "The gap of thinner boxy bodies is not found at every pose; take a Box, or exponents from 1.",
+            )
+        if min(along, across) < 1.0 and self.rounding > 0.0:
+            raise InvalidInput(
+                "Superellipsoid.rounding",
+                "must be 0 with an exponent below 1",
+                self.rounding,
+                "Take smaller exponents for sharper edges, larger ones for rounder ones.",
             )
 
     @property

@@ -14,11 +14,66 @@ Support: TypeAlias = tuple[float, float, float, float, float, float, float, floa
 
 @compiled
 def support_of(core: Floats, x: float, y: float, z: float) -> Support:
-    """Return the support function of the core, without the radius, at the unit vector (x, y, z) of its own axes."""
-    a, b, c, p, q = core[0], core[1], core[2], core[3], core[4]
+    """Return the support function of the core, without the radius, at the unit vector (x, y, z) of its own axes.
+
+    Of a boxy core (:func:`is_boxy`), whose second derivative is infinite at the axes, that is not a number.
+    """
+    found: Support = support_by(core[0], core[1], core[2], core[3], core[4], x, y, z)
+    return found
+
+
+@compiled
+def support_by(a: float, b: float, c: float, p: float, q: float, x: float, y: float, z: float) -> Support:
+    """Return the same by semi-axes and powers."""
     if a == 0.0:
         h = 0.0
         return h, h, h, h, h, h, h, h, h, h
+    if p < 2.0:
+        h, px, py, pz = _norm_and_gradient(a, b, c, p, q, x, y, z)
+        none = math.nan
+        return h, px, py, pz, none, none, none, none, none, none
+    found: Support = norm_of(a, b, c, p, q, x, y, z)
+    return found
+
+
+@compiled
+def is_boxy(core: Floats) -> bool:
+    """Return whether the gauge of a core has a second derivative rather than its support function: flat points."""
+    return core[0] > 0.0 and core[3] < 2.0
+
+
+@compiled
+def boxy_gauge_of(core: Floats, x: float, y: float, z: float) -> Support:
+    """Return the gauge of a boxy core, by how much it has to grow to reach (x, y, z), and its derivatives.
+
+    The gauge is the dual norm of the support function, with the powers p / (p - 1) and q / (q - 1), which are 2 and
+    more.
+    """
+    p, q = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
+    found: Support = norm_of(1.0 / core[0], 1.0 / core[1], 1.0 / core[2], p, q, x, y, z)
+    return found
+
+
+@compiled
+def _norm_and_gradient(
+    a: float, b: float, c: float, p: float, q: float, x: float, y: float, z: float
+) -> tuple[float, float, float, float]:
+    """Return ((|a x|^q + |b y|^q)^(p/q) + |c z|^p)^(1/p) and its derivative, powers above 1."""
+    ax, by, cz = a * abs(x), b * abs(y), c * abs(z)
+    larger, smaller = max(ax, by), min(ax, by)
+    r, gx, gy = 0.0, 1.0, 0.0
+    if larger > 0.0:
+        r = larger * (1.0 + (smaller / larger) ** q) ** (1.0 / q)
+        gx, gy = (ax / r) ** (q - 1.0), (by / r) ** (q - 1.0)
+    larger, smaller = max(r, cz), min(r, cz)
+    h = larger * (1.0 + (smaller / larger) ** p) ** (1.0 / p)
+    gr, gz = (r / h) ** (p - 1.0), (cz / h) ** (p - 1.0)
+    return h, math.copysign(a, x) * gr * gx, math.copysign(b, y) * gr * gy, math.copysign(c, z) * gz
+
+
+@compiled
+def norm_of(a: float, b: float, c: float, p: float, q: float, x: float, y: float, z: float) -> Support:
+    """Return the same norm with two derivatives, powers of 2 and more."""
     if p == 2.0 and q == 2.0:
         aa, bb, cc = a * a, b * b, c * c
         h = math.sqrt(aa * x * x + bb * y * y + cc * z * z)

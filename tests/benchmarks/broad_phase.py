@@ -3,9 +3,9 @@
     pip install '.[full]' && python -m tests.benchmarks.broad_phase
 
 Printed are, for 200 and 1000 balls at random places that move on between two searches, the number of pairs of boxes
-that overlap, and least and median milliseconds of a search: by the tree (places set, tree built, pairs collected and
-numbered), by numpy over all pairs, and by the engine's list (sorted balls; its own bodies evaluated and the contacts of
-pairs that are near put into slots), which runs compiled between two steps.
+that overlap, and least and median milliseconds of a search: by the tree (groups made, tree built, pairs of groups
+collected, bodies compared), by numpy over all pairs, and by the engine's list (sorted balls; its own bodies evaluated
+and the contacts of pairs that are near put into slots), which runs compiled between two steps.
 """
 
 from __future__ import annotations

@@ -112,6 +112,11 @@ def superellipsoid(rng: Generator) -> ConvexShape:
     return Superellipsoid(a, b, c, along, across, float(rng.choice([0.0, 1e-3])), **_place(rng))
 
 
+def boxy(rng: Generator) -> ConvexShape:
+    """Return a boxy superellipsoid."""
+    return Superellipsoid(*_sizes(rng), *rng.uniform(0.2, 0.9, 2).tolist(), **_place(rng))
+
+
 def sphere(rng: Generator) -> ConvexShape:
     """Return a sphere."""
     return Sphere(float(rng.uniform(_SMALL, _LARGE)), *rng.uniform(-2e-3, 2e-3, 3).tolist())
@@ -188,7 +193,7 @@ def on_capsule(rng: Generator) -> Touch:
     return shape, center + along * shape.half_length * axis + shape.radius * n, n
 
 
-SMOOTH = {"sphere": sphere, "ellipsoid": ellipsoid, "superellipsoid": superellipsoid}
+SMOOTH = {"sphere": sphere, "ellipsoid": ellipsoid, "superellipsoid": superellipsoid, "boxy": boxy}
 PARTS = "face", "edge", "vertex"
 PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], ConvexShape]]] = {
     "plane-ellipsoid": (on_plane, ellipsoid),
@@ -198,12 +203,18 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
     "superellipsoid-sphere": (anywhere(superellipsoid), sphere),
     "superellipsoid-ellipsoid": (anywhere(superellipsoid), ellipsoid),
     "superellipsoid-superellipsoid": (anywhere(superellipsoid), superellipsoid),
+    "plane-boxy": (on_plane, boxy),
+    "boxy-sphere": (anywhere(boxy), sphere),
+    "boxy-ellipsoid": (anywhere(boxy), ellipsoid),
+    "boxy-superellipsoid": (anywhere(boxy), superellipsoid),
+    "boxy-boxy": (anywhere(boxy), boxy),
     **{f"box-{name}, {part}": (on(box, part), draw) for name, draw in SMOOTH.items() for part in PARTS},
     **{f"hull-{name}, {part}": (on(hull, part), draw) for name, draw in SMOOTH.items() for part in PARTS},
     **{f"rounded box-{name}, {part}": (on(rounded(box), part), SMOOTH[name]) for name in SMOOTH for part in PARTS},
     **{f"rounded hull-ellipsoid, {part}": (on(rounded(hull), part), ellipsoid) for part in PARTS},
     "capsule-ellipsoid": (on_capsule, ellipsoid),
     "capsule-superellipsoid": (on_capsule, superellipsoid),
+    "capsule-boxy": (on_capsule, boxy),
 }
 """How the first shape is touched, and the second, which has one farthest point in every direction."""
 CHOSEN = {**SWEPT, **MESHES}

@@ -34,6 +34,7 @@ HULL = ConvexHull(
 ROUNDED_HULL = ConvexHull(HULL.points, **PLACE, **AXES, rounding=0.06)
 ELLIPSOID = Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES)
 SUPERELLIPSOID = Superellipsoid(0.3, 0.2, 0.4, 1.5, 1.2, **PLACE, **AXES)
+BOXY = Superellipsoid(0.3, 0.2, 0.4, 0.4, 0.6, **PLACE, **AXES)
 
 PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "plane-sphere": (PLANE, SPHERE, 1),
@@ -64,6 +65,14 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "superellipsoid-superellipsoid": (SUPERELLIPSOID, Superellipsoid(0.2, 0.3, 0.2, 1.3, 1.6, y=0.1), 1),
     "superellipsoid-ellipsoid": (SUPERELLIPSOID, ELLIPSOID, 1),
     "superellipsoid-sphere": (SUPERELLIPSOID, SPHERE, 1),
+    "plane-boxy superellipsoid": (PLANE, BOXY, 1),
+    "boxy superellipsoid-itself": (BOXY, Superellipsoid(0.2, 0.3, 0.2, 0.7, 0.5, y=0.1), 1),
+    "boxy superellipsoid-ellipsoid": (BOXY, ELLIPSOID, 1),
+    "boxy superellipsoid-superellipsoid": (BOXY, SUPERELLIPSOID, 1),
+    "boxy superellipsoid-sphere": (BOXY, SPHERE, 1),
+    "box-boxy superellipsoid": (BOX, BOXY, 1),
+    "hull-boxy superellipsoid": (HULL, BOXY, 1),
+    "capsule-boxy superellipsoid": (CAPSULE, BOXY, 1),
     "box-ellipsoid": (BOX, ELLIPSOID, 1),
     "box-superellipsoid": (BOX, SUPERELLIPSOID, 1),
     "hull-ellipsoid": (HULL, ELLIPSOID, 1),

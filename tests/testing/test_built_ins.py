@@ -153,6 +153,7 @@ BODIES: list[Body] = [
     EllipsoidBody(0.01, 0.02, 0.03),
     HullBody(WEDGE, mass=0.2),
     HullBody(WEDGE, rounding=0.005),
+    SuperellipsoidBody(0.02, 0.03, 0.04, 0.5, 0.6),
     SuperellipsoidBody(0.02, 0.03, 0.04, 1.4, 1.2, 0.01),
     planar((TurningFrame(carried=(Sphere(0.1),), **PART),), 2.0, 0.5),
     LineBody(1.0, carried=(Sphere(0.1),)),

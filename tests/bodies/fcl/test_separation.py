@@ -269,3 +269,53 @@ def test_axes_of_capsules_and_cylinders_are_ours() -> None:
         centre = np.array([0.0, 0.002, 0.0]) if name == "cylinder" else np.zeros(3)
         found = separation(SOLIDS[name], Pose(), probe, Pose(centre + 0.03 * axis))
         assert found.distance == pytest.approx(0.029 - end, abs=1e-12)
+
+
+def test_a_tree_that_was_not_built_is_refused() -> None:
+    """A model of FCL's own, empty or never ended, which ends the process in a query: only shapes are taken."""
+    import fcl
+
+    for model in (fcl.BVHModel(), fcl.DynamicAABBTreeCollisionManager(), fcl.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0)):
+        with pytest.raises(ns.InvalidInput, match=r"FCL must be given a bounded solid"):
+            Solid(model)
+
+
+_LIVES = """
+import gc
+import numpy as np
+from bodies import Box, Ellipsoid, TriangleMesh, Triangles
+from bodies.distances.pose import Pose
+from bodies.distances.separation import separation
+from bodies.fcl.broad_phase import BroadPhase
+from bodies.fcl.solid import FclSolid
+from tests.bodies.meshes import parts
+
+
+def solid(kind):
+    if kind % 3 == 0:
+        return FclSolid(Box(0.01, 0.02, 0.03))
+    return FclSolid(Ellipsoid(0.01, 0.02, 0.03) if kind % 3 == 1 else TriangleMesh(Triangles(*parts.bracket())))
+
+
+kept = [solid(i) for i in range(30)]
+first = [separation(one, Pose(), kept[(i + 1) % 30], Pose(np.array([0.2, 0.01, 0.0]))) for i, one in enumerate(kept)]
+tree, places = BroadPhase(np.full(100, 0.05)), np.random.default_rng(0).uniform(-0.3, 0.3, (100, 3))
+pairs = tree.pairs(places)
+for _ in range(20):
+    # others come and go on the same memory
+    gone = [solid(i) for i in range(30)]
+    separation(gone[0], Pose(), gone[1], Pose(np.array([0.2, 0.0, 0.0])))
+    BroadPhase(np.full(50, 0.1)).pairs(places[:50])
+    del gone
+    gc.collect()
+again = [separation(one, Pose(), kept[(i + 1) % 30], Pose(np.array([0.2, 0.01, 0.0]))) for i, one in enumerate(kept)]
+same = all(a.distance == b.distance and np.array_equal(a.first, b.first) for a, b in zip(first, again))
+print(same, np.array_equal(pairs, tree.pairs(places)))
+"""
+
+
+def test_objects_live_as_long_as_they_are_needed() -> None:
+    """Shapes and arrays that nobody else holds, and others made and forgotten between two queries."""
+    done = subprocess.run([sys.executable, "-c", _LIVES], capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["True", "True"]

@@ -145,6 +145,21 @@ def test_many_triangles_are_warned_of(monkeypatch: pytest.MonkeyPatch, tmp_path:
         MeshFile(str(path), unit="m")
 
 
+def test_a_fine_surface_that_passes_through_itself_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of 204 800 triangles, a tip pushed through the far side; where there are too many near pairs, it is said."""
+    from bodies.meshes import crossings
+
+    points, faces = parts.torus(320, 320)
+    tip = np.linalg.norm(points - points[0], axis=1) < 0.004
+    points[tip] += (-0.1, 0.0, 0.0)
+    assert len(faces) > 200_000
+    with pytest.raises(ns.InvalidInput, match=r"must not pass through itself.*it is \d+\. .*unite"):
+        Triangles(points, faces)
+    monkeypatch.setattr(crossings, "MOST_PAIRS", 1000)
+    with pytest.warns(UnusualValue, match=r"was not looked at for passing through itself: of 576 .* Simplify"):
+        Triangles(*parts.torus())
+
+
 def test_broken_files(tmp_path: Path) -> None:
     """No file, an unknown ending, rubbish, a cloud of points."""
     for name, content, told in (

@@ -1,0 +1,155 @@
+"""A boxy body and a straight line, the continuation of an edge: one angle, and no second derivative.
+
+The normal n goes round the line.  With p the body's farthest point against it, the derivative of the gap g(n) is that
+of the normal times p; between two directions where it has opposite signs a search halves what is left until the
+directions are the same to round-off, however flat the body is.
+"""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.boxy_newton import Answer, Point, place_on
+from bodies.contacts.smooth_core import Axes, back, forth
+from bodies.shapes.support_function import support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_LOOKS = 8
+"""Directions of the first look."""
+_STEPS = 200
+_CLOSED = 4e-16
+"""Angle between directions that are the same [rad]."""
+
+_ROUND_OFF = 4e-16
+"""Derivative that is none, in units of the size."""
+_PATIENCE = 3
+"""Steps that leave more than half of the angle, one after the other."""
+_REFINEMENTS = 4
+"""Steps of Newton's method from a point that is right to some digits."""
+
+
+@compiled
+def across_line(
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    ex: float,
+    ey: float,
+    ez: float,
+    nx: float,
+    ny: float,
+    nz: float,
+) -> Answer:
+    """Return the largest gap of a line through the origin and a boxy core, the core's point and the line's normal.
+
+    All in the axes of the line's body; the gap is nan where none was found.
+
+    Parameters
+    ----------
+    core : Floats
+        The boxy core; its radius is left out.
+    turn : Axes
+        Rotation from the axes of the core to those of the line's body.
+    x, y, z : float
+        The core's centre [m].
+    ex, ey, ez : float
+        Direction of the line, a unit vector.
+    nx, ny, nz : float
+        A unit vector across it, in whose half the normal is sought.
+    """
+    ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
+    best, at, last, rising, falling = -math.inf, 0, math.nan, math.nan, math.nan
+    spread = math.pi / _LOOKS
+    found = _look(core, turn, x, y, z, nx, ny, nz, ux, uy, uz, 0.0)
+    for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
+        look = found if i == 0 else _look(core, turn, x, y, z, nx, ny, nz, ux, uy, uz, i * spread)
+        if look[0] > best and abs(i) <= _LOOKS // 2:
+            best, at, rising = look[0], i, last
+        elif at == i - 1:
+            falling = look[7]
+        last = look[7]
+    low, high = (at - 1) * spread, (at + 1) * spread
+    if not (rising > 0.0 > falling):
+        return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
+    none = _ROUND_OFF * (abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]))
+    side, slow = 0, 0
+    for _ in range(_STEPS):
+        width = high - low
+        # where the derivative jumps, as it nearly does at a flat place, the secant does not get on
+        middle = (low * falling - high * rising) / (falling - rising)
+        if slow >= _PATIENCE or not (low < middle < high):
+            middle, slow = 0.5 * (low + high), 0
+        found = _look(core, turn, x, y, z, nx, ny, nz, ux, uy, uz, middle)
+        if abs(found[7]) <= none or width <= _CLOSED or middle == low or middle == high:
+            return found[0], found[1], found[2], found[3], found[4], found[5], found[6]
+        if found[7] > 0.0:
+            low, rising = middle, found[7]
+            falling = 0.5 * falling if side == 1 else falling
+            side = 1
+        else:
+            high, falling = middle, found[7]
+            rising = 0.5 * rising if side == -1 else rising
+            side = -1
+        slow = slow + 1 if high - low > 0.5 * width else 0
+    return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
+
+
+@compiled
+def _look(
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    nx: float,
+    ny: float,
+    nz: float,
+    ux: float,
+    uy: float,
+    uz: float,
+    angle: float,
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Return gap, point, normal and the gap's derivative at an angle."""
+    c, s = math.cos(angle), math.sin(angle)
+    ax, ay, az = c * nx + s * ux, c * ny + s * uy, c * nz + s * uz
+    mx, my, mz = back(turn, -ax, -ay, -az)
+    f = support_of(core, mx, my, mz)
+    px, py, pz = forth(turn, f[1], f[2], f[3])
+    px, py, pz = x + px, y + py, z + pz
+    slope = (c * ux - s * nx) * px + (c * uy - s * ny) * py + (c * uz - s * nz) * pz
+    return ax * px + ay * py + az * pz, px, py, pz, ax, ay, az, slope
+
+
+@compiled
+def nearest_to_line(
+    core: Floats, turn: Axes, x: float, y: float, z: float, foot: Point, ex: float, ey: float, ez: float, point: Point
+) -> Point:
+    """Return the point of a boxy core that a line sees, from the one that its normal gives.
+
+    Along a flat place the normal says little of the point; with the normal across the line, it has to lie over it.
+    All in the axes of the line's body, ``foot`` on the line.
+    """
+    px, py, pz = back(turn, point[0] - x, point[1] - y, point[2] - z)
+    lx, ly, lz = back(turn, ex, ey, ez)
+    fx, fy, fz = back(turn, foot[0] - x, foot[1] - y, foot[2] - z)
+    for _ in range(_REFINEMENTS):
+        s = place_on(core, px, py, pz)
+        px, py, pz = s[0], s[1], s[2]
+        # across the line and the normal
+        ax, ay, az = ly * s[5] - lz * s[4], lz * s[3] - lx * s[5], lx * s[4] - ly * s[3]
+        off = ax * (px - fx) + ay * (py - fy) + az * (pz - fz)
+        tilt = s[3] * lx + s[4] * ly + s[5] * lz
+        a1, a2 = ax * s[6] + ay * s[7] + az * s[8], ax * s[9] + ay * s[10] + az * s[11]
+        l1, l2 = lx * s[6] + ly * s[7] + lz * s[8], lx * s[9] + ly * s[10] + lz * s[11]
+        k1, k2 = s[12] * l1 + s[13] * l2, s[13] * l1 + s[14] * l2
+        determinant = a1 * k2 - a2 * k1
+        if determinant == 0.0:
+            break
+        i, j = (a2 * tilt - k2 * off) / determinant, (k1 * off - a1 * tilt) / determinant
+        px, py, pz = px + i * s[6] + j * s[9], py + i * s[7] + j * s[10], pz + i * s[8] + j * s[11]
+    s = place_on(core, px, py, pz)
+    px, py, pz = forth(turn, s[0], s[1], s[2])
+    return x + px, y + py, z + pz

@@ -1,0 +1,220 @@
+"""The gap of two cores of any kind: by normals where both have radii of curvature, else by points of the boxy one."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.boxy_line import across_line
+from bodies.contacts.boxy_newton import Answer, climb_boxy, write_boxy
+from bodies.contacts.boxy_pair import meet
+from bodies.contacts.dual_newton import climb
+from bodies.contacts.smooth_core import Axes, back, forth, write_core
+from bodies.shapes.support_function import gauge_of, is_boxy, support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_DEEP = 1e-2
+"""Overlap, in units of the least semi-axis, that is no doubt the shortest way out."""
+
+_TOUCHING = 1e-12
+"""Overlap, in units of the distance of the centres, that is not asked for a proof."""
+
+_SAMPLES = 8
+"""Parts of the way between the points of an answer at whose ends a point of both is looked for."""
+_NOWHERE = 1e-300
+"""Gauge of a centre, which is 0, to divide by."""
+_ON_SURFACE = 1e-12
+"""What the gauge of a point of the surface is off 1 at most."""
+
+
+@compiled
+def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
+    """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
+
+    The gap is nan where none was found.  One above 0 is the only one; one below is told only with a point that both
+    bodies have.  Thin bodies that overlap, or nearly touch, have ways out that are longer than another: where the first
+    answer is one of a body deep in the other, or none, the search begins from the axes of both as well.
+
+    Parameters
+    ----------
+    first, second : Floats
+        The cores; their radii are left out.
+    turn : Axes
+        Rotation from the axes of the second core to those of the first.
+    x, y, z : float
+        The second core's centre from the first's [m].
+    """
+    best: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
+    overlap = _share_a_point(first, second, turn, x, y, z, best)
+    if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
+        return best
+    for axis in range(12):
+        i, sign = axis % 3, 1.0 if axis < 6 else -1.0
+        sx, sy, sz = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
+        if axis % 6 >= 3:
+            sx, sy, sz = forth(turn, sx, sy, sz)
+        found: Answer = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+        if found[0] == found[0] and not best[0] >= found[0]:
+            best = found
+            if best[0] >= 0.0:
+                return best
+        overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
+    if not overlap:
+        return math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
+    return best
+
+
+@compiled
+def _share_a_point(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> bool:
+    """Return whether a point is known that both bodies have, where an answer says that they overlap.
+
+    Looked at are the points of the answer, some between them, and the line of centres.
+    """
+    g, qx, qy, qz, nx, ny, nz = found
+    if g >= -_TOUCHING * (abs(x) + abs(y) + abs(z)):
+        return True
+    for i in range(_SAMPLES + 1):
+        # from the first body's point to the second's
+        part = g * (1.0 - i / _SAMPLES)
+        px, py, pz = qx - part * nx, qy - part * ny, qz - part * nz
+        bx, by, bz = back(turn, px - x, py - y, pz - z)
+        if gauge_of(second, bx, by, bz) <= 1.0 + _ON_SURFACE and gauge_of(first, px, py, pz) <= 1.0 + _ON_SURFACE:
+            return True
+    # on the line of centres either body has a part next to its own
+    ax, ay, az = back(turn, -x, -y, -z)
+    one, two = max(gauge_of(first, x, y, z), _NOWHERE), max(gauge_of(second, ax, ay, az), _NOWHERE)
+    return bool(1.0 / one + 1.0 / two >= 1.0)
+
+
+@compiled
+def _thickness(first: Floats, second: Floats) -> float:
+    """Return the least semi-axis of two cores, of which one may be a point [m]."""
+    a, b = min(first[0], first[1], first[2]), min(second[0], second[1], second[2])
+    return a if b == 0.0 or (a > 0.0 and a < b) else b
+
+
+@compiled
+def _from_start(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same from one direction to begin with."""
+    if is_boxy(first):
+        if is_boxy(second):
+            g, px, py, pz, nx, ny, nz = _both(first, second, turn, x, y, z, sx, sy, sz)
+        else:
+            other = second[0], second[1], second[2], second[3], second[4]
+            g, px, py, pz, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
+        return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
+    if is_boxy(second):
+        other = first[0], first[1], first[2], first[3], first[4]
+        ax, ay, az = back(turn, -x, -y, -z)
+        sx, sy, sz = back(turn, -sx, -sy, -sz)
+        g, px, py, pz, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, sx, sy, sz)
+        nx, ny, nz = forth(turn, -nx, -ny, -nz)
+        px, py, pz = forth(turn, px, py, pz)
+        return g, x + px, y + py, z + pz, nx, ny, nz
+    g, nx, ny, nz = climb(first, second, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    s = support_of(second, mx, my, mz)
+    px, py, pz = forth(turn, s[1], s[2], s[3])
+    return g, x + px, y + py, z + pz, nx, ny, nz
+
+
+@compiled
+def opposite(turn: Axes) -> Axes:
+    """Return the inverse of a rotation."""
+    return turn[0], turn[3], turn[6], turn[1], turn[4], turn[7], turn[2], turn[5], turn[8]
+
+
+@compiled
+def _both(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same for two boxy cores, with the first's point; beginning where one is an ellipsoid."""
+    other = second[0], second[1], second[2], 2.0, 2.0
+    g, _, _, _, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
+    found: Answer = _from(first, second, turn, x, y, z, nx, ny, nz)
+    if g == g and found[0] == found[0]:
+        return found
+    other = first[0], first[1], first[2], 2.0, 2.0
+    ax, ay, az = back(turn, -x, -y, -z)
+    bx, by, bz = back(turn, -sx, -sy, -sz)
+    g, _, _, _, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, bx, by, bz)
+    nx, ny, nz = forth(turn, -nx, -ny, -nz)
+    found = _from(first, second, turn, x, y, z, nx, ny, nz)
+    if g == g and found[0] == found[0]:
+        return found
+    found = _from(first, second, turn, x, y, z, sx, sy, sz)
+    if found[0] != found[0]:
+        found = meet(first, second, turn, x, y, z, (sx, sy, sz), (-sx, -sy, -sz))
+    return found
+
+
+@compiled
+def _from(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
+) -> Answer:
+    """Begin with the points of a normal, of any length."""
+    length = math.sqrt(nx * nx + ny * ny + nz * nz)
+    nx, ny, nz = nx / length, ny / length, nz / length
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    a, b = support_of(first, nx, ny, nz), support_of(second, mx, my, mz)
+    qx, qy, qz = forth(turn, b[1], b[2], b[3])
+    found: Answer = meet(first, second, turn, x, y, z, (a[1], a[2], a[3]), (qx, qy, qz))
+    return found
+
+
+@compiled
+def widest_from(
+    hull: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    along_x: float,
+    along_y: float,
+    along_z: float,
+    start_x: float,
+    start_y: float,
+    start_z: float,
+) -> tuple[float, float, float, float]:
+    """Return what :func:`bodies.contacts.dual_newton.climb` does for a point or a line, and a core of any kind."""
+    if not is_boxy(core):
+        g, nx, ny, nz = climb(hull, core, turn, x, y, z, along_x, along_y, along_z, start_x, start_y, start_z)
+        return g, nx, ny, nz
+    if along_x == 0.0 and along_y == 0.0 and along_z == 0.0:
+        point = (0.0, 0.0, 0.0, 2.0, 2.0)
+        ax, ay, az = back(turn, -x, -y, -z)
+        sx, sy, sz = back(turn, -start_x, -start_y, -start_z)
+        g, _, _, _, nx, ny, nz = climb_boxy(core, point, opposite(turn), ax, ay, az, sx, sy, sz)
+        nx, ny, nz = forth(turn, -nx, -ny, -nz)
+        return g, nx, ny, nz
+    along = start_x * along_x + start_y * along_y + start_z * along_z
+    nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z
+    length = math.sqrt(nx * nx + ny * ny + nz * nz)
+    if length == 0.0:
+        return math.nan, start_x, start_y, start_z
+    nx, ny, nz = nx / length, ny / length, nz / length
+    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz)
+    return g, nx, ny, nz
+
+
+@compiled
+def write_surface(
+    out: Floats,
+    side: int,
+    core: Floats,
+    axes: Axes,
+    nx: float,
+    ny: float,
+    nz: float,
+    px: float,
+    py: float,
+    pz: float,
+) -> None:
+    """Write slide and turn of a core of any kind at its point p with the outward normal n, both in its own axes."""
+    if is_boxy(core):
+        write_boxy(out, side, core, axes, px, py, pz)
+    else:
+        write_core(out, side, core, axes, nx, ny, nz)

@@ -1,0 +1,204 @@
+"""Boxy superellipsoids: curvature, flat places, bodies that meet face to corner and edge to edge, and their motion."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
+from scipy.spatial.transform import Rotation
+
+import nonsmooth as ns
+from bodies import BoxBody, EllipsoidBody, MeshBody, Plate, Superellipsoid, SuperellipsoidBody, Triangles
+from bodies.contacts.boxy_newton import place_on
+from bodies.contacts.smooth_newton import widest
+from bodies.inertia import tensor_of
+from bodies.shapes.support_function import boxy_gauge_of, support_of
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.engine.kernel import PLAIN
+from tests.bodies.meshes import parts
+
+Array = NDArray[np.float64]
+GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9, -1e-9, -1e-7, -1e-5, -1e-4)
+"""[m]"""
+
+
+def _core(rng: np.random.Generator, low: float, high: float) -> Any:
+    sizes, exponents = rng.uniform(0.004, 0.01, 3).tolist(), rng.uniform(low, high, 2).tolist()
+    return np.array(Superellipsoid(*sizes, *exponents).core)
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.floats(0.2, 0.99), st.floats(0.2, 1.0), st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3))
+def test_gauge_and_support_function_belong_together(along: float, across: float, way: list[float]) -> None:
+    """The support point along the normal is the point; the shape operator is the change of the normal."""
+    if np.min(np.abs(way)) < 0.05:
+        return
+    core = np.array(Superellipsoid(0.2, 0.3, 0.4, along, across).core)
+    s = np.array(place_on(core, *way))
+    point, normal, tangents = s[:3], s[3:6], s[6:12].reshape(2, 3)
+    f = boxy_gauge_of(core, *point)
+    assert f[0] == pytest.approx(1.0, rel=1e-13)
+    np.testing.assert_allclose(support_of(core, *normal)[1:4], point, rtol=0, atol=1e-12)
+    step = 1e-5 * np.min(np.abs(point))
+    curve = np.array([[s[12], s[13]], [s[13], s[14]]])
+    for i, t in enumerate(tangents):
+        high, low = (np.array(place_on(core, *(point + sign * step * t)))[3:6] for sign in (1.0, -1.0))
+        found = tangents @ (high - low) / (2.0 * step)
+        np.testing.assert_allclose(found, curve[i], rtol=0, atol=1e-7 * (1.0 + np.max(np.abs(curve))) / min(along, 0.5))
+
+
+@pytest.mark.parametrize("along", [0.2, 0.5, 0.9])
+def test_the_farthest_point(along: float) -> None:
+    """Against a search round the section with the longest axis, and the corner of a body that is nearly a cube."""
+    body = Superellipsoid(0.2, 0.2, 0.3, along, 1.0)
+
+    def reach(angle: float) -> float:
+        direction = np.array([np.cos(angle), 0.0, np.sin(angle)])
+        return -1.0 / float(boxy_gauge_of(np.array(body.core), *direction)[0])
+
+    best = minimize_scalar(reach, bounds=(0.0, 0.5 * np.pi), method="bounded", options={"xatol": 1e-12})
+    assert body.length == pytest.approx(-best.fun, rel=1e-9)
+    cube = Superellipsoid(0.1, 0.1, 0.1, along, along)
+    # |x|^(2/e) three times is 1
+    assert cube.boxy
+    assert not Superellipsoid(0.1, 0.1, 0.1, 1.2, 1.2).boxy
+    assert cube.length == pytest.approx(np.sqrt(3.0) * 0.1 * 3.0 ** (-0.5 * along), rel=1e-12)
+
+
+def test_towards_the_box_and_the_ellipsoid() -> None:
+    """Volume and inertia between both, monotonous in the exponents, those of the ellipsoid in the limit."""
+    bodies = [SuperellipsoidBody(0.02, 0.03, 0.04, e, e, mass=1.0) for e in (0.2, 0.4, 0.6, 0.8, 0.9999)]
+    box, ball = BoxBody(0.02, 0.03, 0.04, mass=1.0), EllipsoidBody(0.02, 0.03, 0.04, mass=1.0)
+    rows = np.array([box.inertia, *(body.inertia for body in bodies), ball.inertia])
+    assert np.all(np.diff(rows, axis=0) < 0.0)
+    np.testing.assert_allclose(rows[-2], rows[-1], rtol=1e-3)
+
+
+def _touching(rng: np.random.Generator, low: float, on_faces: bool, other: Any, gap: float) -> tuple[Any, ...]:
+    """Return two cores, rotation and centre of the second, and the normal: of a random direction or a random point."""
+    one, two = _core(rng, low, min(low + 0.2, 0.99)), other(rng)
+    turn, n = Rotation.random(random_state=rng).as_matrix(), rng.normal(size=3)
+    s = np.array(place_on(one, *n))
+    n = s[3:6] if on_faces else n / np.linalg.norm(n)
+    p = s[:3] if on_faces else np.array(support_of(one, *n)[1:4])
+    q = np.array(support_of(two, *(-turn.T @ n))[1:4])
+    return one, two, turn, p + gap * n - turn @ q, n
+
+
+OTHERS = {
+    "itself": lambda rng: _core(rng, 0.2, 0.9),
+    "ellipsoid": lambda rng: np.array(Superellipsoid(*rng.uniform(0.004, 0.01, 3).tolist()).core),
+    "round": lambda rng: _core(rng, 1.1, 1.5),
+}
+
+
+@pytest.mark.parametrize("on_faces", [False, True], ids=["any normal", "any point"])
+@pytest.mark.parametrize("other", OTHERS)
+@pytest.mark.parametrize("low", [0.2, 0.6])
+def test_gaps_of_known_poses(low: float, other: str, on_faces: bool) -> None:
+    """Faces, edges and corners; the point comes out where the normal hardly changes, too; from either side."""
+    rng = np.random.default_rng(7)
+    for gap in GAPS:
+        for _ in range(1 if PLAIN else 8):
+            one, two, turn, x, n = _touching(rng, low, on_faces, OTHERS[other], gap)
+            for swapped in (False, True):
+                there = -turn.T @ x if swapped else x
+                pair = (two, one, turn.T) if swapped else (one, two, turn)
+                found = np.array(widest(*pair[:2], tuple(pair[2].ravel()), *there))
+                normal = -turn @ found[4:7] if swapped else found[4:7]
+                assert abs(found[0] - gap) <= 1e-12
+                np.testing.assert_allclose(normal, n, rtol=0, atol=1e-9)
+
+
+def test_a_body_on_its_face_is_found_at_its_middle() -> None:
+    """Where the radius of curvature is infinite; the other is an ellipsoid, then a corner."""
+    core = np.array(Superellipsoid(0.01, 0.01, 0.01, 0.2, 0.2).core)
+    ball = np.array(Superellipsoid(0.004, 0.005, 0.006).core)
+    same = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    found = widest(core, ball, same, 0.0, 0.0, 0.017)
+    np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.011, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
+
+
+def test_a_mesh_that_is_not_convex_takes_none() -> None:
+    """Its features are found by radii of curvature."""
+    mesh = MeshBody(Triangles(*parts.bracket()))
+    boxy = SuperellipsoidBody(0.01, 0.01, 0.01, 0.5, 0.5)
+    system = ns.System([mesh, boxy])
+    with pytest.raises(ns.InvalidInput, match="contact of a mesh must be with a body whose radii of curvature"):
+        system.contact(mesh, boxy, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.5))
+
+
+def _fall(body: Any, friction: Any, restitution: float, t_end: float, **start: Any) -> ns.Solution:
+    plate = Plate()
+    system = ns.System([plate, body], gravity=9.81)
+    system.contact(plate, body, normal=Unilateral(), friction=friction, impact=EnergeticImpact(restitution))
+    system.place(body, **start)
+    return ns.simulate(system, t_end)
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+def test_lasting_contact_over_the_flat_places() -> None:
+    """Exponents from 0.8: it falls, comes to rest in contact, slides and rocks over its faces; the books balance."""
+    rng = np.random.default_rng(3)
+    for exponent in (0.8, 0.9):
+        for friction in (Frictionless(), Coulomb(0.3)):
+            body, turn = SuperellipsoidBody(0.01, 0.012, 0.008, exponent, exponent), rng.normal(size=4)
+            start = {"velocity": (0.1, 0.0, 0.0), "angular_velocity": tuple((3.0 * rng.normal(size=3)).tolist())}
+            solution = _fall(
+                body, friction, 0.5, 1.0, position=(0.0, 0.0, 0.03), orientation=turn / np.linalg.norm(turn), **start
+            )
+            assert solution.energy.residual <= 1e-8
+            assert solution.counters.impacts > 3
+
+
+def test_what_lies_on_its_middle_stays() -> None:
+    """At rest on a flat point, and sliding on it without friction, at any exponent."""
+    for exponent in (0.2, 0.5, 0.8):
+        body = SuperellipsoidBody(0.01, 0.012, 0.008, exponent, exponent)
+        at_rest = _fall(body, Coulomb(0.3), 0.5, 0.1, position=(0.0, 0.0, 0.008))
+        np.testing.assert_allclose(at_rest.q_end[:3], [0.0, 0.0, 0.008], rtol=0, atol=1e-15)
+        slides = _fall(body, Frictionless(), 0.5, 0.1, position=(0.0, 0.0, 0.008), velocity=(0.1, 0.0, 0.0))
+        np.testing.assert_allclose(slides.q_end[:3], [0.01, 0.0, 0.008], rtol=0, atol=1e-12)
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+def test_collisions_conserve_momentum_and_energy() -> None:
+    """Boxy bodies among each other, with an ellipsoid, a superellipsoid and a box, elastic and without friction."""
+    bodies = [
+        SuperellipsoidBody(0.02, 0.03, 0.05, 0.2, 0.2),
+        SuperellipsoidBody(0.03, 0.02, 0.02, 0.5, 1.0),
+        SuperellipsoidBody(0.03, 0.02, 0.04, 1.4, 1.2),
+        EllipsoidBody(0.02, 0.03, 0.03),
+        BoxBody(0.03, 0.02, 0.025),
+    ]
+    system, rng = ns.System(bodies, gravity=0.0), np.random.default_rng(4)
+    laws: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(1.0)}
+    for i, one in enumerate(bodies):
+        for other in bodies[i + 1 :]:
+            system.contact(one, other, **laws)
+        place = 0.2 * np.array([np.cos(i), np.sin(i), 0.3 * rng.normal()])
+        turn = np.roll(Rotation.random(random_state=i).as_quat(), 1)
+        spin = tuple(rng.normal(size=3).tolist())
+        system.place(one, position=place, orientation=turn, velocity=-3.0 * place, angular_velocity=spin)
+    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-12))
+    assert solution.counters.impacts >= 5
+
+    def totals(q: Array, u: Array) -> tuple[float, Array]:
+        energy: Any = 0.0
+        momenta = np.zeros(6)
+        for body, x, v in zip(bodies, q.reshape(-1, 7), u.reshape(-1, 6), strict=True):
+            own = tensor_of(body.inertia, body.products) @ v[3:]
+            energy += 0.5 * body.total_mass * v[:3] @ v[:3] + 0.5 * v[3:] @ own
+            momenta[:3] += body.total_mass * v[:3]
+            turn = Rotation.from_quat(np.roll(x[3:], -1))
+            momenta[3:] += np.cross(x[:3], body.total_mass * v[:3]) + turn.apply(own)
+        return float(energy), momenta
+
+    before, after = totals(solution.q[0], solution.u[0]), totals(solution.q_end, solution.u_end)
+    assert after[0] == pytest.approx(before[0], rel=1e-9)
+    np.testing.assert_allclose(after[1], before[1], rtol=0, atol=1e-9 * np.max(np.abs(before[1])))
