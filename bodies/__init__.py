@@ -4,17 +4,17 @@ from bodies.ball import Ball
 from bodies.box_body import BoxBody
 from bodies.capsule_body import CapsuleBody
 from bodies.compound import Compound, Part
+from bodies.cone_body import ConeBody
 from bodies.contacts.box_sphere import BoxSphere
 from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
-from bodies.contacts.cylinder_sphere import CylinderSphere
-from bodies.contacts.disc_sphere import DiscSphere
+from bodies.contacts.frustum_smooth import FrustumSmooth
+from bodies.contacts.frustum_sphere import FrustumSphere
 from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
-from bodies.contacts.plane_cylinder import PlaneCylinder
-from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
+from bodies.contacts.plane_frustum import PlaneFrustum
 from bodies.contacts.plane_mesh import PlaneMesh
 from bodies.contacts.plane_polyhedron import PlanePolyhedron
 from bodies.contacts.plane_smooth import PlaneSmooth
@@ -59,9 +59,11 @@ from bodies.rigid_body import RigidBody
 from bodies.rod import Rod
 from bodies.shapes.box import Box
 from bodies.shapes.capsule import Capsule
+from bodies.shapes.cone import Cone
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
+from bodies.shapes.frustum import Frustum
 from bodies.shapes.hull import ConvexHull
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
@@ -84,16 +86,16 @@ __all__ = [
     "CapsuleSmooth",
     "CapsuleSphere",
     "Compound",
+    "Cone",
+    "ConeBody",
     "ConstantVelocity",
     "ConvexHull",
     "Coordinate",
     "Cylinder",
     "CylinderBody",
-    "CylinderSphere",
     "Decomposition",
     "Disc",
     "DiscBody",
-    "DiscSphere",
     "Distance",
     "DrivenBody",
     "Dumbbell",
@@ -101,6 +103,9 @@ __all__ = [
     "EllipsoidBody",
     "Fixed",
     "FreeBody",
+    "Frustum",
+    "FrustumSmooth",
+    "FrustumSphere",
     "FunctionLoad",
     "FunctionMotion",
     "GeneralisedBody",
@@ -115,9 +120,8 @@ __all__ = [
     "Plane",
     "PlaneBox",
     "PlaneCapsule",
-    "PlaneCylinder",
-    "PlaneDisc",
     "PlaneEllipsoid",
+    "PlaneFrustum",
     "PlaneMesh",
     "PlanePolyhedron",
     "PlaneSmooth",
