@@ -9,6 +9,7 @@ from bodies.contacts.box_sphere import BoxSphere
 from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
+from bodies.contacts.frustum_polyhedron import FrustumPolyhedron
 from bodies.contacts.frustum_smooth import FrustumSmooth
 from bodies.contacts.frustum_sphere import FrustumSphere
 from bodies.contacts.plane_box import PlaneBox
@@ -104,6 +105,7 @@ __all__ = [
     "Fixed",
     "FreeBody",
     "Frustum",
+    "FrustumPolyhedron",
     "FrustumSmooth",
     "FrustumSphere",
     "FunctionLoad",
