@@ -9,6 +9,7 @@ from bodies.contacts.box_sphere import BoxSphere
 from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
+from bodies.contacts.frustum_capsule import FrustumCapsule
 from bodies.contacts.frustum_polyhedron import FrustumPolyhedron
 from bodies.contacts.frustum_smooth import FrustumSmooth
 from bodies.contacts.frustum_sphere import FrustumSphere
@@ -105,6 +106,7 @@ __all__ = [
     "Fixed",
     "FreeBody",
     "Frustum",
+    "FrustumCapsule",
     "FrustumPolyhedron",
     "FrustumSmooth",
     "FrustumSphere",

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.random import Generator
 
+from bodies import Capsule, ConvexHull, Cylinder
 from nonsmooth.errors import InvalidInput
 from tests.benchmarks.contact_accuracy import ROUND, Touch, box, hull, on
 from tests.bodies.carriers import Rig
@@ -42,6 +43,19 @@ def _edge_through(shape: Any, point: Any) -> Any:
 def _posed(rng: Generator, first: Touch, part: str, second: Touch, other: str, gap: float) -> PosedRound:
     tangents = tangent(first[0], part, first[2]), _edge_through(second[0], second[1]) if other == "edge" else None
     return PosedRound(rng, first, second, tangents, gap)
+
+
+def _differences(rig: Rig, posed: PosedRound, u: Any, number: int) -> Any:
+    """Return the derivatives of gap and gap rate; the rig is left at the pose."""
+
+    def at(t: float) -> Any:
+        rig.put(posed.moved(u, t), u)
+        assert rig.geometry[number, 30] <= 0.0
+        return np.array([rig.geometry[number, 0], rig.rate[number, 0]])
+
+    near = {i: (at(i * _STEP) - at(-i * _STEP)) / _STEP for i in _WEIGHTS}
+    at(0.0)
+    return np.sum([weight * near[i] for i, weight in _WEIGHTS.items()], axis=0)
 
 
 @pytest.mark.parametrize("solid", POLYHEDRA)
@@ -79,22 +93,63 @@ def test_rates_are_derivatives(build: Any, name: str, part: str, other: str) -> 
             (number,) = posed.found_in(rig.geometry)
             u = np.concatenate([rng.normal(size=3) * scale for scale in (0.02, 1.0, 0.02, 1.0)])
 
-            def at(t: float, rig: Rig = rig, posed: PosedRound = posed, u: Any = u, number: int = number) -> Any:
-                rig.put(posed.moved(u, t), u)
-                assert rig.geometry[number, 30] < 0.0
-                return np.array([rig.geometry[number, 0], rig.rate[number, 0]])
+            rate, second_rate = _differences(rig, posed, u, number)
+            assert rig.rate[number, 0] == pytest.approx(rate, rel=1e-8, abs=1e-10)
+            assert rig.bias[number, 0] == pytest.approx(second_rate, rel=1e-6, abs=1e-7)
 
-            near = {i: (at(i * _STEP) - at(-i * _STEP)) / _STEP for i in _WEIGHTS}
-            rate, second_rate = np.sum([weight * near[i] for i, weight in _WEIGHTS.items()], axis=0)
-            at(0.0)
+
+def on_capsule(rng: Generator, part: str) -> Touch:
+    """Return a capsule, a point of its side or of an end, and the normal there."""
+    radius, half = float(rng.uniform(1e-3, 4e-3)), float(rng.uniform(4e-3, 1e-2))
+    shape, n = Capsule(radius, half), rng.normal(size=3)
+    place = half * float(rng.uniform(-0.9, 0.9))
+    if part == "side":
+        n[2] = 0.0
+    else:
+        place = half if n[2] > 0.0 else -half
+    n /= np.linalg.norm(n)
+    return shape, np.array([0.0, 0.0, place]) + radius * n, n
+
+
+CAPSULE_KINDS = [
+    (name, part, other)
+    for name, (_, parts) in ROUND.items()
+    for part in parts
+    for other in ("end", "side")
+    if other == "end" or part in ("rim", "side")
+]
+
+
+def _posed_capsule(rng: Generator, name: str, part: str, other: str, gap: float) -> tuple[Any, PosedRound]:
+    first, second = touch_round(rng, name, part), on_capsule(rng, other)
+    tangents = tangent(first[0], part, first[2]), np.array([0.0, 0.0, 1.0]) if other == "side" else None
+    return (first[0], second[0]), PosedRound(rng, first, second, tangents, gap)
+
+
+@pytest.mark.parametrize(("name", "part", "other"), CAPSULE_KINDS)
+def test_capsules_at_constructed_poses(build: Any, name: str, part: str, other: str) -> None:
+    """As above, also 0.1 mm deep; and rates are derivatives."""
+    rng = np.random.default_rng(9)
+    for gap in (*GAPS, -1e-4):
+        for _ in range(3):
+            shapes, posed = _posed_capsule(rng, name, part, other, gap)
+            rig = Rig(shapes, build.laws())
+            rig.put(posed.poses, np.zeros(12))
+            blocks = rig.geometry
+            (number,) = posed.found_in(blocks)
+            past = blocks[:, 30] > 0.0
+            assert np.min(blocks[~past, 0]) >= gap - 1e-15
+            assert np.all(blocks[past, 0] > 1e-10)
+            if gap > 1e-2:
+                continue
+            u = np.concatenate([rng.normal(size=3) * scale for scale in (0.02, 1.0, 0.02, 1.0)])
+            rate, second_rate = _differences(rig, posed, u, number)
             assert rig.rate[number, 0] == pytest.approx(rate, rel=1e-8, abs=1e-10)
             assert rig.bias[number, 0] == pytest.approx(second_rate, rel=1e-6, abs=1e-7)
 
 
 def test_too_many_edges_are_refused(build: Any) -> None:
     """A fine hull has more pairs of edges and rims than a contact list should have."""
-    from bodies import ConvexHull, Cylinder
-
     points = np.random.default_rng(3).normal(size=(400, 3))
     points /= np.linalg.norm(points, axis=1)[:, None]
     with pytest.raises(InvalidInput, match="pairs of features"):

@@ -13,6 +13,7 @@ import nonsmooth as ns
 from bodies import (
     Box,
     BoxBody,
+    CapsuleBody,
     ConeBody,
     Cylinder,
     CylinderBody,
@@ -53,6 +54,8 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
     "a disc lies on a box": (TABLE, DiscBody(0.01), 1e-6, UPRIGHT, 3),
     "a box stands on a cap": (Cylinder(0.02, 0.02, z=-0.02), BoxBody(0.01, 0.012, 0.005), 0.005, UPRIGHT, 4),
     "a box larger than the cap stands on its feet": (PILLAR, BoxBody(0.03, 0.032, 0.005), 0.005, UPRIGHT, 3),
+    "a capsule lies on a cap": (PILLAR, CapsuleBody(0.005, 0.012), 0.005, LYING, 2),
+    "a capsule lies across a cap": (PILLAR, CapsuleBody(0.005, 0.03), 0.005, LYING, 2),
     "a beam lies across a log": (LOG, BoxBody(0.005, 0.03, 0.005), 0.005, UPRIGHT, 2),
 }
 """Shape of the support, body, height of its origin over the support, orientation, contacts that hold it."""
@@ -95,6 +98,9 @@ COLLIDING: dict[str, tuple[FreeBody, FreeBody]] = {
         CylinderBody(0.03, 0.05),
         HullBody(tetrahedron(np.random.default_rng(2), 0.06).points),
     ),
+    "cylinder and capsule": (CylinderBody(0.03, 0.05), CapsuleBody(0.02, 0.04)),
+    "cone and capsule": (ConeBody(0.04, 0.07), CapsuleBody(0.02, 0.04)),
+    "disc and capsule": (DiscBody(0.05), CapsuleBody(0.02, 0.04)),
     "cylinder and ellipsoid": (CylinderBody(0.03, 0.05), EllipsoidBody(0.03, 0.04, 0.05)),
     "cone and superellipsoid": (ConeBody(0.04, 0.07), SuperellipsoidBody(0.03, 0.04, 0.05, 1.3, 1.2)),
     "disc and ellipsoid": (DiscBody(0.05), EllipsoidBody(0.02, 0.02, 0.03)),
