@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from law_axes import DOTS, GREY, make_axes
+from law_axes import DOTS, GREY, Falling, make_axes
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
@@ -40,10 +40,7 @@ def _loop(axis: Any, law: Any, speed: float, t_end: float, micro: float, **look:
     def force(x: float, rate: float) -> float:
         return float(law.force(x, rate, speed, **values))
 
-    def opens(t: float, y: Any) -> float:
-        return float(y[0]) + law.reach + 1e-12
-
-    opens.terminal, opens.direction = True, -1.0  # type: ignore[attr-defined]
+    opens = Falling(lambda t, y: y[0] + law.reach + 1e-12)
     times = np.linspace(0.0, t_end, 2000)
     found = solve_ivp(
         lambda t, y: [y[1], -force(*y) / _MASS], (0.0, t_end), (0.0, speed), events=opens, t_eval=times, rtol=1e-9

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, final
 
 import matplotlib
 
@@ -21,3 +22,18 @@ def make_axes(title: str, panels: int = 1) -> tuple[Any, Any]:
         axis.grid(color="0.9", linewidth=0.6)
         axis.set_axisbelow(True)
     return figure, axes[0]
+
+
+@final
+class Falling:
+    """An event that ends scipy's integration: a function of time and state falls to zero."""
+
+    terminal = True
+    direction = -1.0
+
+    def __init__(self, function: Callable[[float, Any], float]) -> None:
+        self.function = function
+
+    def __call__(self, t: float, y: Any) -> float:
+        """Return the function's value."""
+        return float(self.function(t, y))

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from law_axes import DOTS, GREY, make_axes
+from law_axes import DOTS, GREY, Falling, make_axes
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
@@ -70,11 +70,12 @@ def _by_direction(law: Any, title: str) -> Any:
     left.set_yticks([-0.5, 0.0, 0.5])
     rigid = {"normal": laws.Unilateral(), "impact": laws.EnergeticImpact(0.0), "friction": law}
     t_end, speed = 0.1, 0.5
+    rolls = Falling(lambda t, slip: np.linalg.norm(slip) - 0.01)
     for heading, look in ((0.5, "-"), (1.2, "--"), (2.6, ":")):
         start = speed * np.array([math.cos(heading), math.sin(heading)])
         right.plot(*_slips(_ball(rigid, t_end, start)), color="black", linestyle=look)
         found = solve_ivp(
-            lambda t, v: 3.5 * _G * _force(law, v), (0.0, t_end), start, events=_rolls, dense_output=True, rtol=1e-9
+            lambda t, v: 3.5 * _G * _force(law, v), (0.0, t_end), start, events=rolls, dense_output=True, rtol=1e-9
         )
         slip = found.sol(found.t[-1] * np.linspace(0.0, 1.0, 12))
         right.plot(*slip, label="integrated" if look == "-" else None, **DOTS)
@@ -84,13 +85,6 @@ def _by_direction(law: Any, title: str) -> Any:
     right.set_ylabel("across [m/s]")
     right.legend(frameon=False, fontsize=8)
     return figure
-
-
-def _rolls(t: float, slip: np.ndarray) -> float:
-    return float(np.linalg.norm(slip)) - 0.01
-
-
-_rolls.terminal = True  # type: ignore[attr-defined]
 
 
 def _slips(solution: ns.Solution) -> np.ndarray:
