@@ -10,6 +10,7 @@ from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
 from bodies.contacts.frustum_capsule import FrustumCapsule
+from bodies.contacts.frustum_frustum import FrustumFrustum
 from bodies.contacts.frustum_polyhedron import FrustumPolyhedron
 from bodies.contacts.frustum_smooth import FrustumSmooth
 from bodies.contacts.frustum_sphere import FrustumSphere
@@ -107,6 +108,7 @@ __all__ = [
     "FreeBody",
     "Frustum",
     "FrustumCapsule",
+    "FrustumFrustum",
     "FrustumPolyhedron",
     "FrustumSmooth",
     "FrustumSphere",

@@ -9,8 +9,8 @@ from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A
 from bodies.contacts.frustum import FLANK, center_in_world, write_part
-from bodies.contacts.frustum_edge import astray_of_edge, edge_in_frustum, past_end, write_crossing
-from bodies.contacts.polytope_tables import Numbers, edge_rows
+from bodies.contacts.frustum_edge import astray_of_edge, edge_in_frustum, overlap_at, past_end, write_crossing
+from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.smooth_core import axes_in_world, forth
 from bodies.shapes.frustum import COS, LOW, SIDE, SIN, Frustum
 from bodies.shapes.polyhedron import Polyhedron
@@ -19,7 +19,17 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 
-def _evaluate(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, radius: float, size: float) -> None:
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    edge: Floats,
+    radius: float,
+    n_faces: float,
+    faces: Floats,
+    size: float,
+) -> None:
     axes = axes_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
@@ -51,10 +61,15 @@ def _evaluate(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, 
     up = cosine * (pz - gap * nz - frustum[LOW]) - sine * (away - frustum[0])
     over = max(max(-s, s - edge[6]), max(-up, up - frustum[SIDE]))
     past = past_end(gap - radius, over, abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz), size)
-    if abs(ratio) > 1.0:
-        past = max(past, size)
+    if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
+        # no normal is across both
+        past, over = max(past, size), size
     qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
-    write_crossing(a, b, out, axes, edge, radius, gap - radius, past, nx, ny, nz, cx + qx, cy + qy, cz + qz)
+    overlap = 0.0
+    if past > 0.0:
+        overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, px, py, pz, cx, cy, cz)
+    qx, qy, qz = cx + qx, cy + qy, cz + qz
+    write_crossing(a, b, out, axes, edge, radius, gap - radius, past, nx, ny, nz, qx, qy, qz, overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, FLANK, axes[2], axes[5], axes[8], ux, uy, uz, cosine, max(away, 0.0))
 
@@ -72,6 +87,8 @@ class FlankEdge(ContactKinematics):
         The edge, as :data:`bodies.contacts.polytope_tables.EDGE` numbers.
     radius : float
         Radius about it [m].
+    faces : tuple of float
+        All faces of the second body; none where it is not a polyhedron.
     size : float
         Size of the bodies [m].
     name : str
@@ -83,6 +100,7 @@ class FlankEdge(ContactKinematics):
     frustum: Numbers
     edge: Numbers
     radius: float
+    faces: Numbers
     size: float
     name: str
 
@@ -95,11 +113,19 @@ class FlankEdge(ContactKinematics):
             return ()
         size = max(second.polytope.size, 2.0 * first.extent)
         rows = enumerate(edge_rows(second.polytope))
-        return tuple(cls(first.frustum, row, 0.0, size, f"edge {i}") for i, row in rows)
+        faces = face_table(second.polytope)
+        return tuple(cls(first.frustum, row, 0.0, faces, size, f"edge {i}") for i, row in rows)
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both."""
-        return {"frustum": self.frustum, "edge": self.edge, "radius": self.radius, "size": self.size}
+        return {
+            "frustum": self.frustum,
+            "edge": self.edge,
+            "radius": self.radius,
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces or (0.0,),
+            "size": self.size,
+        }
 
     @property
     def evaluator(self) -> Callable[..., None]:

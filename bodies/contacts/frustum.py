@@ -85,6 +85,13 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
 
 
 @compiled
+def least_height(frustum: Floats, height: float, cosine: float) -> float:
+    """Return the least height over a plane of a frustum whose centre and axis have this height and cosine."""
+    sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
+    return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
+
+
+@compiled
 def write_part(
     out: Floats,
     side: int,

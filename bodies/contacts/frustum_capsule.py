@@ -51,8 +51,8 @@ class FrustumCapsule(ContactKinematics):
         numbers, radius = first.frustum, second.radius
         row, size = segment_row(second), 2.0 * max(first.extent, second.extent)
         ends = (cls(numbers, radius, end) for end in second.ends)
-        flanks = [FlankEdge(numbers, row, radius, size, "segment")] if numbers[SIDE] > 0.0 else []
-        return tuple(itertools.chain(ends, flanks, RimEdge.of_rims(numbers, row, radius, size, "segment")))
+        flanks = [FlankEdge(numbers, row, radius, (), size, "segment")] if numbers[SIDE] > 0.0 else []
+        return tuple(itertools.chain(ends, flanks, RimEdge.of_rims(numbers, row, radius, (), size, "segment")))
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both."""

@@ -9,11 +9,13 @@ import math
 
 from bodies.contacts.curvature import SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
+from bodies.contacts.frustum import nearest_part
 from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.smooth_core import Axes, back, forth
 from bodies.contacts.tangents import write_tangent
-from bodies.contacts.vertex_face import REACH
+from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.capsule import Capsule
+from bodies.shapes.frustum import FEET
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -62,6 +64,39 @@ def past_end(gap: float, over: float, sine: float, astray: float, size: float) -
 
 
 @compiled
+def overlap_at(
+    b: Floats,
+    frustum: Floats,
+    axes: Axes,
+    n_faces: float,
+    faces: Floats,
+    radius: float,
+    over: float,
+    px: float,
+    py: float,
+    pz: float,
+    qx: float,
+    qy: float,
+    qz: float,
+    x: float,
+    y: float,
+    z: float,
+) -> float:
+    """Return how deep the points of a crossing are in the other bodies, negative, or 0 if they are past an end.
+
+    p is the frustum's point, in the world, q the edge's in the axes of the frustum, whose centre is (x, y, z).
+    """
+    if over > 0.0:
+        return 0.0
+    outside, _, _, _ = nearest_part(frustum, qz, math.sqrt(qx * qx + qy * qy))
+    outside -= radius
+    if n_faces > 0.0:
+        outside = min(outside, height_over(b, n_faces, faces, px + x, py + y, pz + z))
+    # rims are set back by the height of the feet over faces only
+    return float(min(outside + 2.0 * frustum[FEET], 0.0))
+
+
+@compiled
 def write_crossing(
     a: Floats,
     b: Floats,
@@ -77,10 +112,13 @@ def write_crossing(
     px: float,
     py: float,
     pz: float,
+    overlap: float,
+    size: float,
 ) -> None:
     """Write gap, axes, witness points and the matrices of the edge; p is the frustum's point in the world."""
     if past > 0.0:
-        gap = math.sqrt(gap * gap + past * past)
+        # what overlaps is no contact of this crossing, but a sign that another one was passed
+        gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.sqrt(gap * gap + past * past)
     out[0], out[29], out[30] = gap, 0.0, past
     out[1], out[2], out[3] = forth(axes, nx, ny, nz)
     out[7], out[8], out[9] = px, py, pz

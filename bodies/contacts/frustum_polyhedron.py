@@ -12,7 +12,7 @@ from bodies.contacts.across import across
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
 from bodies.contacts.flank_edge import FlankEdge
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.frustum import axis_in_world, center_in_world
+from bodies.contacts.frustum import axis_in_world, center_in_world, least_height
 from bodies.contacts.frustum_vertex import FrustumVertex
 from bodies.contacts.plane_rim import FLATTEST
 from bodies.contacts.polyhedron_polyhedron import MOST_CONTACTS
@@ -20,20 +20,13 @@ from bodies.contacts.polytope_tables import FACE, Numbers, face_table
 from bodies.contacts.rim_edge import RimEdge
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import DEEP, REACH, past_face, plane_height
-from bodies.shapes.frustum import HIGH, LOW, Frustum
+from bodies.shapes.frustum import Frustum
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
-
-
-@compiled
-def _least_height(frustum: Floats, height: float, cosine: float) -> float:
-    """Return the least height over a plane of a frustum whose centre and axis have this height and cosine."""
-    sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
-    return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
 
 
 @compiled
@@ -78,12 +71,12 @@ def _evaluate(
     for i in range(int(n_faces)):
         f = FACE * i
         cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
-        best = max(best, _least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine))
+        best = max(best, least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine))
     found, gap, past, deepest = 0, 0.0, 1e300, -1e300
     for i in range(int(n_faces)):
         f = FACE * i
         cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
-        least = _least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine)
+        least = least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine)
         if least < best - margin:
             continue
         nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])

@@ -11,7 +11,7 @@ from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.frustum import axis_in_world, center_in_world, nearest_part, part_names, part_number, write_part
 from bodies.contacts.offset import place_sphere
-from bodies.shapes.frustum import Frustum
+from bodies.shapes.frustum import FEET, Frustum
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -57,7 +57,9 @@ class FrustumSphere(ContactKinematics):
         """Return the single contact of the two."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Sphere)
-        return (cls(first.frustum, second),)
+        numbers = first.frustum
+        # spheres meet the faces as if there were no feet
+        return (cls((*numbers[:FEET], 0.0, *numbers[FEET + 1 :]), second),)
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the numbers of both."""

@@ -12,8 +12,8 @@ from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A
 from bodies.contacts.frustum import HIGH_RIM, LOW_RIM, center_in_world, write_part
-from bodies.contacts.frustum_edge import astray_of_edge, edge_in_frustum, past_end, write_crossing
-from bodies.contacts.polytope_tables import Numbers, edge_rows
+from bodies.contacts.frustum_edge import astray_of_edge, edge_in_frustum, overlap_at, past_end, write_crossing
+from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.smooth_core import axes_in_world, forth
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
 from bodies.shapes.polyhedron import Polyhedron
@@ -78,6 +78,8 @@ def _evaluate(
     half: float,
     edge: Floats,
     radius: float,
+    n_faces: float,
+    faces: Floats,
     size: float,
 ) -> None:
     axes = axes_in_world(a, frustum)
@@ -131,11 +133,17 @@ def _evaluate(
             astray, flip = off, sign
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = flip * ahead
-    past = past_end(gap - radius, max(-s, s - edge[6]), crossing, astray, size)
-    if none > 0.0 or (short > _STEEP and half < 0.0):
-        past = max(past, size)
+    over = max(-s, s - edge[6])
+    past = past_end(gap - radius, over, crossing, astray, size)
+    if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
+        past, over = max(past, size), size
     qx, qy, qz = forth(axes, px, py, pz)
-    write_crossing(a, b, out, axes, edge, radius, gap - radius, past, nx, ny, nz, cx + qx, cy + qy, cz + qz)
+    overlap = 0.0
+    if past > 0.0:
+        wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
+        overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, wx, wy, wz, cx, cy, cz)
+    qx, qy, qz = cx + qx, cy + qy, cz + qz
+    write_crossing(a, b, out, axes, edge, radius, gap - radius, past, nx, ny, nz, qx, qy, qz, overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, part, axes[2], axes[5], axes[8], ux, uy, uz, ex * nx + ey * ny, wide)
 
@@ -159,6 +167,8 @@ class RimEdge(ContactKinematics):
         The edge, as :data:`bodies.contacts.polytope_tables.EDGE` numbers.
     radius : float
         Radius about it [m].
+    faces : tuple of float
+        All faces of the second body; none where it is not a polyhedron.
     size : float
         Size of the bodies [m].
     name : str
@@ -172,6 +182,7 @@ class RimEdge(ContactKinematics):
     half: float
     edge: Numbers
     radius: float
+    faces: Numbers
     size: float
     name: str
 
@@ -180,18 +191,20 @@ class RimEdge(ContactKinematics):
         """Return the contacts of all rims and edges."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Polyhedron)
-        size = max(second.polytope.size, 2.0 * first.extent)
+        size, faces = max(second.polytope.size, 2.0 * first.extent), face_table(second.polytope)
         return tuple(
             contact
             for i, row in enumerate(edge_rows(second.polytope))
-            for contact in cls.of_rims(first.frustum, row, 0.0, size, f"edge {i}")
+            for contact in cls.of_rims(first.frustum, row, 0.0, faces, size, f"edge {i}")
         )
 
     @classmethod
-    def of_rims(cls, frustum: Numbers, edge: Numbers, radius: float, size: float, name: str) -> tuple[RimEdge, ...]:
+    def of_rims(
+        cls, frustum: Numbers, edge: Numbers, radius: float, faces: Numbers, size: float, name: str
+    ) -> tuple[RimEdge, ...]:
         """Return the contacts of both rims with one edge; a disc has one rim, and an apex is none."""
         rims = [LOW_RIM, HIGH_RIM] if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else [LOW_RIM]
-        return tuple(cls(frustum, rim, half, edge, radius, size, name) for rim in rims for half in (1.0, -1.0))
+        return tuple(cls(frustum, rim, half, edge, radius, faces, size, name) for rim in rims for half in (1.0, -1.0))
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both."""
@@ -201,6 +214,8 @@ class RimEdge(ContactKinematics):
             "half": self.half,
             "edge": self.edge,
             "radius": self.radius,
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces or (0.0,),
             "size": self.size,
         }
 

@@ -57,7 +57,7 @@ class Cone(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """The upper radius is 0."""
-        return frustum_numbers((self.radius, 0.0), (0.0, self.height), self._center, self._axis)
+        return frustum_numbers((self.radius, 0.0), (0.0, self.height), self._center, self._axis, self.foot_height)
 
     @property
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:

@@ -45,7 +45,7 @@ class Cylinder(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both radii are the same."""
-        return frustum_numbers(*self._profile)
+        return frustum_numbers(*self._profile, self.foot_height)
 
     @property
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:

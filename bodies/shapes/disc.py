@@ -51,7 +51,7 @@ class Disc(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both rims are the same."""
-        return frustum_numbers((self.radius, self.radius), (0.0, 0.0), self._center, self._axis)
+        return frustum_numbers((self.radius, self.radius), (0.0, 0.0), self._center, self._axis, self.foot_height)
 
     @property
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:

@@ -10,9 +10,9 @@ from nonsmooth.interfaces import ConvexShape
 from nonsmooth.vectors import perpendiculars
 
 Point = tuple[float, float, float]
-LOW, HIGH, SIDE, CENTER, AXIS, COS, SIN = 2, 3, 5, 6, 11, 18, 19
-"""Where in the numbers stand the heights of the rims, the length of the side, the centre, the axis (in steps of three)
-and the normal of the side."""
+LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN = 2, 3, 4, 5, 6, 11, 18, 19
+"""Where in the numbers stand the heights of the rims and of the feet, the length of the side, the centre, the axis (in
+steps of three) and the normal of the side."""
 
 
 class Frustum(ConvexShape):
@@ -34,13 +34,15 @@ class Frustum(ConvexShape):
         """Radius and centre in the body frame of the rims over flat faces [m], set back by the feet."""
 
 
-def frustum_numbers(radii: Sequence[float], heights: Sequence[float], center: Point, axis: Point) -> tuple[float, ...]:
+def frustum_numbers(
+    radii: Sequence[float], heights: Sequence[float], center: Point, axis: Point, foot_height: float
+) -> tuple[float, ...]:
     """Return the numbers by which evaluators know a frustum.
 
-    They are the radii of the lower and the upper rim [m], their heights over the centre along the axis [m], 0, the
-    length of the side from rim to rim [m], the centre in the body frame [m], the rotation from the frustum's axes to
-    those of the body, row by row, with the axis as the third column, and the outward normal of the side: across and
-    along the axis.
+    They are the radii of the lower and the upper rim [m], their heights over the centre along the axis [m], the height
+    of the feet [m], the length of the side from rim to rim [m], the centre in the body frame [m], the rotation from the
+    frustum's axes to those of the body, row by row, with the axis as the third column, and the outward normal of the
+    side: across and along the axis.
 
     Parameters
     ----------
@@ -50,6 +52,8 @@ def frustum_numbers(radii: Sequence[float], heights: Sequence[float], center: Po
         Of the lower and the upper rim over the centre [m].
     center, axis : tuple of float
         In the body frame [m and 1].
+    foot_height : float
+        By which rims are set back over flat faces [m].
     """
     (low, high), (below, above) = radii, heights
     side = math.hypot(low - high, above - below)
@@ -57,7 +61,7 @@ def frustum_numbers(radii: Sequence[float], heights: Sequence[float], center: Po
     norm = math.hypot(*axis)
     unit = tuple(x / norm for x in axis)
     rows = (value for row in zip(*perpendiculars(unit), unit, strict=True) for value in row)
-    return (low, high, below, above, 0.0, side, *center, *rows, *normal)
+    return (low, high, below, above, foot_height, side, *center, *rows, *normal)
 
 
 def rims_over_faces(

@@ -58,6 +58,15 @@ def _differences(rig: Rig, posed: PosedRound, u: Any, number: int) -> Any:
     return np.sum([weight * near[i] for i, weight in _WEIGHTS.items()], axis=0)
 
 
+def _stays(rig: Rig, posed: PosedRound, u: Any, number: int) -> bool:
+    """Whether a contact is the same one wherever the differences are taken."""
+    past = []
+    for i in range(-3, 4):
+        rig.put(posed.moved(u, i * _STEP), u)
+        past.append(rig.geometry[number, 30])
+    return bool(max(past) <= 0.0)
+
+
 @pytest.mark.parametrize("solid", POLYHEDRA)
 @pytest.mark.parametrize(("name", "part", "other"), KINDS)
 def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, part: str, other: str, solid: str) -> None:
@@ -139,13 +148,63 @@ def test_capsules_at_constructed_poses(build: Any, name: str, part: str, other: 
             (number,) = posed.found_in(blocks)
             past = blocks[:, 30] > 0.0
             assert np.min(blocks[~past, 0]) >= gap - 1e-15
-            assert np.all(blocks[past, 0] > 1e-10)
+            assert gap < 0.0 or np.all(blocks[past, 0] > 1e-10)
             if gap > 1e-2:
                 continue
             u = np.concatenate([rng.normal(size=3) * scale for scale in (0.02, 1.0, 0.02, 1.0)])
             rate, second_rate = _differences(rig, posed, u, number)
             assert rig.rate[number, 0] == pytest.approx(rate, rel=1e-8, abs=1e-10)
             assert rig.bias[number, 0] == pytest.approx(second_rate, rel=1e-6, abs=1e-7)
+
+
+BETWEEN = [
+    (one, part, two, other)
+    for one in ROUND
+    for two in ROUND
+    for part, other in (
+        ("rim", "cap"),
+        ("apex", "cap"),
+        ("cap", "rim"),
+        ("cap", "apex"),
+        ("side", "side"),
+        ("rim", "side"),
+        ("apex", "side"),
+        ("side", "rim"),
+        ("side", "apex"),
+        ("rim", "rim"),
+    )
+    if part in ROUND[one][1] and other in ROUND[two][1]
+]
+
+
+@pytest.mark.parametrize(("one", "part", "two", "other"), BETWEEN)
+def test_frustums_at_constructed_poses(build: Any, one: str, part: str, two: str, other: str) -> None:
+    """As above; and rates are derivatives."""
+    rng = np.random.default_rng(12)
+    for gap in GAPS:
+        for _ in range(3):
+            first, second = touch_round(rng, one, part), touch_round(rng, two, other)
+            tangents = tangent(first[0], part, first[2]), tangent(second[0], other, second[2])
+            posed = PosedRound(rng, first, second, tangents if part == other else (None, None), gap)
+            rig = Rig((first[0], second[0]), build.laws())
+            rig.put(posed.poses, np.zeros(12))
+            blocks = rig.geometry
+            found = posed.found_in(blocks)
+            # next to the line of centres both halves of rims see the same crossing
+            assert len(found) in ((1, 2) if part == other == "rim" else (1,))
+            if gap >= 0.0:
+                past = blocks[:, 30] > 0.0
+                assert np.min(blocks[~past, 0]) >= gap - 1e-15
+                assert np.min(blocks[past, 0]) > 1e-10
+            if gap > 1e-2 or gap < 0.0:
+                continue
+            u = np.concatenate([rng.normal(size=3) * scale for scale in (0.02, 1.0, 0.02, 1.0)])
+            if part == other == "rim" and not _stays(rig, posed, u, found[0]):
+                # the crossing goes over to the other half of the rim
+                continue
+            rate, second_rate = _differences(rig, posed, u, found[0])
+            assert rig.rate[found[0], 0] == pytest.approx(rate, rel=1e-8, abs=1e-10)
+            assert rig.bias[found[0], 0] == pytest.approx(second_rate, rel=1e-6, abs=1e-7)
 
 
 def test_too_many_edges_are_refused(build: Any) -> None:

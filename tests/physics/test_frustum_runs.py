@@ -56,6 +56,12 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
     "a box larger than the cap stands on its feet": (PILLAR, BoxBody(0.03, 0.032, 0.005), 0.005, UPRIGHT, 3),
     "a capsule lies on a cap": (PILLAR, CapsuleBody(0.005, 0.012), 0.005, LYING, 2),
     "a capsule lies across a cap": (PILLAR, CapsuleBody(0.005, 0.03), 0.005, LYING, 2),
+    "a cylinder stands on a cap": (PILLAR, CylinderBody(0.01, 0.02), 0.02, UPRIGHT, 3),
+    "a wide cylinder stands on a cap": (PILLAR, CylinderBody(0.04, 0.02), 0.02, UPRIGHT, 3),
+    "a cylinder lies on a cap": (PILLAR, CylinderBody(0.01, 0.015), 0.01, LYING, 2),
+    "a cylinder lies across a cap": (PILLAR, CylinderBody(0.01, 0.04), 0.01, LYING, 2),
+    "a cone stands on a cap": (PILLAR, ConeBody(0.01, 0.02), 0.005, UPRIGHT, 3),
+    "a disc lies on a cap": (PILLAR, DiscBody(0.01), 1e-6, UPRIGHT, 3),
     "a beam lies across a log": (LOG, BoxBody(0.005, 0.03, 0.005), 0.005, UPRIGHT, 2),
 }
 """Shape of the support, body, height of its origin over the support, orientation, contacts that hold it."""
@@ -68,7 +74,7 @@ def test_it_rests(name: str) -> None:
     stand = Stand((shape,))
     system = ns.System([stand, body])
     system.contact(stand, body, **_laws(Coulomb(0.3), 0.3))
-    system.place(body, position=(0.001, 0.0 if shape is LOG else 0.0015, height), orientation=orientation)
+    system.place(body, position=(0.001, 0.0 if shape is LOG else 0.0012, height), orientation=orientation)
     solution = ns.simulate(system, 0.2)
     assert solution.status == "done"
     assert np.count_nonzero(solution.events.after[-1]) == points
@@ -101,6 +107,11 @@ COLLIDING: dict[str, tuple[FreeBody, FreeBody]] = {
     "cylinder and capsule": (CylinderBody(0.03, 0.05), CapsuleBody(0.02, 0.04)),
     "cone and capsule": (ConeBody(0.04, 0.07), CapsuleBody(0.02, 0.04)),
     "disc and capsule": (DiscBody(0.05), CapsuleBody(0.02, 0.04)),
+    "cylinder and cylinder": (CylinderBody(0.03, 0.05), CylinderBody(0.04, 0.02)),
+    "cylinder and cone": (CylinderBody(0.03, 0.05), ConeBody(0.04, 0.07)),
+    "cone and cone": (ConeBody(0.03, 0.05), ConeBody(0.04, 0.07)),
+    "disc and cylinder": (DiscBody(0.05), CylinderBody(0.03, 0.05)),
+    "disc and disc": (DiscBody(0.05), DiscBody(0.06)),
     "cylinder and ellipsoid": (CylinderBody(0.03, 0.05), EllipsoidBody(0.03, 0.04, 0.05)),
     "cone and superellipsoid": (ConeBody(0.04, 0.07), SuperellipsoidBody(0.03, 0.04, 0.05, 1.3, 1.2)),
     "disc and ellipsoid": (DiscBody(0.05), EllipsoidBody(0.02, 0.02, 0.03)),
