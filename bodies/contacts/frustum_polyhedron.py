@@ -96,7 +96,7 @@ def _evaluate(
     if past > 0.0:
         if deepest < -DEEP * size:
             # inside of the body: no contact of its own, but a sign that they overlap
-            gap, past = deepest, deepest
+            gap = deepest
         else:
             gap = math.sqrt(gap * gap + past * past)
     f = FACE * found
