@@ -94,11 +94,8 @@ def _evaluate(
         if beyond < past:
             found, gap, past, deepest = i, height, beyond, highest
     if past > 0.0:
-        if deepest < -DEEP * size:
-            # inside of the body: no contact of its own, but a sign that they overlap
-            gap = deepest
-        else:
-            gap = math.sqrt(gap * gap + past * past)
+        # inside of the body it is no contact of its own, but a sign that they overlap
+        gap = deepest if deepest < -DEEP * size else math.sqrt(gap * gap + past * past)
     f = FACE * found
     nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
     px, py, pz, ex, ey, ez, sine = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
