@@ -14,6 +14,11 @@ from bodies.contacts.frustum_frustum import FrustumFrustum
 from bodies.contacts.frustum_polyhedron import FrustumPolyhedron
 from bodies.contacts.frustum_smooth import FrustumSmooth
 from bodies.contacts.frustum_sphere import FrustumSphere
+from bodies.contacts.mesh_capsule import MeshCapsule
+from bodies.contacts.mesh_mesh import MeshMesh, MeshPolyhedron
+from bodies.contacts.mesh_point import MeshPoint
+from bodies.contacts.mesh_smooth import MeshSmooth
+from bodies.contacts.mesh_sphere import MeshSphere
 from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
@@ -29,6 +34,7 @@ from bodies.contacts.polyhedron_smooth import PolyhedronSmooth
 from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.smooth_smooth import SmoothSmooth
 from bodies.contacts.sphere_sphere import SphereSphere
+from bodies.contacts.swept_swept import SweptSwept
 from bodies.cylinder_body import CylinderBody
 from bodies.disc_body import DiscBody
 from bodies.driven_body import DrivenBody
@@ -67,12 +73,15 @@ from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
 from bodies.shapes.frustum import Frustum
+from bodies.shapes.ground import Ground
+from bodies.shapes.half_space import HalfSpace
 from bodies.shapes.hull import ConvexHull
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.superellipsoid_body import SuperellipsoidBody
 
@@ -115,12 +124,20 @@ __all__ = [
     "FunctionLoad",
     "FunctionMotion",
     "GeneralisedBody",
+    "Ground",
+    "HalfSpace",
     "Harmonic",
     "Hinge",
     "HullBody",
     "LineBody",
     "MeshBody",
+    "MeshCapsule",
     "MeshFile",
+    "MeshMesh",
+    "MeshPoint",
+    "MeshPolyhedron",
+    "MeshSmooth",
+    "MeshSphere",
     "Part",
     "PlanarBody",
     "Plane",
@@ -151,6 +168,8 @@ __all__ = [
     "Spring",
     "Superellipsoid",
     "SuperellipsoidBody",
+    "SweptPolytope",
+    "SweptSwept",
     "Table",
     "TorsionSpring",
     "TriangleMesh",

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
+import numpy as np
+
 from bodies.free import FreeBody
 from bodies.inertia import check_mass, mass_of
-from bodies.shapes.box import Box
+from bodies.shapes.box import Box, check_rounding
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 
@@ -15,7 +17,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class BoxBody(FreeBody):
-    """A free solid box with its edges along the body axes.
+    """A free solid box with its edges, sharp or rounded, along the body axes.
 
     Attributes
     ----------
@@ -25,6 +27,8 @@ class BoxBody(FreeBody):
         Half-length along the second axis [m].
     half_z : float
         Half-length along the third axis [m].
+    rounding : float
+        Radius of its edges and vertices [m]; the half-lengths are those of the whole.
     density : float, optional
         Density [kg/m^3]; steel, 7800, where no mass is given.
     mass : float, optional
@@ -33,7 +37,7 @@ class BoxBody(FreeBody):
     Raises
     ------
     InvalidInput
-        If a size is not positive, or both mass and density are given.
+        If a size is not positive, the rounding leaves no core, or both mass and density are given.
     """
 
     half_x: float = parameter(doc="half-length along the first axis", unit="m", above=0.0, usual=(1e-5, 10.0))
@@ -43,22 +47,32 @@ class BoxBody(FreeBody):
         None, doc="density; 7800 without a mass", unit="kg/m^3", above=0.0, usual=(10.0, 3e4)
     )
     mass: float | None = parameter(None, doc="mass, instead of the density", unit="kg", above=0.0)
+    rounding: float = parameter(0.0, doc="radius of its edges and vertices", unit="m", minimum=0.0)
 
     def _check(self) -> None:
         check_mass("BoxBody", self.mass, self.density)
+        check_rounding("BoxBody", (self.half_x, self.half_y, self.half_z), self.rounding)
+
+    @property
+    def _box(self) -> Box:
+        return Box(self.half_x, self.half_y, self.half_z, rounding=self.rounding)
 
     @property
     def total_mass(self) -> float:
-        """As given, or density times 8 a b c [kg]."""
-        return mass_of(self.mass, self.density, 8.0 * self.half_x * self.half_y * self.half_z)
+        """As given, or density times volume, 8 a b c of a sharp one [kg]."""
+        return mass_of(self.mass, self.density, self._box.volume)
 
     @property
     def inertia(self) -> tuple[float, float, float]:
-        """Moments m (b^2 + c^2) / 3 and so on [kg m^2]."""
+        """Moments m (b^2 + c^2) / 3 and so on [kg m^2]; of a rounded one, piece by piece."""
+        if self.rounding > 0.0:
+            box = self._box
+            moments = (self.total_mass / box.volume * np.diag(box.inertia)).tolist()
+            return moments[0], moments[1], moments[2]
         third, x, y, z = self.total_mass / 3.0, self.half_x**2, self.half_y**2, self.half_z**2
         return third * (y + z), third * (z + x), third * (x + y)
 
     @property
     def shapes(self) -> tuple[Shape, ...]:
         """The box about the mass centre."""
-        return (Box(self.half_x, self.half_y, self.half_z),)
+        return (self._box,)

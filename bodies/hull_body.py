@@ -31,6 +31,8 @@ class HullBody(FreeBody):
         Density [kg/m^3]; steel, 7800, where no mass is given.
     mass : float, optional
         Mass [kg], instead of the density.
+    rounding : float
+        Radius of the sphere that sweeps the hull [m]: the faces stand out by it.
 
     Raises
     ------
@@ -43,6 +45,7 @@ class HullBody(FreeBody):
         None, doc="density; 7800 without a mass", unit="kg/m^3", above=0.0, usual=(10.0, 3e4)
     )
     mass: float | None = parameter(None, doc="mass, instead of the density", unit="kg", above=0.0)
+    rounding: float = parameter(0.0, doc="radius of the sphere that sweeps the hull", unit="m", minimum=0.0)
     _hull: ConvexHull = field(init=False, repr=False, compare=False)
     _tensor: Any = field(init=False, repr=False, compare=False)
 
@@ -53,10 +56,10 @@ class HullBody(FreeBody):
 
     def _check(self) -> None:
         check_mass("HullBody", self.mass, self.density)
-        given = ConvexHull(self.points)
+        given = ConvexHull(self.points, rounding=self.rounding)
         object.__setattr__(self, "points", given.points)
         centered = np.array(given.points) - given.centroid
-        object.__setattr__(self, "_hull", ConvexHull(centered.tolist()))
+        object.__setattr__(self, "_hull", ConvexHull(centered.tolist(), rounding=self.rounding))
         tensor = self.total_mass / self._hull.volume * self._hull.inertia
         # what is left of products that cancel is round-off; without it principal axes stay principal
         clean = np.where(np.abs(tensor) > 1e-14 * np.max(tensor), tensor, 0.0)
@@ -65,7 +68,7 @@ class HullBody(FreeBody):
     @property
     def centre(self) -> Vector:
         """The mass centre, from the origin in which the points are given [m]."""
-        return ConvexHull(self.points).centroid
+        return ConvexHull(self.points, rounding=self.rounding).centroid
 
     @property
     def total_mass(self) -> float:
@@ -74,7 +77,7 @@ class HullBody(FreeBody):
 
     @property
     def inertia(self) -> tuple[float, float, float]:
-        """By the tetrahedra of its faces [kg m^2]."""
+        """By the tetrahedra of its faces; of a rounded one, piece by piece [kg m^2]."""
         return self._tensor[0][0], self._tensor[1][1], self._tensor[2][2]
 
     @property

@@ -40,7 +40,7 @@ class MeshBody(FreeBody):
     mass : float, optional
         Mass [kg], instead of the density.
     decomposition : Decomposition, optional
-        How to cut a surface that is not convex into convex pieces.  Without one it touches planes only, exactly.
+        How to cut a surface that is not convex into convex pieces.  Without one it touches as it is.
 
     Raises
     ------
@@ -126,6 +126,6 @@ class MeshBody(FreeBody):
     def shapes(self) -> tuple[Shape, ...]:
         """The convex hull of a convex mesh, the pieces of one that is cut, else the mesh itself.
 
-        A convex mesh with more corners than a hull may have stays a mesh: it touches planes only.
+        A convex mesh with more corners than a hull may have stays a mesh.
         """
         return self._shapes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
+_FINENESS = 24
 _LIGHT = np.array([0.3, -0.5, 0.81])
 
 
@@ -45,14 +46,26 @@ def draw_solids(
     order = np.argsort(poses[:, :3] @ towards)
     for i in order:
         axes = rotation(poses[i, 3:])
-        polytope = solids[i].polytope
-        corners = np.array(polytope.vertices) @ axes.T + poses[i, :3]
-        for face, plane in zip(polytope.faces, polytope.planes, strict=True):
-            normal = axes @ np.array(plane[:3])
+        for corners, outward, is_face in _parts(solids[i]):
+            normal = axes @ outward
             if normal @ towards > 0.0:
-                seen = 1e3 * corners[list(face)] @ np.column_stack([across, up])
+                seen = 1e3 * (corners @ axes.T + poses[i, :3]) @ np.column_stack([across, up])
                 light = 0.55 + 0.45 * max(float(normal @ _LIGHT), 0.0)
                 colour = tuple(light * c for c in to_rgb(shades[i]))
-                axis.add_patch(Polygon(seen, facecolor=colour, edgecolor="black", linewidth=0.6))
+                line = "black" if is_face and solids[i].rounding == 0.0 else colour
+                axis.add_patch(Polygon(seen, facecolor=colour, edgecolor=line, linewidth=0.6))
     axis.set_aspect("equal")
     axis.autoscale_view()
+
+
+def _parts(solid: Polyhedron) -> Iterator[tuple[Floats, Floats, bool]]:
+    """Return corners, outward normal, and whether it is a face, of flat pieces; small ones stand for what is round."""
+    core = solid.core
+    for face, plane in zip(core.faces, core.planes, strict=True):
+        normal = np.array(plane[:3])
+        yield np.array(core.vertices)[list(face)] + solid.rounding * normal, normal, True
+    if solid.rounding > 0.0:
+        vertices, triangles = solid.drawing(_FINENESS)
+        for corners in vertices[triangles[sum(len(face) - 2 for face in core.faces) :]]:
+            normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+            yield corners, normal / np.linalg.norm(normal), False

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from bodies.distances.placing import Made, Makers, along, centre, triangles, turn
+from bodies.distances.placing import Made, Makers, along, centre, sharp, triangles, turn
 from bodies.shapes.box import Box
 from bodies.shapes.capsule import Capsule
 from bodies.shapes.cylinder import Cylinder
@@ -23,6 +23,7 @@ def _sphere(shape: Any) -> Made:
 
 
 def _box(shape: Any) -> Made:
+    sharp("coal", shape)
     import coal
 
     return coal.Box(2.0 * np.array([shape.half_x, shape.half_y, shape.half_z])), centre(shape), turn(shape)
@@ -47,6 +48,7 @@ def _ellipsoid(shape: Any) -> Made:
 
 
 def _hull(shape: Any) -> Made:
+    sharp("coal", shape)
     import coal
 
     return coal.Convex(*_lists(shape)), np.zeros(3), np.eye(3)

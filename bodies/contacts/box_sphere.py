@@ -1,4 +1,4 @@
-"""A sphere against a box, in closed form."""
+"""A sphere against a box, sharp or rounded, in closed form."""
 
 from __future__ import annotations
 
@@ -50,6 +50,7 @@ def _evaluate(
     orientation_x_a: float,
     orientation_y_a: float,
     orientation_z_a: float,
+    rounding_a: float,
     radius_b: float,
     x_b: float,
     y_b: float,
@@ -84,18 +85,18 @@ def _evaluate(
         nx, ny, nz = nx / distance, ny / distance, nz / distance
     nx, ny, nz = turned_by(orientation_w_a, orientation_x_a, orientation_y_a, orientation_z_a, nx, ny, nz)
     out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
-    place_sphere(a, out, center_x, center_y, center_z, distance, radius_b)
+    place_sphere(a, out, center_x, center_y, center_z, distance - rounding_a, radius_b)
     sides = abs(side_x) + abs(side_y) + abs(side_z)
     if sides == 1:
         write_flat(out, SIDE_A)
     elif sides == 3:
-        write_round(out, SIDE_A, 0.0)
+        write_round(out, SIDE_A, rounding_a)
     else:
         # an edge lies along the axis that it does not bound
         ex, ey, ez = 1.0 - abs(side_x), 1.0 - abs(side_y), 1.0 - abs(side_z)
         ex, ey, ez = turned_by(orientation_w_a, orientation_x_a, orientation_y_a, orientation_z_a, ex, ey, ez)
         ex, ey, ez = vector_in_world(a, ex, ey, ez)
-        write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
+        write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, rounding_a)
     write_round(out, SIDE_B, radius_b)
     number = 9 * (side_x + 1) + 3 * (side_y + 1) + side_z + 1
     out[29] = number - 1 if number > 13 else number
@@ -108,9 +109,11 @@ class BoxSphere(ContactKinematics):
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Box, Sphere)
 
-    half_x_a: float = parameter(doc="half-length of the box along its first axis", unit="m", above=0.0)
-    half_y_a: float = parameter(doc="half-length of the box along its second axis", unit="m", above=0.0)
-    half_z_a: float = parameter(doc="half-length of the box along its third axis", unit="m", above=0.0)
+    half_x_a: float = parameter(
+        doc="half-length of the box without its rounding along its first axis", unit="m", above=0.0
+    )
+    half_y_a: float = parameter(doc="the same along its second axis", unit="m", above=0.0)
+    half_z_a: float = parameter(doc="the same along its third axis", unit="m", above=0.0)
     x_a: float = parameter(doc="its centre in its body frame, first coordinate", unit="m")
     y_a: float = parameter(doc="its centre in its body frame, second coordinate", unit="m")
     z_a: float = parameter(doc="its centre in its body frame, third coordinate", unit="m")
@@ -118,6 +121,7 @@ class BoxSphere(ContactKinematics):
     orientation_x_a: float = parameter(doc="quaternion, first component")
     orientation_y_a: float = parameter(doc="quaternion, second component")
     orientation_z_a: float = parameter(doc="quaternion, third component")
+    rounding_a: float = parameter(doc="its rounding", unit="m", minimum=0.0)
     radius_b: float = parameter(doc="radius of the sphere", unit="m", above=0.0)
     x_b: float = parameter(doc="its centre in its body frame, first coordinate", unit="m")
     y_b: float = parameter(doc="its centre in its body frame, second coordinate", unit="m")
@@ -126,7 +130,9 @@ class BoxSphere(ContactKinematics):
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[BoxSphere, ...]:
         """Return the single contact of a box and a sphere."""
-        return (cls(**by_side(first, second)),)
+        assert isinstance(first, Box)
+        core = {f"half_{axis}_a": half for axis, half in zip("xyz", first.core_sizes, strict=True)}
+        return (cls(**{**by_side(first, second), **core}),)
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -15,9 +15,9 @@ from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_wor
 from bodies.contacts.frustum import axis_in_world, center_in_world, least_height
 from bodies.contacts.frustum_vertex import FrustumVertex
 from bodies.contacts.plane_rim import FLATTEST
-from bodies.contacts.polyhedron_polyhedron import MOST_CONTACTS
 from bodies.contacts.polytope_tables import FACE, Numbers, face_table
 from bodies.contacts.rim_edge import RimEdge
+from bodies.contacts.swept_swept import MOST_CONTACTS
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import DEEP, REACH, past_face, plane_height
 from bodies.shapes.frustum import Frustum

@@ -8,7 +8,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.plane_point import evaluate_ball_over_plane
 from bodies.shapes.box import Box
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 
@@ -16,25 +16,24 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class PlaneBox(ContactKinematics):
-    """One vertex of a box over a plane; a box has eight such contacts."""
+    """One vertex of a box, with its rounding, over a plane; a box has eight such contacts."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Box)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Box)
 
     x: float = parameter(doc="vertex in its body frame, first coordinate", unit="m")
     y: float = parameter(doc="vertex in its body frame, second coordinate", unit="m")
     z: float = parameter(doc="vertex in its body frame, third coordinate", unit="m")
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
-
-    def parameters(self) -> dict[str, float]:
-        """Return the numbers given, and a radius of 0: a vertex is the smallest ball."""
-        return {"radius": 0.0, **self.numbers()}
+    radius: float = parameter(
+        0.0, doc="rounding of the vertex; a sharp one is the smallest ball", unit="m", minimum=0.0
+    )
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PlaneBox, ...]:
         """Return the contacts of the eight vertices."""
         assert isinstance(second, Box)
         height = first.parameters()["height"]
-        return tuple(cls(*vertex, height) for vertex in second.vertices)
+        return tuple(cls(*vertex, height, second.rounding) for vertex in second.vertices)
 
     @property
     def evaluator(self) -> Callable[..., None]:

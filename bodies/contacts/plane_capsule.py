@@ -8,7 +8,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.plane_point import evaluate_ball_over_plane
 from bodies.shapes.capsule import Capsule
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 
@@ -18,7 +18,7 @@ from nonsmooth.parameters import parameter
 class PlaneCapsule(ContactKinematics):
     """One end sphere of a capsule over a plane; a capsule has two such contacts, which hold it when it lies."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Capsule)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Capsule)
 
     radius: float = parameter(doc="radius of the end sphere", unit="m", above=0.0)
     x: float = parameter(doc="its centre in its body frame, first coordinate", unit="m")

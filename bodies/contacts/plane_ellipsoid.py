@@ -11,7 +11,7 @@ from bodies.contacts.curvature import SIDE_B
 from bodies.contacts.frames import point_in_world, turned_by, vector_in_body
 from bodies.contacts.plane_point import place_over_plane
 from bodies.shapes.ellipsoid import Ellipsoid
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -60,7 +60,7 @@ def _evaluate(
 class PlaneEllipsoid(ContactKinematics):
     """The point of an ellipsoid that a plane supports."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Ellipsoid)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Ellipsoid)
 
     semi_x: float = parameter(doc="first semi-axis", unit="m", above=0.0)
     semi_y: float = parameter(doc="second semi-axis", unit="m", above=0.0)

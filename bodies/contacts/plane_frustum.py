@@ -9,7 +9,7 @@ from typing import ClassVar, final
 from bodies.contacts.plane_rim import evaluate_rim_over_plane
 from bodies.contacts.plane_vertex import PlaneVertex
 from bodies.shapes.frustum import AXIS, Frustum
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 
@@ -23,7 +23,7 @@ class PlaneFrustum(ContactKinematics):
     numbers stay finite, but a single contact cannot hold it.  Its feet can, each a contact of its own.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Frustum)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Frustum)
 
     radius: float = parameter(doc="radius of the rim", unit="m", above=0.0)
     x: float = parameter(doc="its centre in its body frame, first coordinate", unit="m")

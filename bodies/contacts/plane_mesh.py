@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.plane_point import evaluate_ball_over_plane
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import UnusualValue, parameter
@@ -25,7 +25,7 @@ class PlaneMesh(ContactKinematics):
     That is exact for any mesh, convex or not: no other point of it comes nearer to a plane.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, TriangleMesh)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, TriangleMesh)
 
     x: float = parameter(doc="corner in its body frame, first coordinate", unit="m")
     y: float = parameter(doc="corner in its body frame, second coordinate", unit="m")

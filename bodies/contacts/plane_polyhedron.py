@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.plane_point import evaluate_ball_over_plane
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
@@ -16,25 +16,24 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class PlanePolyhedron(ContactKinematics):
-    """One vertex of a polyhedron over a plane; it has as many such contacts as vertices."""
+    """One vertex of a polyhedron, with its rounding, over a plane; it has as many such contacts as vertices."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Polyhedron)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Polyhedron)
 
     x: float = parameter(doc="vertex in its body frame, first coordinate", unit="m")
     y: float = parameter(doc="vertex in its body frame, second coordinate", unit="m")
     z: float = parameter(doc="vertex in its body frame, third coordinate", unit="m")
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
-
-    def parameters(self) -> dict[str, float]:
-        """Return the numbers given, and a radius of 0: a vertex is the smallest ball."""
-        return {"radius": 0.0, **self.numbers()}
+    radius: float = parameter(
+        0.0, doc="rounding of the vertex; a sharp one is the smallest ball", unit="m", minimum=0.0
+    )
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PlanePolyhedron, ...]:
         """Return the contacts of all vertices."""
         assert isinstance(second, Polyhedron)
         height = first.parameters()["height"]
-        return tuple(cls(*vertex, height) for vertex in second.polytope.vertices)
+        return tuple(cls(*vertex, height, second.rounding) for vertex in second.core.vertices)
 
     @property
     def evaluator(self) -> Callable[..., None]:

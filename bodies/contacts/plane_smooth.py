@@ -10,7 +10,7 @@ from bodies.contacts.curvature import SIDE_B
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.plane_point import place_over_plane
 from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, forth, write_core
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import support_of
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -36,21 +36,21 @@ class PlaneSmooth(ContactKinematics):
 
     Attributes
     ----------
-    first : Plane
+    first : Ground
         The plane.
     second : SmoothShape
         The smooth body.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, SmoothShape)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, SmoothShape)
 
-    first: Plane
+    first: Ground
     second: SmoothShape
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PlaneSmooth, ...]:
         """Return the single contact of a plane and a smooth shape."""
-        assert isinstance(first, Plane)
+        assert isinstance(first, Ground)
         assert isinstance(second, SmoothShape)
         return (cls(first, second),)
 

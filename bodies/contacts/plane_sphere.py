@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.plane_point import evaluate_ball_over_plane
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
@@ -18,7 +18,7 @@ from nonsmooth.parameters import parameter
 class PlaneSphere(ContactKinematics):
     """One contact, Eqs. (8)-(13): the first body carries the plane, the second the sphere."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Sphere)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Sphere)
 
     radius: float = parameter(doc="radius of the sphere", unit="m", above=0.0)
     x: float = parameter(doc="centre in its body frame, first coordinate", unit="m")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.plane_point import evaluate_ball_over_plane
-from bodies.shapes.plane import Plane
+from bodies.shapes.ground import Ground
 from bodies.shapes.point import Point
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
@@ -18,7 +18,7 @@ from nonsmooth.parameters import parameter
 class PlaneVertex(ContactKinematics):
     """One contact: the first body carries the plane, the second the point."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Plane, Point)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Point)
 
     x: float = parameter(doc="point in its body frame, first coordinate", unit="m")
     y: float = parameter(doc="point in its body frame, second coordinate", unit="m")

@@ -8,15 +8,24 @@ from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
+from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.polytope_tables import FACE, Numbers, face_table, vertex_table
-from bodies.contacts.tangents import write_tangent
+from bodies.contacts.tangents import tangent_of
 from bodies.contacts.vertex_face import nearest_face
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.polytope import Polytope
+from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+
+@compiled
+def _write_face_tangent(frame: Floats, out: Floats, faces: Floats, f: int) -> None:
+    """Write the first tangent of a face, fixed to its body."""
+    x, y, z = tangent_of(faces[f], faces[f + 1], faces[f + 2])
+    out[4], out[5], out[6] = vector_in_world(frame, x, y, z)
 
 
 def _evaluate(
@@ -37,7 +46,7 @@ def _evaluate(
     out[10], out[11], out[12] = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
     for i in range(3):
         out[7 + i] = out[10 + i] - gap * out[1 + i]
-    write_tangent(a, out)
+    _write_face_tangent(a, out, faces, f)
     write_flat(out, SIDE_A)
     write_round(out, SIDE_B, 0.0)
 
@@ -60,7 +69,7 @@ def _evaluate_reversed(
     out[7], out[8], out[9] = point_in_world(a, vertices[v], vertices[v + 1], vertices[v + 2])
     for i in range(3):
         out[10 + i] = out[7 + i] + gap * out[1 + i]
-    write_tangent(a, out)
+    _write_face_tangent(b, out, faces, f)
     write_round(out, SIDE_A, 0.0)
     write_flat(out, SIDE_B)
 
@@ -108,11 +117,13 @@ class PolyhedronPoint(ContactKinematics):
         return self.tables.values()
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[PolyhedronPoint, ...]:
-        """Return the single contact of a polyhedron and a point."""
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the single contact of a polyhedron and a point, which for a rounded one is the smallest ball."""
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Point)
-        own = first.polytope
+        if first.rounding > 0.0:
+            return (PolyhedronSphere.of_ball(first, (second.x, second.y, second.z), 0.0),)
+        own = first.core
         return (cls(_Tables(face_table(own), (second.x, second.y, second.z), 0, own.size)),)
 
     @classmethod
@@ -151,8 +162,11 @@ class PointPolyhedron(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PointPolyhedron, ...]:
-        """Return the single contact of a point and a polyhedron."""
-        return tuple(cls(other.tables) for other in PolyhedronPoint.between(second, first))
+        """Return the single contact of a point and a sharp polyhedron."""
+        assert isinstance(first, Point)
+        assert isinstance(second, Polyhedron)
+        own = second.polytope
+        return (cls(_Tables(face_table(own), (first.x, first.y, first.z), 0, own.size)),)
 
     @classmethod
     def of_vertices(cls, first: Polytope, second: Polytope) -> tuple[PointPolyhedron, ...]:

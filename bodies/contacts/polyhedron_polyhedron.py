@@ -12,7 +12,8 @@ from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polyhedron_point import PointPolyhedron, PolyhedronPoint
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
-from bodies.contacts.tangents import tangent_of, write_tangent
+from bodies.contacts.swept_swept import MOST_CONTACTS, SweptSwept
+from bodies.contacts.tangents import tangent_of
 from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
@@ -21,8 +22,6 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-MOST_CONTACTS = 4000
-"""Two polyhedra with more potential contacts are refused."""
 _PARALLEL = 0.01
 """Sine of the angle between two edges below which they do not cross; then the faces' vertices hold all the same."""
 _ASTRAY = 0.25
@@ -116,7 +115,8 @@ def _evaluate(
     out[7], out[8], out[9] = ax + s * ex, ay + s * ey, az + s * ez
     for i in range(3):
         out[10 + i] = out[7 + i] + gap * out[1 + i]
-    write_tangent(a, out)
+    # fixed to a body even where the edge lies in a face and the normal is that of the face but for round-off
+    out[4], out[5], out[6] = ex, ey, ez
     write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)
 
@@ -171,10 +171,15 @@ class PolyhedronPolyhedron(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the pairs of edges, then the vertices of the second, then those of the first."""
+        """Return the pairs of edges, then the vertices of the second, then those of the first.
+
+        Where one of the two is rounded, they are those of :class:`bodies.SweptSwept`.
+        """
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Polyhedron)
-        one, two = first.polytope, second.polytope
+        if first.rounding > 0.0 or second.rounding > 0.0:
+            return SweptSwept.between(first, second)
+        one, two = first.core, second.core
         size = max(one.size, two.size)
         n = len(one.edges) * len(two.edges) + len(one.vertices) + len(two.vertices)
         if n > MOST_CONTACTS:

@@ -41,7 +41,7 @@ class PolyhedronSmooth(ContactKinematics):
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the parts of the polyhedron and the numbers of the support function."""
-        return {"first": polyhedron_numbers(self.first.polytope), "second": self.second.core}
+        return {"first": polyhedron_numbers(self.first.core, self.first.rounding), "second": self.second.core}
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -51,6 +51,6 @@ class PolyhedronSmooth(ContactKinematics):
     @property
     def features(self) -> tuple[str, ...]:
         """Faces, edges and vertices."""
-        polytope = self.first.polytope
+        polytope = self.first.core
         parts = (("face", polytope.faces), ("edge", polytope.edges), ("vertex", polytope.vertices))
         return tuple(f"{kind} {i} and smooth" for kind, part in parts for i in range(len(part)))

@@ -1,56 +1,23 @@
-"""A sphere against a polyhedron, in closed form."""
+"""A sphere against a polyhedron, sharp or rounded, in closed form."""
 
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.offset import place_sphere
-from bodies.contacts.polytope_tables import EDGE, FACE, Numbers, edge_rows, face_table
-from bodies.contacts.vertex_face import past_face, plane_height
+from bodies.contacts.nearest import nearest_feature
+from bodies.contacts.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
+from bodies.contacts.swept_side import write_swept
+from bodies.contacts.tangents import write_tangent
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
-from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
-
-
-@compiled
-def _nearest_face(faces: Floats, n_faces: float, x: float, y: float, z: float) -> tuple[int, float]:
-    """Return the face that is nearest to a point and its height over it, or -1 where an edge or a vertex is."""
-    highest, best = -1e300, 0
-    for i in range(int(n_faces)):
-        height = plane_height(faces, FACE * i, x, y, z)
-        if height > highest:
-            best, highest = i, height
-    if highest <= 0.0:
-        return best, highest
-    for i in range(int(n_faces)):
-        height = plane_height(faces, FACE * i, x, y, z)
-        if height > 0.0 and past_face(faces, n_faces, FACE * i, height, x, y, z) <= 0.0:
-            return i, height
-    return -1, 0.0
-
-
-@compiled
-def _nearest_edge(edges: Floats, n_edges: float, x: float, y: float, z: float) -> tuple[int, float]:
-    """Return the edge that is nearest to a point, and where on it the nearest point is [m]."""
-    least, best, place = 1e300, 0, 0.0
-    for i in range(int(n_edges)):
-        e = EDGE * i
-        wx, wy, wz = x - edges[e], y - edges[e + 1], z - edges[e + 2]
-        along = min(max(wx * edges[e + 3] + wy * edges[e + 4] + wz * edges[e + 5], 0.0), edges[e + 6])
-        wx, wy, wz = wx - along * edges[e + 3], wy - along * edges[e + 4], wz - along * edges[e + 5]
-        square = wx * wx + wy * wy + wz * wz
-        if square < least:
-            least, best, place = square, i, along
-    return best, place
 
 
 def _evaluate(
@@ -62,6 +29,7 @@ def _evaluate(
     n_edges: float,
     edges: Floats,
     ends: Floats,
+    rounding: float,
     radius: float,
     x_b: float,
     y_b: float,
@@ -69,29 +37,15 @@ def _evaluate(
 ) -> None:
     center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
-    face, distance = _nearest_face(faces, n_faces, x, y, z)
-    if face >= 0:
-        f = FACE * face
-        out[1], out[2], out[3] = vector_in_world(a, faces[f], faces[f + 1], faces[f + 2])
-        place_sphere(a, out, center_x, center_y, center_z, distance, radius)
-        write_flat(out, SIDE_A)
-        out[29] = float(face)
-    else:
-        edge, along = _nearest_edge(edges, n_edges, x, y, z)
-        e = EDGE * edge
-        nx = x - edges[e] - along * edges[e + 3]
-        ny = y - edges[e + 1] - along * edges[e + 4]
-        nz = z - edges[e + 2] - along * edges[e + 5]
-        distance = math.sqrt(nx * nx + ny * ny + nz * nz)
-        out[1], out[2], out[3] = vector_in_world(a, nx / distance, ny / distance, nz / distance)
-        place_sphere(a, out, center_x, center_y, center_z, distance, radius)
-        if 0.0 < along < edges[e + 6]:
-            ex, ey, ez = vector_in_world(a, edges[e + 3], edges[e + 4], edges[e + 5])
-            write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
-            out[29] = n_faces + edge
-        else:
-            write_round(out, SIDE_A, 0.0)
-            out[29] = n_faces + n_edges + (ends[2 * edge] if along == 0.0 else ends[2 * edge + 1])
+    number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    nx, ny, nz = vector_in_world(a, nx, ny, nz)
+    off = distance - rounding
+    out[0], out[29] = off - radius, number
+    out[1], out[2], out[3] = nx, ny, nz
+    out[7], out[8], out[9] = center_x - off * nx, center_y - off * ny, center_z - off * nz
+    out[10], out[11], out[12] = center_x - radius * nx, center_y - radius * ny, center_z - radius * nz
+    write_tangent(a, out)
+    write_swept(a, out, SIDE_A, number, n_faces, n_edges, edges, rounding)
     write_round(out, SIDE_B, radius)
 
 
@@ -103,19 +57,22 @@ class PolyhedronSphere(ContactKinematics):
     Attributes
     ----------
     faces, edges : tuple of float
-        All faces and edges (:mod:`bodies.contacts.polytope_tables`).
+        All faces and edges of the polyhedron without its rounding (:mod:`bodies.contacts.polytope_tables`).
     ends : tuple of float
         Numbers of the two vertices of every edge.
+    rounding : float
+        Radius about the polyhedron [m].
     center : tuple of float
         Centre of the sphere in its body frame [m].
     radius : float
-        Its radius [m].
+        Its radius [m]; 0 for a point.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Polyhedron, Sphere)
     faces: Numbers
     edges: Numbers
     ends: Numbers
+    rounding: float
     center: tuple[float, float, float]
     radius: float
 
@@ -124,10 +81,14 @@ class PolyhedronSphere(ContactKinematics):
         """Return the single contact of a polyhedron and a sphere."""
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Sphere)
-        own = first.polytope
-        edges = tuple(itertools.chain(*edge_rows(own)))
-        ends = tuple(float(i) for one, two, *_ in own.edges for i in (one, two))
-        return (cls(face_table(own), edges, ends, (second.x, second.y, second.z), second.radius),)
+        return (cls.of_ball(first, (second.x, second.y, second.z), second.radius),)
+
+    @classmethod
+    def of_ball(cls, first: Polyhedron, center: tuple[float, float, float], radius: float) -> PolyhedronSphere:
+        """Return the contact of a polyhedron and a ball, or a point, of another body [m]."""
+        core = first.core
+        edges = tuple(itertools.chain(*edge_rows(core)))
+        return cls(face_table(core), edges, end_table(core), first.rounding, center, radius)
 
     def parameters(self) -> dict[str, Value]:
         """Return the tables and the sphere."""
@@ -138,6 +99,7 @@ class PolyhedronSphere(ContactKinematics):
             "n_edges": float(len(self.edges) // EDGE),
             "edges": self.edges,
             "ends": self.ends,
+            "rounding": self.rounding,
             "radius": self.radius,
             "x_b": x,
             "y_b": y,

@@ -23,9 +23,9 @@ distance of its plane from the origin, beginning and length of its loop)."""
 _HEADER = 15
 
 
-def polyhedron_numbers(polytope: Polytope) -> Numbers:
-    """Return the numbers of a polyhedron."""
-    return _numbers(polytope.vertices, polytope.faces, polytope.planes, polytope.edges, 0.0)
+def polyhedron_numbers(polytope: Polytope, radius: float = 0.0) -> Numbers:
+    """Return the numbers of a polyhedron, with a radius about it [m]."""
+    return _numbers(polytope.vertices, polytope.faces, polytope.planes, polytope.edges, radius)
 
 
 def segment_numbers(ends: Sequence[tuple[float, float, float]], radius: float) -> Numbers:

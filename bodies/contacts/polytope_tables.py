@@ -22,21 +22,38 @@ def vertex_table(polytope: Polytope) -> Numbers:
 
 
 def face_table(polytope: Polytope) -> Numbers:
-    """Return the faces."""
+    """Return the faces; none of a segment."""
     vertices = np.array(polytope.vertices)
     rows = [(*plane, plane[3] - float(np.min(vertices @ plane[:3]))) for plane in polytope.planes]
     return tuple(itertools.chain(*rows))
 
 
 def edge_rows(polytope: Polytope) -> list[Numbers]:
-    """Return the edges, one row each."""
-    vertices, normals = np.array(polytope.vertices), np.array(polytope.planes)[:, :3]
+    """Return the edges, one row each; without faces the last numbers are 0."""
+    vertices, normals = np.array(polytope.vertices), np.array(polytope.planes).reshape(-1, 4)[:, :3]
     rows = []
     for one, two, left, right in polytope.edges:
         way = vertices[two] - vertices[one]
         length = float(np.linalg.norm(way))
         along = way / length
         # counter-clockwise round either face, so that it lies to the left of the edge
-        inward = [np.cross(normals[left], along), np.cross(along, normals[right])]
+        inward = [np.zeros(3), np.zeros(3)]
+        if left >= 0:
+            inward = [np.cross(normals[left], along), np.cross(along, normals[right])]
         rows.append((*vertices[one].tolist(), *along.tolist(), length, *inward[0].tolist(), *inward[1].tolist()))
     return rows
+
+
+def end_table(polytope: Polytope) -> Numbers:
+    """Return the numbers of the two vertices of every edge."""
+    return tuple(float(i) for one, two, *_ in polytope.edges for i in (one, two))
+
+
+def star_of(polytope: Polytope, vertex: int) -> Numbers:
+    """Return the unit vectors along the edges that leave a vertex."""
+    points, star = np.array(polytope.vertices), []
+    for one, two, *_ in polytope.edges:
+        if vertex in (one, two):
+            way = points[one] + points[two] - 2.0 * points[vertex]
+            star += (way / np.linalg.norm(way)).tolist()
+    return tuple(star)

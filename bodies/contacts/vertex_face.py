@@ -59,6 +59,15 @@ def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float,
 
 
 @compiled
+def _past_end(
+    faces: Floats, n_faces: float, face: int, height: float, deepest: float, x: float, y: float, z: float
+) -> float:
+    """Return how far a point is past the end of a face; under its plane only what lies inside the body touches it."""
+    beyond = past_face(faces, n_faces, FACE * face, height, x, y, z)
+    return float(max(beyond, deepest)) if height < 0.0 else float(beyond)
+
+
+@compiled
 def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
     """Return the height of a point of the world over the highest of the planes of the faces: negative inside."""
     x, y, z = vector_in_body(frame, x - frame[0], y - frame[1], z - frame[2])
@@ -95,24 +104,23 @@ def nearest_face(
         height = plane_height(faces, FACE * i, x, y, z)
         if height > deepest:
             deepest, inner = height, i
-    found, gap, past = inner, deepest, 1e300
+    found, gap, past = -1, deepest, 1e300
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
-        if height < best - margin:
+        # one that is farther under a face stands over another, or came in through it
+        if height < best - margin or height < min(deepest, 0.0) - DEEP * size:
             continue
         least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)
         if least < best - margin:
             continue
-        beyond = past_face(faces, n_faces, FACE * i, height, x, y, z)
-        if height < 0.0:
-            # under the plane of a face only what lies inside of the body can touch it
-            beyond = max(beyond, deepest)
-        beyond -= margin
+        beyond = _past_end(faces, n_faces, i, height, deepest, x, y, z) - margin
         beyond = max(beyond, -least - 0.5 * faces[FACE * i + 4])
         if beyond < past:
             found, gap, past = i, height, beyond
+    if found < 0:
+        found, past = inner, _past_end(faces, n_faces, inner, deepest, deepest, x, y, z) - margin
     if past > 0.0:
         if deepest < -DEEP * size:
             return float(inner), deepest, deepest
-        gap = math.sqrt(gap * gap + past * past)
+        gap = math.hypot(max(0.0, gap), past)
     return float(found), gap, past

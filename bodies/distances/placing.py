@@ -42,6 +42,17 @@ def made(library: str, makers: Makers, shape: Shape) -> Made:
     return make(shape)
 
 
+def sharp(library: str, shape: Any) -> None:
+    """Raise InvalidInput if a polyhedron is rounded: the library would be given another body."""
+    if shape.rounding > 0.0:
+        raise InvalidInput(
+            library,
+            "must be given polyhedra without a rounding",
+            shape.rounding,
+            "Ask for the distance of the core, and take the rounding off.",
+        )
+
+
 def triangles(library: str, shape: Any) -> tuple[Vector, Integers]:
     """Return vertices and triangles of a shape.
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from bodies.distances.placing import Made, Makers, along, centre, triangles, turn
+from bodies.distances.placing import Made, Makers, along, centre, sharp, triangles, turn
 from bodies.shapes.box import Box
 from bodies.shapes.capsule import Capsule
 from bodies.shapes.cylinder import Cylinder
@@ -26,6 +26,7 @@ def _sphere(shape: Any) -> Made:
 
 
 def _box(shape: Any) -> Made:
+    sharp("FCL", shape)
     import fcl
 
     sides = (2.0 * SCALE * half for half in (shape.half_x, shape.half_y, shape.half_z))
@@ -52,6 +53,7 @@ def _ellipsoid(shape: Any) -> Made:
 
 
 def _hull(shape: Any) -> Made:
+    sharp("FCL", shape)
     import fcl
 
     vertices, faces = triangles("FCL", shape)

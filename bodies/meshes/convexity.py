@@ -15,7 +15,7 @@ FLATNESS = 1e-6
 """Depth of a dent that counts as none, over the largest extent: files with few digits have such dents in flat faces."""
 _SINGLE = 5e-7
 """The same over the largest coordinate: single precision, of bodies that lie far from the origin."""
-_SHALLOW = 2e-7
+BENT = 2e-7
 """Facets of the hull that stand out of a plane by less than this part of the largest coordinate are one face: they are
 bent by single precision."""
 
@@ -52,7 +52,7 @@ def hull_of(name: str, vertices: Vector) -> Hull:
         raise InvalidInput(
             f"mesh {name}", "must not be flat", str(error).split("\n")[0], "A body has a volume."
         ) from error
-    shallow = _SHALLOW * max(scale, float(np.max(np.abs(vertices)))) / scale
+    shallow = BENT * max(scale, float(np.max(np.abs(vertices)))) / scale
     unit = found.points[_corners(found, shallow)]
     flat = flattened(unit, shallow)
     moved = float(np.max(np.linalg.norm(flat - unit, axis=1))) * scale

@@ -10,7 +10,8 @@ import numpy as np
 
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.placement import about_axis
-from nonsmooth.interfaces import ConvexShape
+from bodies.shapes.polytope import Polytope
+from bodies.shapes.swept import SweptPolytope
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -18,7 +19,7 @@ from nonsmooth.vectors import UNIT_PART, unit_vector
 
 @final
 @dataclass(frozen=True)
-class Capsule(ConvexShape):
+class Capsule(SweptPolytope):
     """All points within the radius of a segment, which has its middle at (x, y, z) in the body frame."""
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)
@@ -40,6 +41,16 @@ class Capsule(ConvexShape):
         """Centres of the end spheres in the body frame, against and along the axis [m]."""
         x, y, z = (self.half_length * component for component in (self.axis_x, self.axis_y, self.axis_z))
         return (self.x - x, self.y - y, self.z - z), (self.x + x, self.y + y, self.z + z)
+
+    @property
+    def core(self) -> Polytope:
+        """The segment: two vertices, an edge, no face."""
+        return Polytope(self.ends, (), (), ((0, 1, -1, -1),))
+
+    @property
+    def sweep(self) -> float:
+        """The radius [m]."""
+        return self.radius
 
     @property
     def length(self) -> float:

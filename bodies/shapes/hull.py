@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, final
@@ -13,6 +12,8 @@ from bodies.shapes.drawing import solid_of
 from bodies.shapes.placement import with_axes
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.polytope import Polytope, polytope_of, read_points
+from bodies.shapes.swept_drawing import draw_swept
+from bodies.shapes.swept_solid import swept_solid
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -22,6 +23,9 @@ from nonsmooth.vectors import UNIT_PART, unit_vector
 @dataclass(frozen=True)
 class ConvexHull(Polyhedron):
     """The convex hull of points, turned by a unit quaternion about the origin of the body frame, then shifted.
+
+    With a radius ``rounding`` it is all points within that distance of the hull: the points are those of the core, and
+    the faces stand out by the radius.
 
     Attributes
     ----------
@@ -43,6 +47,7 @@ class ConvexHull(Polyhedron):
     orientation_x: float = parameter(0.0, doc="quaternion, first component", **UNIT_PART)
     orientation_y: float = parameter(0.0, doc="quaternion, second component", **UNIT_PART)
     orientation_z: float = parameter(0.0, doc="quaternion, third component", **UNIT_PART)
+    rounding: float = parameter(0.0, doc="radius of the sphere that sweeps the hull", unit="m", minimum=0.0)
 
     @classmethod
     def example(cls) -> Mapping[str, Any]:
@@ -53,44 +58,38 @@ class ConvexHull(Polyhedron):
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
         unit_vector("ConvexHull orientation", orientation, 4)
         object.__setattr__(self, "points", read_points("ConvexHull.points", self.points))
-        assert self.polytope
+        assert self.core
 
     @property
-    def polytope(self) -> Polytope:
-        """Vertices, faces and edges in the body frame."""
+    def core(self) -> Polytope:
+        """Vertices, faces and edges of the hull of the points in the body frame."""
         axes = with_axes(self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z)
         placed = np.array(self.points) @ axes.T + [self.x, self.y, self.z]
         return polytope_of("ConvexHull.points", tuple((x, y, z) for x, y, z in placed.tolist()))
 
     @property
-    def length(self) -> float:
-        """Distance of the farthest vertex [m]."""
-        return max(math.hypot(*vertex) for vertex in self.polytope.vertices)
-
-    def support(self, direction: Vector) -> Vector:
-        """Return the farthest vertex [m], of several the first."""
-        vertices = np.array(self.polytope.vertices)
-        return np.asarray(vertices[np.argmax(vertices @ direction)])
-
-    @property
     def _solid(self) -> tuple[float, Vector, Vector]:
+        if self.rounding > 0.0:
+            return swept_solid(self.core, self.rounding)
         return solid_of(*self.drawing())
 
     @property
     def volume(self) -> float:
-        """By the tetrahedra of its faces [m^3]."""
+        """By the tetrahedra of its faces; of a rounded one, piece by piece [m^3]."""
         return self._solid[0]
 
     @property
     def centroid(self) -> Vector:
-        """By the tetrahedra of its faces [m]."""
+        """By the tetrahedra of its faces; of a rounded one, piece by piece [m]."""
         return self._solid[1]
 
     @property
     def inertia(self) -> Vector:
-        """By the tetrahedra of its faces [m^5]."""
+        """By the tetrahedra of its faces; of a rounded one, piece by piece [m^5]."""
         return self._solid[2]
 
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
-        """Return its vertices, and its faces as fans."""
-        return np.array(self.polytope.vertices), np.array(self.polytope.triangles)
+        """Return its vertices, and its faces as fans; of a rounded one strips at edges and caps at vertices, too."""
+        if self.rounding > 0.0:
+            return draw_swept(self.core, self.rounding, fineness)
+        return np.array(self.core.vertices), np.array(self.core.triangles)

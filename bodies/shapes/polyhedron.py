@@ -1,17 +1,60 @@
-"""Polyhedron: what all shapes with flat faces have in common."""
+"""Polyhedron: what all shapes with flat faces have in common, sharp or rounded."""
 
 from __future__ import annotations
 
-from abc import abstractmethod
+import math
+from typing import final
+
+import numpy as np
 
 from bodies.shapes.polytope import Polytope
-from nonsmooth.interfaces import ConvexShape
+from bodies.shapes.swept import SweptPolytope
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces.body import Vector
 
 
-class Polyhedron(ConvexShape):
-    """A convex shape with flat faces."""
+class Polyhedron(SweptPolytope):
+    """A convex shape with flat faces, whose edges and vertices are sharp, or rounded by the radius ``rounding``."""
+
+    rounding: float
 
     @property
-    @abstractmethod
+    @final
+    def sweep(self) -> float:
+        """The rounding [m]."""
+        return self.rounding
+
+    @property
+    @final
     def polytope(self) -> Polytope:
-        """Vertices, faces and edges in the body frame."""
+        """Vertices, faces and edges of a sharp one in the body frame.
+
+        Raises
+        ------
+        InvalidInput
+            If it is rounded: who asks for its sharp edges would not see where they are.
+        """
+        if self.rounding > 0.0:
+            raise InvalidInput(
+                f"{type(self).__name__}.rounding",
+                "must be 0 here, where only sharp edges are known",
+                self.rounding,
+                "Leave the rounding out, or let it touch planes, spheres, smooth shapes, capsules and polyhedra.",
+            )
+        return self.core
+
+    @property
+    def length(self) -> float:
+        """Distance of the farthest point [m]."""
+        return max(math.hypot(*vertex) for vertex in self.core.vertices) + self.rounding
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the farthest vertex of the core, of several the first, and the rounding along the direction [m]."""
+        vertices = np.array(self.core.vertices)
+        return np.asarray(vertices[np.argmax(vertices @ direction)] + self._rounded(direction))
+
+    @final
+    def _rounded(self, direction: Vector) -> Vector:
+        if self.rounding == 0.0:
+            return np.zeros(3)
+        return np.asarray(self.rounding * direction / np.linalg.norm(direction))

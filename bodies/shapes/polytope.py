@@ -35,7 +35,8 @@ class Polytope:
     planes : tuple
         Outward unit normal of every face and distance of its plane from the origin [m, shape (m, 4)].
     edges : tuple
-        Two vertices, the face that has them in this order, and the one that has them in the other, shape [k, 4].
+        Two vertices, the face that has them in this order, and the one that has them in the other, shape [k, 4]; of a
+        segment, which has no faces, -1.
     """
 
     vertices: tuple[Point, ...]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
+from bodies.meshes.features import Features, features_of
 from bodies.meshes.surface import Surface
 from bodies.meshes.topology import Integers
 from bodies.meshes.triangles import Triangles
@@ -69,6 +71,12 @@ class TriangleMesh(Shape):
         """Corners of its convex hull in the body frame [m], shape [n, 3]."""
         return self._placed(self.surface.mesh.hull.corners)
 
+    @functools.cached_property
+    def features(self) -> Features:
+        """Flat faces, convex edges and corners in the body frame."""
+        mesh = self.surface.mesh
+        return features_of(self._placed(mesh.vertices), mesh.faces)
+
     @property
     def length(self) -> float:
         """Distance of the farthest corner [m]."""
@@ -81,13 +89,13 @@ class TriangleMesh(Shape):
         if mesh.is_convex:
             return (
                 f"The mesh {mesh.name} is convex but has {len(mesh.hull.corners)} corners; only up to {MOST_VERTICES} "
-                "make a convex hull that touches other bodies than planes. Take a coarser mesh, or a shape in closed "
-                "form if it stands for a rounded body."
+                "make a convex hull, which touches more shapes than a mesh does. Take a coarser mesh, or a shape in "
+                "closed form if it stands for a rounded body."
             )
         return (
             f"The mesh {mesh.name} has {mesh.volume_ratio:.1%} of the volume of its convex hull, and surfaces that are "
-            "not convex touch planes only: give its body a decomposition into convex pieces, "
-            "MeshBody(..., decomposition=Decomposition())."
+            "not convex touch planes, smooth shapes, capsules, polyhedra and meshes only: give its body a "
+            "decomposition into convex pieces, MeshBody(..., decomposition=Decomposition())."
         )
 
     def support(self, direction: Vector) -> Vector:

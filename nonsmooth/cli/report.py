@@ -11,6 +11,8 @@ from nonsmooth.cli.table import lines
 from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
+_LONG_WORD = 80
+"""Characters of a word of modes, from which its middle is left out."""
 _NUMBERS = ("t_end", "wall_seconds", "n_events", "n_impacts", "n_steps", "mode_words", "energy_residual")
 
 
@@ -48,10 +50,15 @@ def as_text(report: Report) -> str:
     rows = [(name.replace("_", " "), _spell(value)) for name, value in (rounded["summary"] or {}).items()]
     rows.append(("energy residual", _spell(rounded["energy_residual"])))
     modes = rounded["mode_words"].items()
-    rows += [("time in modes" * (i == 0), f"{word} {share:7.2%}") for i, (word, share) in enumerate(modes)]
+    rows += [("time in modes" * (i == 0), f"{_shortened(word)} {share:7.2%}") for i, (word, share) in enumerate(modes)]
     judged = rounded.get("acceptance")
     table = [] if judged is None else ["", *_judged(judged), ""]
     return "\n".join([head, *lines(rows), *table, "SI units, radians"])
+
+
+def _shortened(word: str) -> str:
+    """Return a word of modes, its middle left out where many contacts make it long."""
+    return word if len(word) <= _LONG_WORD else f"{word[: _LONG_WORD // 2]} ... {word[-_LONG_WORD // 2 :]}"
 
 
 def _judged(criteria: list[dict[str, Any]]) -> list[str]:

@@ -7,7 +7,7 @@ Every contact has two guards, positive while its mode is valid:
   bound, sliding, the slip velocity along its direction at the start of the step.
 
 Behind them stand the scenario's own, whatever the modes, and one more of every contact: closed, the way left to the end
-of its features.
+of its features, or, where they do not end, whether they are still the same.
 
 An event lies in the half-open interval t0 < t* <= t1 of a step.  Of a guard that starts from zero (a gap
 just after an impact, a slip just begun) the growth from there is taken, divided by the elapsed time, so that its
@@ -21,7 +21,7 @@ from nonsmooth.engine.flow import hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_guard, kernel
 from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
-from nonsmooth.model.layout import GEOMETRY, PAST_END
+from nonsmooth.model.layout import FEATURE, GEOMETRY, PAST_END
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
@@ -29,6 +29,26 @@ _WRONG = -1e-9
 """A guard that is not armed fires below this all the same."""
 _LATE = 2.0
 """A closed contact ends so many gap tolerances past the end of its features; up to one it may close."""
+
+
+@kernel("f8(S, F, I, i8)")
+def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return the way left to the end of the features of a closed contact, -1 if it has other ones than at the start."""
+    block = S.geometry + GEOMETRY * c
+    if w[block + PAST_END] != 0.0:
+        return float(_LATE * S.gap_tolerance - w[block + PAST_END])
+    return 1.0 if k[S.feature + c] < 0 or int(w[block + FEATURE]) == k[S.feature + c] else -1.0
+
+
+@kernel("void(S, F, I)")
+def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take the present features of the closed contacts as those of the step that begins.
+
+    Right after a change there is a step that does not look: a contact may move along the border of two features.
+    """
+    looks = S.t - S.feature_t > S.time_tolerance
+    for c in range(S.n_contacts):
+        k[S.feature + c] = int(w[S.geometry + GEOMETRY * c + FEATURE]) if looks and k[S.mode + c] != OPEN else -1
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
@@ -60,7 +80,7 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
     for c in range(S.n_contacts):
         w[S.guard + ends + c] = 1.0
         if k[S.mode + c] != OPEN and forces == 1 and S.n_grouped > 0:
-            w[S.guard + ends + c] = _LATE * S.gap_tolerance - w[S.geometry + GEOMETRY * c + PAST_END]
+            w[S.guard + ends + c] = _feature_guard(S, w, k, c)
 
 
 @kernel("void(S, F, I, f8, i8, f8, i8)")

@@ -8,7 +8,7 @@ from nonsmooth.engine.anisotropy import turn_facing
 from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import right_hand_side, slope, try_step
-from nonsmooth.engine.guards import arm_guards, keep_end, write_guards
+from nonsmooth.engine.guards import arm_guards, keep_end, watch_features, write_guards
 from nonsmooth.engine.instant_impulses import is_jammed
 from nonsmooth.engine.islands import activate_group, group_closed
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
@@ -18,6 +18,7 @@ from nonsmooth.engine.location import first_crossing, locate
 from nonsmooth.engine.modes import (
     DONE,
     EVENTS_ENDLESS,
+    FEATURE_CHANGE,
     FEATURE_END,
     GUARD,
     IMPACT,
@@ -46,6 +47,7 @@ from nonsmooth.engine.projection import (
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, record_event, record_samples, remember
 from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.settle import settle
+from nonsmooth.model.layout import GEOMETRY, PAST_END
 
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
@@ -210,9 +212,11 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         S.choosing = 1
         slope(S, w, k, S.t, S.y, S.slopes)
         S.choosing = 0
+        watch_features(S, w, k)
         write_guards(S, w, k, S.t, S.y, 1)
         keep_end(S, w, k)
     else:
+        watch_features(S, w, k)
         for i in range(S.n_y):
             w[S.slopes + i] = w[S.slopes + 6 * S.n_y + i]
     S.h_listed = 1e300
@@ -228,6 +232,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.mode + c] == OPEN and arrived:
             S.fresh = 0
             return _settle_event(S, w, k, _closing_cause(S, k, c), c)
+        # what put the contacts on their constraints may have put one past its end
+        if k[S.mode + c] != OPEN and w[S.guard_end + 2 * S.n_contacts + S.n_own_guards + c] < 0.0:
+            S.fresh = 0
+            return _settle_event(S, w, k, FEATURE_END, c)
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
     status = _accepted_step(S, w, k)
@@ -259,8 +267,15 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         return RUNNING
     ends = 2 * S.n_contacts + S.n_own_guards
     if S.trigger >= ends:
+        contact = S.trigger - ends
+        changed = w[S.geometry + GEOMETRY * contact + PAST_END] == 0.0
         _commit(S, w, k, h)
-        return _settle_event(S, w, k, FEATURE_END, S.trigger - ends)
+        if changed:
+            S.feature_t = S.t
+            remember(S, w, k)
+            record_event(S, w, k, FEATURE_CHANGE, contact, 0)
+            return RUNNING
+        return _settle_event(S, w, k, FEATURE_END, contact)
     if S.trigger >= 2 * S.n_contacts:
         _commit(S, w, k, h)
         return _own_event(S, w, k, S.trigger - 2 * S.n_contacts)

@@ -79,6 +79,9 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         c = k[S.active + a]
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         speed = math.sqrt(v1 * v1 + v2 * v2)
+        if speed == 0.0:
+            # stopping the slips of others has stopped this one, too
+            k[S.at_rest + a] = 1
         k[S.normal_held + a] = 1 if k[S.phase + a] == HELD else 0
         k[S.tangent_held + a] = 0
         x = w[S.impact_y + STRIDE * a + 3]

@@ -133,12 +133,12 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
         S.guard_slope = 0.0
         return 1e-3 * high
     while g_low <= _FAINT * abs(g_high) and high > 1e-3:
-        # a guard that has just been left near zero says little: halve until there is a proper value
+        # a guard that has just been left near zero says little: halve until it is seen to be positive
         g = _guard_at(S, w, k, h, 0.5 * high, i)
         if g > 0.0:
             low, g_low = 0.5 * high, g
-        else:
-            high, g_high = 0.5 * high, g
+            break
+        high, g_high = 0.5 * high, g
     theta = high
     theta_before, g_before = high, g_high
     for _iteration in range(60):

@@ -28,8 +28,10 @@ _TRUSTED = 2.0
 """The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 _MOST_ROOTS = 30
 """So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
-_SAMPLES = 16
-"""So many samples of a step, an even number, in which features may face each other for a while."""
+_FEW_ROOTS = 4
+"""After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
+_SAMPLES = 8
+"""Parts of half a step, or of the way to an event, at whose ends it is asked whether features face each other."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -184,14 +186,15 @@ def _may_face(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     return 0
 
 
-@kernel("f8(S, F, I, f8, i8)")
-def _sampled(S: Scalars, w: Floats, k: Integers, h: float, first: int) -> float:
-    """Return the first of some fractions of a half step at which a gap has closed, its guards in ``guard``, or 0."""
-    for i in range(first + 1, first + _SAMPLES // 2):
-        guards_within(S, w, k, h, i / _SAMPLES, 0)
+@kernel("f8(S, F, I, f8, f8, f8)")
+def _sampled(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float) -> float:
+    """Return the first of some fractions in between at which a gap has closed, its guards in ``guard``, or 0."""
+    for part in range(1, _SAMPLES):
+        theta = low + (high - low) * part / _SAMPLES
+        guards_within(S, w, k, h, theta, 0)
         if first_fired(S, w, k, 0, -1) >= 0:
-            guards_within(S, w, k, h, i / _SAMPLES, _any_closed(S, w, k))
-            return i / _SAMPLES
+            guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+            return theta
         arm_further(S, w, k, 0)
     return 0.0
 
@@ -216,7 +219,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     if forces == 0 and S.n_own_guards == 0 and near == 0 and _far(S, w, k, h) == 1:
         return 1.0 if fired >= 0 else 0.0
     if near == 1:
-        theta = _sampled(S, w, k, h, 0)
+        theta = _sampled(S, w, k, h, 0.0, _MIDDLE)
         if theta > 0.0:
             return theta
     guards_within(S, w, k, h, _MIDDLE, forces)
@@ -239,7 +242,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             return theta
     theta = 0.0
     if near == 1:
-        theta = _sampled(S, w, k, h, _SAMPLES // 2)
+        theta = _sampled(S, w, k, h, _MIDDLE, 1.0)
     if fired < 0 and theta == 0.0:
         theta = _dip(S, w, k, h, _MIDDLE, 1.0, 0)
     if theta == 0.0:
@@ -316,14 +319,22 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     first = first_fired(S, w, k, 1, -1)
     theta = high
     S.trigger = max(0, first)
-    for other in range(3 * S.n_contacts + S.n_own_guards):
-        if first < 0:
-            break
-        if closed == 1 and other == _MOST_ROOTS:
+    roots = 0
+    while first >= 0:
+        if roots >= 3 * S.n_contacts + S.n_own_guards or (closed == 1 and roots == _MOST_ROOTS):
             return -1.0
+        if closed == 1 and roots > _FEW_ROOTS and w[S.guard_first + first] < 0.0:
+            return -1.0
+        roots += 1
         S.trigger = first
         theta = _root(S, w, k, h, theta, first, closed)
         first = first_fired(S, w, k, closed, S.trigger)
+        if first < 0 and _may_face(S, w, k, h) == 1:
+            earlier = _sampled(S, w, k, h, 0.0, theta)
+            if earlier > 0.0:
+                theta, first = earlier, first_fired(S, w, k, closed, -1)
+            else:
+                guards_within(S, w, k, h, theta, closed)
     i = S.trigger
     step = theta * h
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step

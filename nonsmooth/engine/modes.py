@@ -8,6 +8,7 @@ OPEN, STICK, SLIDE = 0, 1, 2
 START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = range(
     12
 )
+FEATURE_CHANGE = 12
 """Cause of an event."""
 
 CAUSES = (
@@ -23,6 +24,7 @@ CAUSES = (
     "guard of the scenario",
     "touch of a compliant contact",
     "end of a feature",
+    "change of feature",
 )
 
 BY_LAW, COMPLIANT, REFUSE = range(3)

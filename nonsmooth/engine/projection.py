@@ -11,7 +11,7 @@ from nonsmooth.engine.islands import activate_group, group_closed
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact
 from nonsmooth.engine.modes import STICK
-from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.layout import GEOMETRY, PAST_END
 
 _MOST_ITERATIONS = 5
 _CLOSED = 1e-3
@@ -65,6 +65,13 @@ def _potential_energy(S: Scalars, w: Floats, k: Integers) -> float:
     return total
 
 
+@kernel("f8(S, F, i8)")
+def held_gap(S: Scalars, w: Floats, c: int) -> float:
+    """Return the gap that a closed contact is to lose; past the end of its features it only tells how far."""
+    block = S.geometry + GEOMETRY * c
+    return w[block] if w[block + PAST_END] <= 0.0 else 0.0
+
+
 @kernel("i8(S, F, I)")
 def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
     """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time, along K W.
@@ -75,7 +82,7 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
     worst = 0.0
     for a in range(m):
         if k[S.normal_function + k[S.active + a]] == 0:
-            worst = max(worst, abs(w[S.geometry + GEOMETRY * k[S.active + a]]))
+            worst = max(worst, abs(held_gap(S, w, k[S.active + a])))
     if worst <= 1e-16:
         return 0
     assemble_delassus(S, w, k)
@@ -84,7 +91,7 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
         k[S.normal_held + a] = 1 if k[S.normal_function + c] == 0 else 0
         k[S.tangent_held + a] = 0
         w[S.f + 3 * a] = w[S.mu + a] = 0.0
-        w[S.b + 3 * a] = w[S.geometry + GEOMETRY * c]
+        w[S.b + 3 * a] = held_gap(S, w, c)
     resolve(S, w, k)
     add_response(S, w, k, S.f, S.y_stage + S.n_q)
     return 1

@@ -101,6 +101,7 @@ def _set_scalars(model: Model, options: Options) -> None:
         "h_closed": step,
         "last_event_t": -math.inf,
         "chosen_t": -math.inf,
+        "feature_t": -math.inf,
         "driven_t": -math.inf,
     }
     for name, value in values.items():

@@ -58,8 +58,8 @@ FRAME = 24
 """Floats of frame motion at the head of a body's output block."""
 GEOMETRY = 31
 """Floats of a contact's geometry block."""
-PAST_END = 30
-"""Where in it stands how far the contact is past the end of its features."""
+FEATURE, PAST_END = 29, 30
+"""Where in it stand the number of the features in contact and how far the contact is past their end."""
 JOINT_ROW = 14
 """Floats of one row of a joint."""
 LOAD = 9
@@ -326,6 +326,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "linkage_group": _per(1, "n_linkages"),
     "kept": _per(2, "n_slots"),
     "armed": _per(3, "n_slots"),
+    "feature": _per(1, "n_slots"),
     "guard_armed": _guards,
     "guard_deflated": _guards,
     "own_guard_function": _per(1, "n_own_guards"),

@@ -86,6 +86,7 @@ FLOAT_SCALARS = (
     "h_first",
     "h_closed",
     "chosen_t",
+    "feature_t",
     "effort",
     "rtol",
     "impact_rtol",

@@ -31,7 +31,7 @@ def throw(scenario: DiceThrow, solution: Solution) -> Figure:
     for axis, share in zip(panels, _SHOWN, strict=True):
         sample = min(int(share * len(solution.t)), len(solution.t) - 1)
         poses = solution.q[sample].reshape(-1, 7)
-        draw_solids(axis, [Box(half, half, half)] * n, poses, -1.2, 0.45, shades)
+        draw_solids(axis, [Box(half, half, half, rounding=scenario.rounding)] * n, poses, -1.2, 0.45, shades)
         axis.set_title(f"t = {1e3 * solution.t[sample]:.0f} ms", fontsize=9)
         axis.set_xticks([])
         axis.set_yticks([])
@@ -50,6 +50,10 @@ def throw(scenario: DiceThrow, solution: Solution) -> Figure:
     axis.set_ylim(bottom=0.0)
     axis.grid(color="0.9", linewidth=0.6)
     axis.legend(fontsize=8, frameon=False)
+    kind = "Rounded" if scenario.rounding > 0.0 else "Sharp"
     eyes = " + ".join(str(e) for e in scenario.eyes(solution))
-    figure.suptitle(f"Sharp dice strike table and each other, and end on a face: {eyes}", fontsize=11)
+    figure.suptitle(
+        f"{kind} dice strike table and each other, and end on a face: {eyes}",
+        fontsize=11,
+    )
     return figure

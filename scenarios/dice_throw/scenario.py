@@ -32,7 +32,7 @@ _AT_REST = 1e-6
 @final
 @dataclass(frozen=True)
 class DiceThrow(Scenario):
-    """Sharp cubes thrown together: vertices on the table, vertices on faces and edges on edges among them.
+    """Cubes thrown together, rounded or sharp: vertices on the table, vertices on faces and edges on edges among them.
 
     ``throw`` numbers the throws: orientations and spins are drawn at random from it, and always the same.
     """
@@ -42,6 +42,7 @@ class DiceThrow(Scenario):
     number: float = parameter(3.0, doc="number of dice", minimum=1.0, maximum=20.0)
     throw: float = parameter(1.0, doc="number of the throw", minimum=0.0, maximum=1e9)
     edge: float = parameter(0.016, doc="edge of a die", unit="m", above=0.0, usual=(1e-3, 1.0))
+    rounding: float = parameter(1e-3, doc="radius of the edges and vertices of a die", unit="m", minimum=0.0)
     density: float = parameter(1200.0, doc="density", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
     speed: float = parameter(0.6, doc="speed along the table", unit="m/s", minimum=0.0, usual=(1e-2, 1e2))
     spin: float = parameter(15.0, doc="usual angular velocity", unit="rad/s", minimum=0.0, usual=(1e-2, 1e3))
@@ -55,6 +56,7 @@ class DiceThrow(Scenario):
         for name in ("number", "throw"):
             if getattr(self, name) != int(getattr(self, name)):
                 raise InvalidInput(f"DiceThrow.{name}", "must be a whole number", getattr(self, name), "It counts.")
+        _ = self.die
 
     def resolved(self) -> Mapping[str, Any]:
         """Return all parameters as given."""
@@ -65,10 +67,16 @@ class DiceThrow(Scenario):
         """A five-hundredth of the run [s]."""
         return self.t_end / _SAMPLES
 
+    @property
+    def die(self) -> BoxBody:
+        """One of the dice."""
+        half = 0.5 * self.edge
+        return BoxBody(half, half, half, density=self.density, rounding=self.rounding)
+
     def build(self) -> System:
         """Return table and dice, in the air one over the other."""
-        half, n = 0.5 * self.edge, int(self.number)
-        table, dice = Plate(Rest()), [BoxBody(half, half, half, density=self.density) for _ in range(n)]
+        n = int(self.number)
+        table, dice = Plate(Rest()), [self.die for _ in range(n)]
         system = System([table, *dice], gravity=_GRAVITY)
         for i, die in enumerate(dice):
             for other in [table, *dice[:i]]:
@@ -140,15 +148,17 @@ class DiceThrow(Scenario):
         if account.loss > 0.0:
             ratio = (start - end) / account.loss
             found.append(Criterion.near("energy lost over losses booked", ratio, 1.0, 1e-6, "balance of energy"))
-        mass = self.density * self.edge**3
-        weights = mass * _GRAVITY * float(np.sum(self.heights(solution)[0]))
+        # by the formula of Steiner
+        side, r = self.edge - 2.0 * self.rounding, self.rounding
+        volume = side**3 + 6.0 * side**2 * r + 3.0 * math.pi * side * r**2 + 4.0 / 3.0 * math.pi * r**3
+        weights = self.density * volume * _GRAVITY * float(np.sum(self.heights(solution)[0]))
         found.append(
             Criterion.near(
                 "potential energy at the start over weights times heights",
                 account.potential_start / weights,
                 1.0,
                 1e-9,
-                "mass of a cube",
+                "mass of a cube, rounded or not",
             )
         )
         if self.on_a_face(solution):

@@ -5,7 +5,8 @@ against it, put the gap apart: gap, normal and witness points are known to round
 4 to 10 mm, and anywhere within 0.1 m of the origin.  The rates are those of the engine, against differences of the gap
 itself over seven places along a motion with constant velocity and spin.
 
-A pair of shapes is one line of :data:`PAIRS`.
+A pair of shapes is one line of :data:`PAIRS`, or, where features are chosen on both sides, of
+:data:`tests.benchmarks.swept_pairs.SWEPT` and :data:`tests.benchmarks.mesh_pairs.MESHES`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import ctypes
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.random import Generator
@@ -24,11 +25,13 @@ from bodies import Box, Capsule, Cone, ConvexHull, Cylinder, Disc, Ellipsoid, Fr
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
-from nonsmooth.model.layout import FRAME, GEOMETRY
+from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
 from nonsmooth.plugins.compile import bind
 from nonsmooth.system.pairing import nearest_pair
 from nonsmooth.testing.rig import Rig, rotation, turned
+from tests.benchmarks.mesh_pairs import MESHES
+from tests.benchmarks.swept_pairs import SWEPT
 
 Array = NDArray[np.float64]
 Touch = tuple[Shape, Array, Array]
@@ -55,6 +58,7 @@ class Pose:
     gap: float
     normal: Array
     witness: Array
+    contact: int = 0
 
 
 @dataclass(frozen=True)
@@ -142,23 +146,29 @@ def hull(rng: Generator) -> Polyhedron:
     return ConvexHull(points.tolist(), **_place(rng))
 
 
+def rounded(draw: Callable[[Generator], Polyhedron]) -> Callable[[Generator], Polyhedron]:
+    """Return a way to draw polyhedra with a rounding of 0.5 to 2 mm."""
+    return lambda rng: replace(draw(rng), rounding=float(rng.uniform(5e-4, 2e-3)))  # type: ignore[type-var]
+
+
 def on(draw: Callable[[Generator], Polyhedron], part: str) -> Callable[[Generator], Touch]:
     """Return a way to touch a polyhedron on a face, an edge or a vertex, with any normal that belongs to it."""
 
     def touch(rng: Generator) -> Touch:
         shape = draw(rng)
-        vertices, normals = np.array(shape.polytope.vertices), np.array(shape.polytope.planes)[:, :3]
-        counts = {"face": len(normals), "edge": len(shape.polytope.edges), "vertex": len(vertices)}
+        vertices, normals = np.array(shape.core.vertices), np.array(shape.core.planes)[:, :3]
+        counts = {"face": len(normals), "edge": len(shape.core.edges), "vertex": len(vertices)}
         number = int(rng.integers(counts[part]))
         if part == "face":
-            corners, faces = list(shape.polytope.faces[number]), [number]
+            corners, faces = list(shape.core.faces[number]), [number]
         elif part == "edge":
-            corners, faces = list(shape.polytope.edges[number][:2]), list(shape.polytope.edges[number][2:])
+            corners, faces = list(shape.core.edges[number][:2]), list(shape.core.edges[number][2:])
         else:
-            corners, faces = [number], [i for i, loop in enumerate(shape.polytope.faces) if number in loop]
+            corners, faces = [number], [i for i, loop in enumerate(shape.core.faces) if number in loop]
         shares, weights = rng.uniform(0.1, 1.0, len(corners)), rng.uniform(0.1, 1.0, len(faces))
         n = weights @ normals[faces]
-        return shape, shares @ vertices[corners] / np.sum(shares), n / np.linalg.norm(n)
+        n /= np.linalg.norm(n)
+        return shape, shares @ vertices[corners] / np.sum(shares) + shape.rounding * n, n
 
     return touch
 
@@ -255,10 +265,15 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
         for name, draw in SMOOTH.items()
         for part in parts
     },
+    **{f"rounded box-{name}, {part}": (on(rounded(box), part), SMOOTH[name]) for name in SMOOTH for part in PARTS},
+    **{f"rounded hull-ellipsoid, {part}": (on(rounded(hull), part), ellipsoid) for part in PARTS},
     "capsule-ellipsoid": (on_capsule, ellipsoid),
     "capsule-superellipsoid": (on_capsule, superellipsoid),
 }
 """How the first shape is touched, and the second, which has one farthest point in every direction."""
+CHOSEN = {**SWEPT, **MESHES}
+NAMES = (*PAIRS, *CHOSEN)
+"""All lines."""
 
 
 def _least_radius(shape: ConvexShape, n: Array) -> float:
@@ -272,6 +287,8 @@ def _least_radius(shape: ConvexShape, n: Array) -> float:
 
 def pose(pair: str, gap: float, rng: Generator) -> Pose:
     """Return a pose of a pair; one that overlaps more than its second shape is round there is drawn again."""
+    if pair in CHOSEN:
+        return Pose(*CHOSEN[pair](gap, rng))
     touch, draw = PAIRS[pair]
     while True:
         (first, point, normal), second = touch(rng), draw(rng)
@@ -296,7 +313,7 @@ def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[ContactKinematics, ...]:
 
 def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float], tuple[float, ...] | None]:
     """Return errors of gap, normal and witness; rate, its error, acceleration, its error, if the motion is smooth."""
-    contact = kinematics_of(found.shapes)[0]
+    contact = kinematics_of(found.shapes)[found.contact]
     rig = Rig(contact, found.shapes)
     u = np.concatenate([rng.normal(size=3) * size for size in (_SPEED, _SPIN, _SPEED, _SPIN)])
     rig.put(found.poses, u)
@@ -316,7 +333,7 @@ def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float]
             ]
             rig.put(moved, u)
             gaps.append(float(rig.geometry[0]))
-            features.add(float(rig.geometry[29]))
+            features.add(-1.0 if rig.geometry[PAST_END] > 0.0 else float(rig.geometry[29]))
         return float(_FIRST @ gaps) / step, float(_SECOND @ gaps) / step**2, features
 
     smooth = False
@@ -337,7 +354,7 @@ def _cost(poses: list[Pose], rounds: int = 20) -> float:
         return math.nan
     total, calls = 0.0, 0
     for one in poses:
-        contact = kinematics_of(one.shapes)[0]
+        contact = kinematics_of(one.shapes)[one.contact]
         address, heap = bind(contact.evaluator, "pair", contact.parameters(), "benchmark")
         function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address)
         numbers, out = np.array(heap), np.zeros(GEOMETRY)
@@ -374,7 +391,7 @@ def table(draws: int = 40) -> str:
     """Return the table of all pairs in Markdown."""
     titles = "pair", "gap [m]", "normal [rad]", "witness [m]", "$g'$", "$g''$", "query [µs]"
     lines = ["| " + " | ".join(titles) + " |", "|---" * len(titles) + "|"]
-    for name in PAIRS:
+    for name in NAMES:
         e = measure(name, draws)
         numbers = [f"{x:.0e}" for x in (e.gap, e.normal, e.witness, e.rate, e.acceleration)]
         lines.append("| " + " | ".join([name, *numbers, f"{e.cost:.1f}"]) + " |")

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from nonsmooth.engine.kernel import PLAIN
-from tests.benchmarks.contact_accuracy import PAIRS, measure
+from tests.benchmarks.contact_accuracy import NAMES, measure
 
 PAGE = Path(__file__).parents[2] / "docs" / "pages" / "accuracy.md"
 
 
-@pytest.mark.parametrize("pair", PAIRS)
+@pytest.mark.parametrize("pair", NAMES)
 def test_errors_stay_within_what_is_promised(pair: str) -> None:
     """Gaps from 0.1 m to a penetration of 0.1 mm of bodies of 1 cm."""
     errors = measure(pair, 1 if PLAIN else 2, seed=1)
@@ -26,4 +26,4 @@ def test_errors_stay_within_what_is_promised(pair: str) -> None:
 
 def test_the_page_has_a_row_for_every_pair() -> None:
     page = PAGE.read_text(encoding="utf-8")
-    assert [pair for pair in PAIRS if f"| {pair} |" not in page] == []
+    assert [pair for pair in NAMES if f"| {pair} |" not in page] == []

@@ -11,7 +11,20 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Capsule, Cone, ConvexHull, Cylinder, Disc, Ellipsoid, Plane, Sphere, Superellipsoid
+from bodies import (
+    Box,
+    Capsule,
+    Cone,
+    ConvexHull,
+    Cylinder,
+    Disc,
+    Ellipsoid,
+    Ground,
+    HalfSpace,
+    Plane,
+    Sphere,
+    Superellipsoid,
+)
 from nonsmooth.interfaces import Shape
 from tests.bodies.carriers import Rig
 
@@ -30,15 +43,24 @@ CONE = Cone(0.3, 0.35, **PLACE, **AXIS)
 CONE_ON_FEET = Cone(0.3, 0.35, **PLACE, **AXIS, foot_height=0.02)
 CYLINDER_ON_FEET = Cylinder(0.3, 0.25, **PLACE, **AXIS, foot_height=0.02)
 DISC_ON_FEET = Disc(0.4, **PLACE, **AXIS, foot_height=0.03)
+ROUNDED_BOX = Box(0.3, 0.2, 0.4, **PLACE, **AXES, rounding=0.04)
 HULL = ConvexHull(
     ((0.0, 0.0, 0.5), (0.4, 0.0, -0.2), (-0.3, 0.4, -0.2), (-0.3, -0.4, -0.1), (0.0, -0.1, -0.4)), **PLACE, **AXES
 )
+ROUNDED_HULL = ConvexHull(HULL.points, **PLACE, **AXES, rounding=0.06)
 ELLIPSOID = Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES)
 SUPERELLIPSOID = Superellipsoid(0.3, 0.2, 0.4, 1.5, 1.2, **PLACE, **AXES)
 
 PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "plane-sphere": (PLANE, SPHERE, 1),
     "plane-capsule": (PLANE, CAPSULE, 2),
+    "half-space-box": (HalfSpace(0.1), BOX, 8),
+    "plane-rounded box": (PLANE, ROUNDED_BOX, 8),
+    "plane-rounded hull": (PLANE, ROUNDED_HULL, 5),
+    "rounded box-sphere": (ROUNDED_BOX, SPHERE, 1),
+    "rounded hull-sphere": (ROUNDED_HULL, SPHERE, 1),
+    "rounded box-ellipsoid": (ROUNDED_BOX, ELLIPSOID, 1),
+    "rounded hull-ellipsoid": (ROUNDED_HULL, ELLIPSOID, 1),
     "plane-box": (PLANE, BOX, 8),
     "plane-disc": (PLANE, DISC, 1),
     "plane-cylinder": (PLANE, CYLINDER, 2),
@@ -189,14 +211,41 @@ def _outside_hull(shape: Any, x: Array) -> Any:
     return highest
 
 
+def _core(shape: Any) -> Any:
+    return np.array([shape.half_x, shape.half_y, shape.half_z]) - shape.rounding
+
+
+def _off_core(shape: Any, over: Array) -> Any:
+    """Return how far a point is outside, given how far it is over the sides of the core."""
+    outside = float(np.linalg.norm(np.maximum(over, 0.0)))
+    return (outside if outside > 0.0 else float(np.max(over))) - shape.rounding
+
+
+def _outside_rounded_hull(shape: Any, x: Array) -> Any:
+    """Return how far a point is outside, by a search for the nearest point of the core over its triangles."""
+    points, own = np.array(shape.points), _own_axes(shape).T @ _local(shape, x)
+    inside = _outside_hull(shape, x)
+    if inside <= 0.0:
+        return inside - shape.rounding
+    nearest = np.inf
+    for corners in itertools.combinations(points, 3):
+        # shares of the corners of the nearest point of the plane, of each line, and the corners themselves
+        for some in itertools.chain([corners], itertools.combinations(corners, 2), ((c,) for c in corners)):
+            ways = np.array(some[1:]) - some[0] if len(some) > 1 else np.zeros((0, 3))
+            shares = np.linalg.lstsq(ways.T, own - some[0], rcond=None)[0] if len(some) > 1 else np.zeros(0)
+            if np.all(shares >= 0.0) and np.sum(shares) <= 1.0:
+                nearest = min(nearest, float(np.linalg.norm(own - some[0] - shares @ ways)))
+    return nearest - shape.rounding
+
+
 SUPPORT: dict[type[Shape], Any] = {
     Sphere: lambda s, n: s.radius,
     Capsule: lambda s, n: s.radius + s.half_length * np.abs(n @ _axis(s)),
     Cylinder: lambda s, n: _with_feet(s, n, s.radius * _across(s, n) + s.half_length * np.abs(n @ _axis(s))),
     Cone: lambda s, n: _cone_support(s, n),
     Disc: lambda s, n: _with_feet(s, n, s.radius * _across(s, n)),
-    Box: lambda s, n: np.abs(n @ _own_axes(s)) @ np.array([s.half_x, s.half_y, s.half_z]),
-    ConvexHull: lambda s, n: np.max((n @ _own_axes(s)) @ np.array(s.points).T, axis=-1),
+    Box: lambda s, n: np.abs(n @ _own_axes(s)) @ _core(s) + s.rounding,
+    ConvexHull: lambda s, n: np.max((n @ _own_axes(s)) @ np.array(s.points).T, axis=-1) + s.rounding,
     Ellipsoid: lambda s, n: np.linalg.norm(n @ _own_axes(s) * np.array([s.semi_x, s.semi_y, s.semi_z]), axis=-1),
     Superellipsoid: lambda s, n: _dual_norm(s, n @ _own_axes(s)),
 }
@@ -204,6 +253,7 @@ SUPPORT: dict[type[Shape], Any] = {
 
 OUTSIDE: dict[type[Shape], Any] = {
     Plane: lambda s, x: x[2] - s.height,
+    HalfSpace: lambda s, x: x[2] - s.height,
     Sphere: lambda s, x: np.linalg.norm(_local(s, x)) - s.radius,
     Capsule: lambda s, x: (
         np.linalg.norm(_local(s, x) - np.clip(_local(s, x) @ _axis(s), -s.half_length, s.half_length) * _axis(s))
@@ -214,8 +264,8 @@ OUTSIDE: dict[type[Shape], Any] = {
     ),
     Cone: lambda s, x: _off_cone(s, x),
     Disc: lambda s, x: _off_feet(s, x, max(abs(_local(s, x) @ _axis(s)), _across(s, _local(s, x)) - s.radius)),
-    Box: lambda s, x: np.max(np.abs(_local(s, x) @ _own_axes(s)) - np.array([s.half_x, s.half_y, s.half_z])),
-    ConvexHull: lambda s, x: _outside_hull(s, x),
+    Box: lambda s, x: _off_core(s, np.abs(_local(s, x) @ _own_axes(s)) - _core(s)),
+    ConvexHull: lambda s, x: _outside_hull(s, x) if s.rounding == 0.0 else _outside_rounded_hull(s, x),
     Ellipsoid: lambda s, x: (
         np.linalg.norm(_local(s, x) @ _own_axes(s) / np.array([s.semi_x, s.semi_y, s.semi_z])) - 1.0
     ),
@@ -225,7 +275,7 @@ OUTSIDE: dict[type[Shape], Any] = {
 
 
 def _support(shape: Any, n: Array) -> Any:
-    if isinstance(shape, Plane):
+    if isinstance(shape, Ground):
         return np.where(n[..., 2] > 1.0 - 1e-12, shape.height, np.inf)
     return SUPPORT[type(shape)](shape, n) + n @ np.array([shape.x, shape.y, shape.z])
 
@@ -252,7 +302,7 @@ def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
     rng = np.random.default_rng(3)
     directions = rng.normal(size=(200, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
-    flat = isinstance(shapes[0], Plane)
+    flat = isinstance(shapes[0], Ground)
     seen = set()
     for _ in range(400):
         poses = _random_poses(rng, 1.2)

@@ -26,7 +26,7 @@ def _yaw(angle: float) -> tuple[float, float, float, float]:
     return float(np.cos(0.5 * angle)), 0.0, 0.0, float(np.sin(0.5 * angle))
 
 
-def _cloud(bodies: list[FreeBody], rng: np.random.Generator) -> ns.System:
+def cloud(bodies: list[FreeBody], rng: np.random.Generator) -> ns.System:
     """Return bodies of 5 cm on a lattice that fly at each other."""
     system = ns.System(bodies, gravity=0.0)
     for i, body in enumerate(bodies):
@@ -46,7 +46,7 @@ def _cloud(bodies: list[FreeBody], rng: np.random.Generator) -> ns.System:
     return system
 
 
-def _momenta(bodies: list[FreeBody], q: Array, u: Array) -> tuple[Array, Array]:
+def momenta(bodies: list[FreeBody], q: Array, u: Array) -> tuple[Array, Array]:
     linear, angular = np.zeros(3), np.zeros(3)
     for body, x, v in zip(bodies, q.reshape(-1, 7), u.reshape(-1, 6), strict=True):
         axes = Rotation.from_quat(np.roll(x[3:], -1)).as_matrix()
@@ -66,9 +66,9 @@ def test_colliding_polyhedra_keep_momentum_and_energy(n: int, seed: int) -> None
         lambda: BoxBody(*rng.uniform(0.02, 0.04, 3)),
     )
     bodies: list[FreeBody] = [kinds[i % 3]() for i in range(n)]
-    solution = ns.simulate(_cloud(bodies, rng), t_end=1.0)
+    solution = ns.simulate(cloud(bodies, rng), t_end=1.0)
     assert solution.events.causes().count("impact") >= n // 2
-    before, after = _momenta(bodies, solution.q[0], solution.u[0]), _momenta(bodies, solution.q_end, solution.u_end)
+    before, after = momenta(bodies, solution.q[0], solution.u[0]), momenta(bodies, solution.q_end, solution.u_end)
     speeds = np.linalg.norm(solution.u[0].reshape(-1, 6)[:, :3], axis=1)
     momentum = sum(body.total_mass * speed for body, speed in zip(bodies, speeds, strict=True))
     np.testing.assert_allclose(after[0], before[0], rtol=0, atol=1e-13 * momentum)

@@ -23,6 +23,7 @@ OTHERS: dict[str, dict[str, Any]] = {
     "dumbbell": {"gamma": 0.3},
     "egg_on_table": {"spin": 40.0},
     "mesh_drop": {"height": 0.06},
+    "mesh_dumbbell": {"subdivisions": 0.0},
     "newtons_cradle": {"exponent": 1.4},
     "polyhedron_stack": {"friction": 0.45},
     "rattleback": {"product": 0.0},

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import numpy as np
 import pytest
 
 from bodies import (
@@ -24,9 +25,11 @@ from bodies import (
     DiscBody,
     DrivenBody,
     Dumbbell,
+    Ellipsoid,
     EllipsoidBody,
     FunctionLoad,
     FunctionMotion,
+    HalfSpace,
     Harmonic,
     HullBody,
     LineBody,
@@ -143,6 +146,7 @@ LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
 BODIES: list[Body] = [
     Ball(0.02),
     BoxBody(0.01, 0.02, 0.035),
+    BoxBody(0.01, 0.02, 0.035, rounding=0.002),
     CapsuleBody(0.01, 0.03, density=900.0),
     Compound((Part(BoxBody(0.01, 0.02, 0.03), (0.02, 0.0, -0.01)), Part(CylinderBody(0.01, 0.04)))),
     ConeBody(0.02, 0.05, mass=0.2),
@@ -152,6 +156,7 @@ BODIES: list[Body] = [
     Dumbbell(),
     EllipsoidBody(0.01, 0.02, 0.03),
     HullBody(WEDGE, mass=0.2),
+    HullBody(WEDGE, rounding=0.005),
     SuperellipsoidBody(0.02, 0.03, 0.04, 1.4, 1.2, 0.01),
     planar((TurningFrame(carried=(Sphere(0.1),), **PART),), 2.0, 0.5),
     LineBody(1.0, carried=(Sphere(0.1),)),
@@ -179,10 +184,24 @@ MOTIONS: list[Motion] = [
     Table((0.0, 0.1, 0.3), ((0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.0, 0.1)), orientation=(0.5, 0.5, 0.5, 0.5)),
     make(Table, "table", {}),
 ]
+CUBOID = TriangleMesh(Triangles(*parts.box(0.6, 0.4, 0.8)), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)
+TETRAHEDRON = TriangleMesh(
+    Triangles(0.3 * (np.eye(4, 3) - 0.25), ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2))), 0.01, 0.02
+)
 SHAPES: list[tuple[Shape, Shape]] = [
     *((a, b) for a, b, _ in PAIRS.values()),
     (Plane(0.1), Point(0.1, -0.05, 0.07)),
+    (HalfSpace(0.1), Point(0.1, -0.05, 0.07)),
+    (Box(0.3, 0.4, 0.5, rounding=0.1), Sphere(0.1)),
+    # so long that its side crosses each of the edges at some of the places drawn
+    (Box(0.3, 0.4, 0.5), Capsule(0.05, 1.0)),
     (Plane(0.1), TriangleMesh(Triangles(*parts.bracket()), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)),
+    (CUBOID, Sphere(0.2, x=-0.05, y=0.1, z=0.02)),
+    (CUBOID, Ellipsoid(0.2, 0.35, 0.5)),
+    (CUBOID, Capsule(0.15, 0.4, axis_y=-0.6, axis_z=0.8)),
+    (CUBOID, Point(0.1, -0.05, 0.07)),
+    (TETRAHEDRON, ConvexHull(WEDGE)),
+    (TETRAHEDRON, TETRAHEDRON),
     (Plane(0.1), ConvexHull(WEDGE)),
     (Box(0.3, 0.4, 0.5), Point(0.1, -0.05, 0.07)),
     (Box(0.3, 0.4, 0.5), Box(0.01, 0.02, 0.03)),

@@ -5,12 +5,14 @@ from __future__ import annotations
 import pytest
 
 import nonsmooth as ns
+from nonsmooth.engine.kernel import PLAIN
 from scenarios.dice_throw.scenario import DiceThrow
 
 
+@pytest.mark.parametrize("rounding", [0.0, 1e-3])
 @pytest.mark.parametrize("throw", [2.0, 3.0, 7.0, 8.0])
-def test_dice_come_to_rest_on_a_face(throw: float) -> None:
-    dice = DiceThrow(throw=throw)
+def test_dice_come_to_rest_on_a_face(throw: float, rounding: float) -> None:
+    dice = DiceThrow(throw=throw, rounding=rounding)
     solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval)
     assert dice.on_a_face(solution)
     criteria = dice.acceptance(solution)
@@ -19,6 +21,26 @@ def test_dice_come_to_rest_on_a_face(throw: float) -> None:
     assert all(1 <= eyes <= 6 for eyes in dice.eyes(solution))
     again = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval)
     assert again.q_end.tolist() == solution.q_end.tolist()
+
+
+@pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
+@pytest.mark.parametrize("throw", [1.0, 4.0, 5.0, 6.0, 9.0, 10.0, 11.0, 12.0])
+def test_every_throw_of_rounded_dice_ends(throw: float) -> None:
+    """The first twelve, with those above."""
+    dice = DiceThrow(throw=throw)
+    solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval)
+    assert dice.on_a_face(solution)
+    assert all(one.fulfilled for one in dice.acceptance(solution))
+
+
+@pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
+@pytest.mark.parametrize("throw", [6.0, 20.0, 59.0, 102.0, 114.0])
+def test_sharp_dice_slide_off_each_other(throw: float) -> None:
+    """A vertex put past its end, one that comes in through a side, edges that cross for microseconds, a faint guard."""
+    dice = DiceThrow(throw=throw, rounding=0.0)
+    solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval)
+    assert solution.t_end == dice.t_end
+    assert all(one.fulfilled for one in dice.acceptance(solution))
 
 
 def test_figures() -> None:

@@ -1,0 +1,208 @@
+"""A vertex against a patch of a triangle mesh, whichever of the two is the first body."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
+from bodies.contacts.frames import point_in_world, vector_in_world
+from bodies.contacts.surface_tables import FACE, FACES, Numbers, star_of, surface_numbers
+from bodies.contacts.surface_vertex import face_under
+from bodies.contacts.tangents import write_tangent
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_body
+from bodies.shapes.point import Point
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    surface: Floats,
+    patch: float,
+    vertex_x: float,
+    vertex_y: float,
+    vertex_z: float,
+    n_star: float,
+    star: Floats,
+) -> None:
+    face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star)
+    f = int(surface[FACES]) + FACE * face
+    out[0], out[29], out[30] = gap, float(face), past
+    out[1], out[2], out[3] = vector_in_world(a, surface[f], surface[f + 1], surface[f + 2])
+    out[10], out[11], out[12] = point_in_world(b, vertex_x, vertex_y, vertex_z)
+    for i in range(3):
+        out[7 + i] = out[10 + i] - gap * out[1 + i]
+    write_tangent(a, out)
+    write_flat(out, SIDE_A)
+    write_round(out, SIDE_B, 0.0)
+
+
+def _evaluate_reversed(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    surface: Floats,
+    patch: float,
+    vertex_x: float,
+    vertex_y: float,
+    vertex_z: float,
+    n_star: float,
+    star: Floats,
+) -> None:
+    face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star)
+    f = int(surface[FACES]) + FACE * face
+    out[0], out[29], out[30] = gap, float(face), past
+    out[1], out[2], out[3] = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
+    out[7], out[8], out[9] = point_in_world(a, vertex_x, vertex_y, vertex_z)
+    for i in range(3):
+        out[10 + i] = out[7 + i] + gap * out[1 + i]
+    write_tangent(a, out)
+    write_round(out, SIDE_A, 0.0)
+    write_flat(out, SIDE_B)
+
+
+@dataclass(frozen=True)
+class _Vertex:
+    """A vertex with its edges, and a patch of the surface of the other body.
+
+    Attributes
+    ----------
+    surface : tuple of float
+        The surface (:mod:`bodies.contacts.surface_tables`).
+    n_faces : int
+        Number of its faces.
+    patch : int
+        Number of the patch.
+    place : tuple of float
+        The vertex in its body frame [m].
+    star : tuple of float
+        Unit vectors along its edges.
+    name : str
+        What it is called.
+    """
+
+    surface: Numbers
+    n_faces: int
+    patch: int
+    place: tuple[float, float, float]
+    star: Numbers
+    name: str
+
+    def values(self) -> dict[str, Value]:
+        x, y, z = self.place
+        return {
+            "surface": self.surface,
+            "patch": float(self.patch),
+            "vertex_x": x,
+            "vertex_y": y,
+            "vertex_z": z,
+            "n_star": float(len(self.star) // 3),
+            "star": self.star,
+        }
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        return tuple(f"face {i} and {self.name}" for i in range(self.n_faces))
+
+
+@final
+@dataclass(frozen=True)
+class MeshPoint(ContactKinematics):
+    """A vertex of the second body against a patch of the surface of the first.
+
+    A vertex in an inner corner touches two faces at once, which are in different patches.
+
+    Attributes
+    ----------
+    vertex : _Vertex
+        The vertex and the patch.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Point)
+    vertex: _Vertex
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the surface and the vertex."""
+        return self.vertex.values()
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[MeshPoint, ...]:
+        """Return the contacts of a point with the patches of a mesh."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, Point)
+        own, patches = first.features, patches_for_body(first.features, 0.0)
+        surface, place = surface_numbers(own, patches), (second.x, second.y, second.z)
+        n_faces = len(own.planes)
+        return tuple(cls(_Vertex(surface, n_faces, i, place, (), "point")) for i in range(patches.count))
+
+    @classmethod
+    def of_corners(cls, first: Features, second: Features) -> tuple[MeshPoint, ...]:
+        """Return the contacts of all corners of the second surface with the patches of the first."""
+        return tuple(cls(vertex) for vertex in _all(first, second))
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces."""
+        return self.vertex.features
+
+
+@final
+@dataclass(frozen=True)
+class PointMesh(ContactKinematics):
+    """A vertex of the first body against a patch of the surface of the second.
+
+    Attributes
+    ----------
+    vertex : _Vertex
+        The vertex and the patch.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Point, TriangleMesh)
+    vertex: _Vertex
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the surface and the vertex."""
+        return self.vertex.values()
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[PointMesh, ...]:
+        """Return the contacts of a point with the patches of a mesh."""
+        return tuple(cls(other.vertex) for other in MeshPoint.between(second, first))
+
+    @classmethod
+    def of_corners(cls, first: Features, second: Features) -> tuple[PointMesh, ...]:
+        """Return the contacts of all corners of the first surface with the patches of the second."""
+        return tuple(cls(vertex) for vertex in _all(second, first))
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate_reversed
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces."""
+        return self.vertex.features
+
+
+def _all(surface: Features, other: Features) -> list[_Vertex]:
+    patches = patches_for_body(surface, 0.0)
+    numbers, n_faces = surface_numbers(surface, patches), len(surface.planes)
+    places = other.vertices[list(other.corners)].tolist()
+    return [
+        _Vertex(numbers, n_faces, patch, (x, y, z), tuple(star_of(other, i)), f"vertex {i}")
+        for i, (x, y, z) in enumerate(places)
+        for patch in range(patches.count)
+    ]

@@ -1,0 +1,68 @@
+"""A smooth body against a triangle mesh, convex or not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.surface_smooth import evaluate_surface_smooth
+from bodies.contacts.surface_tables import Numbers, surface_numbers
+from bodies.meshes.patches import patches_for_body
+from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+
+_POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
+"""The core of a point (:func:`bodies.shapes.smooth.core_numbers`)."""
+
+
+@final
+@dataclass(frozen=True)
+class MeshSmooth(ContactKinematics):
+    """The contact of a smooth body with the nearest face, convex edge or corner of one patch of a mesh.
+
+    Attributes
+    ----------
+    surface : tuple of float
+        The surface (:mod:`bodies.contacts.surface_tables`), in patches for a body of this size.
+    patch : int
+        Number of the patch.
+    second : SmoothShape
+        The smooth body.
+    counts : tuple of int
+        Numbers of faces, convex edges and corners.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SmoothShape)
+    surface: Numbers
+    patch: int
+    second: SmoothShape
+    counts: tuple[int, int, int]
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[MeshSmooth, ...]:
+        """Return one contact for each patch."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, SmoothShape)
+        own = first.features
+        patches = patches_for_body(own, 2.0 * (max(second.core[:3]) + second.core[5]))
+        surface = surface_numbers(own, patches)
+        counts = len(own.planes), len(own.edges), len(own.corners)
+        return tuple(cls(surface, patch, second, counts) for patch in range(patches.count))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the surface, the patch and the numbers of the support function."""
+        return {"surface": self.surface, "patch": float(self.patch), "second": self.second.core, "point": _POINT}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """A search over the features, with Newton's method on the support function."""
+        return evaluate_surface_smooth
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces, convex edges and corners by number."""
+        kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
+        return tuple(f"{name} {i} and smooth" for name, n in kinds for i in range(n))

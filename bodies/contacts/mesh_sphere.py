@@ -1,0 +1,135 @@
+"""A sphere against a triangle mesh, convex or not, in closed form."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
+from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.offset import place_sphere
+from bodies.contacts.surface_search import ON_EDGE, ON_FACE, nearest_in_patch
+from bodies.contacts.surface_tables import (
+    EDGE,
+    EDGES,
+    FACE,
+    FACES,
+    N_EDGES,
+    N_FACES,
+    N_PATCHES,
+    Numbers,
+    surface_numbers,
+)
+from bodies.meshes.patches import patches_for_ball
+from bodies.shapes.sphere import Sphere
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    surface: Floats,
+    patch: float,
+    radius: float,
+    x_b: float,
+    y_b: float,
+    z_b: float,
+) -> None:
+    center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
+    x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
+    distance, past, kind, number, px, py, pz = nearest_in_patch(surface, patch, x, y, z)
+    # the patch of a surface that has one only does not end
+    past = past if surface[N_PATCHES] > 1.0 else 0.0
+    if kind == ON_FACE and (past <= 0.0 or distance == 0.0):
+        f = int(surface[FACES]) + FACE * number
+        nx, ny, nz = surface[f], surface[f + 1], surface[f + 2]
+    else:
+        nx, ny, nz = (x - px) / distance, (y - py) / distance, (z - pz) / distance
+    out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
+    if past > 0.0:
+        apart = max(distance - radius, 0.0)
+        distance = math.sqrt(apart * apart + past * past) + radius
+    place_sphere(a, out, center_x, center_y, center_z, distance, radius)
+    out[29], out[30] = float(number), past
+    if kind == ON_FACE:
+        write_flat(out, SIDE_A)
+    elif kind == ON_EDGE:
+        e = int(surface[EDGES]) + EDGE * number
+        ex, ey, ez = vector_in_world(a, surface[e + 3], surface[e + 4], surface[e + 5])
+        write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
+        out[29] += surface[N_FACES]
+    else:
+        write_round(out, SIDE_A, 0.0)
+        out[29] += surface[N_FACES] + surface[N_EDGES]
+    write_round(out, SIDE_B, radius)
+
+
+@final
+@dataclass(frozen=True)
+class MeshSphere(ContactKinematics):
+    """The contact of a sphere with the nearest face, convex edge or corner of one patch of a mesh.
+
+    The surface is divided into patches of which a sphere of this size touches one feature at a time
+    (:mod:`bodies.meshes.patches`): one of a convex mesh, two or more where it has inner corners.
+
+    Attributes
+    ----------
+    surface : tuple of float
+        The surface (:mod:`bodies.contacts.surface_tables`).
+    patch : int
+        Number of the patch.
+    center : tuple of float
+        Centre of the sphere in its body frame [m].
+    radius : float
+        Its radius [m].
+    counts : tuple of int
+        Numbers of faces, convex edges and corners.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
+    surface: Numbers
+    patch: int
+    center: tuple[float, float, float]
+    radius: float
+    counts: tuple[int, int, int]
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[MeshSphere, ...]:
+        """Return one contact for each patch."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, Sphere)
+        own = first.features
+        patches = patches_for_ball(own, second.radius)
+        surface = surface_numbers(own, patches)
+        counts = len(own.planes), len(own.edges), len(own.corners)
+        center = second.x, second.y, second.z
+        return tuple(cls(surface, patch, center, second.radius, counts) for patch in range(patches.count))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the surface, the patch and the sphere."""
+        x, y, z = self.center
+        return {
+            "surface": self.surface,
+            "patch": float(self.patch),
+            "radius": self.radius,
+            "x_b": x,
+            "y_b": y,
+            "z_b": z,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces, convex edges and corners by number."""
+        kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
+        return tuple(f"{name} {i} and sphere" for name, n in kinds for i in range(n))

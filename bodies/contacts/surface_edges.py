@@ -1,0 +1,100 @@
+"""A convex edge of one body across one of another, neither of which need be convex."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
+from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.surface_search import depth_inside
+from bodies.contacts.surface_vertex import ASTRAY
+from bodies.contacts.tangents import tangent_of, write_tangent
+from bodies.contacts.vertex_face import DEEP, REACH
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_PARALLEL = 0.01
+"""Sine of the angle between two edges below which they do not cross; then the vertices hold all the same."""
+_NEAR_ENDS = 4.0
+"""Where no point is found inside, edges overlap only where they cross so many depths away from their ends."""
+
+
+@compiled
+def _astray(frame: Floats, edge: Floats, sign: float, x: float, y: float, z: float) -> float:
+    """Return the sine of the angle by which a vector across an edge, times ``sign``, leaves its normals."""
+    x, y, z = vector_in_body(frame, sign * x, sign * y, sign * z)
+    return float(max(x * edge[7] + y * edge[8] + z * edge[9], x * edge[10] + y * edge[11] + z * edge[12]))
+
+
+@compiled
+def _depth(frame: Floats, surface: Floats, x: float, y: float, z: float) -> float:
+    """Return how far a point of the world is inside of a body [m]."""
+    x, y, z = vector_in_body(frame, x - frame[0], y - frame[1], z - frame[2])
+    return float(depth_inside(surface, x, y, z))
+
+
+def evaluate_edges(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    edge_b: Floats,
+    surface_a: Floats,
+    surface_b: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block where the lines of two edges are nearest.
+
+    The normal is the one of the two across both edges that is nearer to the normals that the edges have.  Where it
+    leaves them, or the lines are nearest past an end, the contact is open, with a positive gap unless one of the
+    points is inside of the other body.
+    """
+    ax, ay, az = point_in_world(a, edge_a[0], edge_a[1], edge_a[2])
+    bx, by, bz = point_in_world(b, edge_b[0], edge_b[1], edge_b[2])
+    ex, ey, ez = vector_in_world(a, edge_a[3], edge_a[4], edge_a[5])
+    fx, fy, fz = vector_in_world(b, edge_b[3], edge_b[4], edge_b[5])
+    wx, wy, wz = bx - ax, by - ay, bz - az
+    nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
+    sine = math.sqrt(nx * nx + ny * ny + nz * nz)
+    margin = REACH * size
+    s, t, over, past = 0.0, 0.0, 0.0, size * _PARALLEL
+    if sine > 1e-3 * _PARALLEL:
+        nx, ny, nz = nx / sine, ny / sine, nz / sine
+        # (w x f) . n / sine along the first, (w x e) . n / sine along the second
+        s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
+        t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
+        over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6]))
+        past = max(over - margin, size * (_PARALLEL - sine))
+    else:
+        along = wx * ex + wy * ey + wz * ez
+        nx, ny, nz = wx - along * ex, wy - along * ey, wz - along * ez
+        apart = math.sqrt(nx * nx + ny * ny + nz * nz)
+        if apart > 0.0:
+            nx, ny, nz = nx / apart, ny / apart, nz / apart
+        else:
+            nx, ny, nz = tangent_of(ex, ey, ez)
+    plus = max(_astray(a, edge_a, 1.0, nx, ny, nz), _astray(b, edge_b, -1.0, nx, ny, nz))
+    minus = max(_astray(a, edge_a, -1.0, nx, ny, nz), _astray(b, edge_b, 1.0, nx, ny, nz))
+    if minus < plus:
+        nx, ny, nz, plus = -nx, -ny, -nz, minus
+    gap = wx * nx + wy * ny + wz * nz
+    depth = 0.0
+    if past <= 0.0 and (gap < 0.0 or plus > ASTRAY):
+        depth = _depth(b, surface_b, ax + s * ex, ay + s * ey, az + s * ez)
+        depth = max(depth, _depth(a, surface_a, bx + t * fx, by + t * fy, bz + t * fz))
+    past = max(past, size * (plus - ASTRAY))
+    if gap < 0.0 and depth <= DEEP * size:
+        past = max(past, over - _NEAR_ENDS * gap - margin)
+    if past > 0.0:
+        if gap < 0.0:
+            nx, ny, nz = -nx, -ny, -nz
+        # what is inside and no contact of these edges is a sign that another one was passed
+        gap = -depth if depth > DEEP * size else math.sqrt(gap * gap + past * past)
+    out[0], out[29], out[30] = gap, 0.0, past
+    out[1], out[2], out[3] = nx, ny, nz
+    out[7], out[8], out[9] = ax + s * ex, ay + s * ey, az + s * ez
+    for i in range(3):
+        out[10 + i] = out[7 + i] + gap * out[1 + i]
+    write_tangent(a, out)
+    write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
+    write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)

@@ -1,0 +1,127 @@
+"""What the evaluators of surfaces that need not be convex read: one row of numbers, with a tree of boxes."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+
+from bodies.meshes.features import Features
+from bodies.meshes.patches import Patches
+from bodies.meshes.topology import Integers, neighbours
+from nonsmooth.interfaces.body import Vector
+
+Numbers = tuple[float, ...]
+
+SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CORNERS, STARS, N_FACES, N_PATCHES = (
+    range(13)
+)
+"""Where size [m], numbers and offsets of the parts stand."""
+NODE, FACE, TRIANGLE, EDGE, CORNER = 9, 5, 43, 14, 6
+"""Numbers of
+
+- a node: lowest and highest coordinates, the node that follows where this one is left out, where the list of its
+  members begins, and their number, 0 but in leaves;
+- a face: outward normal, distance of its plane from the origin, patch;
+- a triangle: vertices, face, for every edge the outward normal in the plane and its distance from the origin, whether
+  its face ends there, then the vectors that point out of the body at the three edges and at the three vertices;
+- an edge: first end, direction, length, in either face the direction from the edge into it, patch;
+- a corner: place, patch, where its star of unit vectors along its edges begins, and their number.
+"""
+_LEAF = 4
+"""Members of a leaf, at most."""
+
+
+def surface_numbers(features: Features, patches: Patches) -> Numbers:
+    """Return the numbers of a surface whose features are divided into patches."""
+    triangles = _triangles(features)
+    edges = [(*edge_row(features, i), patches.of_edges[i]) for i in range(len(features.edges))]
+    corners, stars = [], list[float]()
+    for i, vertex in enumerate(features.corners):
+        star = star_of(features, i)
+        corners.append((*features.vertices[vertex].tolist(), patches.of_corners[i], len(stars), len(star) // 3))
+        stars += star
+    ends = features.vertices[[edge[:2] for edge in features.edges]]
+    tips = features.vertices[list(features.corners)]
+    boxes = [features.vertices[features.triangles], ends, tips[:, None]]
+    low = np.concatenate([box.reshape(-1, *box.shape[-2:]).min(axis=1) for box in boxes if len(box)])
+    high = np.concatenate([box.reshape(-1, *box.shape[-2:]).max(axis=1) for box in boxes if len(box)])
+    members, nodes = list[int](), list[list[float]]()
+    _branch(low, high, np.arange(len(low)), members, nodes)
+    faces = [(*plane, patches.of_faces[i]) for i, plane in enumerate(features.planes.tolist())]
+    parts = [list(itertools.chain(*rows)) for rows in (nodes, [members], faces, triangles, edges, corners, [stars])]
+    begins = list(itertools.accumulate((len(part) for part in parts), initial=13))
+    head = (
+        features.size,
+        begins[0],
+        len(nodes),
+        *begins[1:4],
+        len(triangles),
+        begins[4],
+        len(edges),
+        *begins[5:7],
+        len(faces),
+        patches.count,
+    )
+    return tuple(float(x) for x in itertools.chain(head, *parts))
+
+
+def edge_row(features: Features, number: int) -> Numbers:
+    """Return first end, direction, length, and in either face the direction from the edge into it."""
+    one, two, left, right = features.edges[number]
+    way = features.vertices[two] - features.vertices[one]
+    length = float(np.linalg.norm(way))
+    along = way / length
+    inward = np.cross(features.planes[left, :3], along), np.cross(along, features.planes[right, :3])
+    return *features.vertices[one].tolist(), *along.tolist(), length, *inward[0].tolist(), *inward[1].tolist()
+
+
+def star_of(features: Features, number: int) -> list[float]:
+    """Return the unit vectors along the edges of a corner, one after the other."""
+    ways = features.vertices[list(features.stars[number])] - features.vertices[features.corners[number]]
+    return [float(x) for x in (ways / np.linalg.norm(ways, axis=1)[:, None]).ravel()]
+
+
+def _triangles(features: Features) -> list[Sequence[float]]:
+    corners = features.vertices[features.triangles]
+    normals = features.planes[features.face_of, :3]
+    along = np.roll(corners, -1, axis=1) - corners
+    along /= np.linalg.norm(along, axis=2)[:, :, None]
+    out = np.cross(along, normals[:, None])
+    heights = np.einsum("nij,nij->ni", out, corners)
+    # out of the body at an edge: between both normals; at a vertex: by the angles of its triangles
+    pairs = neighbours(features.triangles)
+    at_edges = np.repeat(normals, 3, axis=0)
+    between = at_edges[pairs[:, 0]] + at_edges[pairs[:, 1]]
+    at_edges[pairs[:, 0]] = at_edges[pairs[:, 1]] = between
+    angles = np.arccos(np.clip(-np.einsum("nij,nij->ni", along, np.roll(along, 1, axis=1)), -1.0, 1.0))
+    at_vertices = np.zeros_like(features.vertices)
+    np.add.at(at_vertices, features.triangles.reshape(-1), angles.reshape(-1, 1) * np.repeat(normals, 3, axis=0))
+    rows = zip(
+        corners.reshape(-1, 9).tolist(),
+        features.face_of.tolist(),
+        np.concatenate([out, heights[:, :, None]], axis=2).reshape(-1, 12).tolist(),
+        np.logical_not(features.inner).astype(float).tolist(),
+        at_edges.reshape(-1, 9).tolist(),
+        at_vertices[features.triangles].reshape(-1, 9).tolist(),
+        strict=True,
+    )
+    return [(*a, b, *c, *d, *e, *f) for a, b, c, d, e, f in rows]
+
+
+def _branch(low: Vector, high: Vector, own: Integers, members: list[int], nodes: list[list[float]]) -> None:
+    """Append the nodes of a tree over the boxes ``own``, the first one before what is in it."""
+    box = [*np.min(low[own], axis=0).tolist(), *np.max(high[own], axis=0).tolist()]
+    node = [*box, 0.0, float(len(members)), 0.0]
+    nodes.append(node)
+    if len(own) <= _LEAF:
+        node[8] = float(len(own))
+        members += own.tolist()
+    else:
+        middles = low[own] + high[own]
+        axis = int(np.argmax(np.ptp(middles, axis=0)))
+        order = own[np.argsort(middles[:, axis], kind="stable")]
+        for half in (order[: len(order) // 2], order[len(order) // 2 :]):
+            _branch(low, high, half, members, nodes)
+    node[6] = float(len(nodes))

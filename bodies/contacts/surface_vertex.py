@@ -1,0 +1,107 @@
+"""A vertex of one body against a patch of the surface of another, which need not be convex."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.surface_search import box_square, depth_inside, face_height, in_triangle, over_ends
+from bodies.contacts.surface_tables import (
+    FACE,
+    FACES,
+    MEMBERS,
+    N_NODES,
+    N_TRIANGLES,
+    NODE,
+    NODES,
+    SIZE,
+    TRIANGLE,
+    TRIANGLES,
+)
+from bodies.contacts.vertex_face import DEEP, REACH
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+ASTRAY = 0.25
+"""Sine of the angle by which edges may point into a face from the vertex above it: what may soon touch is followed."""
+
+
+@compiled
+def _leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats) -> float:
+    """Return the sine of the angle by which the steepest edge of a vertex of the other body points down to a face."""
+    nx, ny, nz = vector_in_world(frame, surface[face], surface[face + 1], surface[face + 2])
+    nx, ny, nz = vector_in_body(other, nx, ny, nz)
+    down = -1.0
+    for i in range(int(n_star)):
+        down = max(down, -(nx * star[3 * i] + ny * star[3 * i + 1] + nz * star[3 * i + 2]))
+    return down
+
+
+@compiled
+def face_under(
+    frame: Floats,
+    other: Floats,
+    surface: Floats,
+    patch: float,
+    vertex_x: float,
+    vertex_y: float,
+    vertex_z: float,
+    n_star: float,
+    star: Floats,
+) -> tuple[int, float, float]:
+    """Return face, gap and way past the end of a vertex of the other body against a patch of the surface in ``frame``.
+
+    A face may be touched that the vertex stands over with no edge pointing into it.  Under a face is what is inside of
+    the body and has no other face nearer.  Past the end the gap is a positive number, unless the vertex is inside.
+    """
+    px, py, pz = point_in_world(other, vertex_x, vertex_y, vertex_z)
+    x, y, z = vector_in_body(frame, px - frame[0], py - frame[1], pz - frame[2])
+    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
+    size = surface[SIZE]
+    margin = REACH * size
+    best, height_best, apart, past, found = 1e300, 0.0, 0.0, 1e300, 0
+    under, under_past, under_face = 1e300, 0.0, -1
+    node = 0
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * node
+        if box_square(surface, at, x, y, z) > best:
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            if member >= n_triangles:
+                continue
+            t = int(surface[TRIANGLES]) + TRIANGLE * member
+            face = int(surface[t + 9])
+            f = int(surface[FACES]) + FACE * face
+            height = face_height(surface, f, x, y, z)
+            if surface[f + 4] != patch or height * height > best:
+                continue
+            over, ends = over_ends(surface, t, x, y, z)
+            lean = size * (_leaning(frame, other, surface, f, n_star, star) - ASTRAY)
+            over, ends = max(over - margin, lean), max(ends - margin, lean)
+            square = height * height
+            if over <= 0.0 and height < 0.0 and -height < under:
+                under, under_past, under_face = -height, ends, face
+            if over > 0.0 or height < 0.0:
+                qx, qy, qz, _ = in_triangle(surface, t, x, y, z)
+                square = (x - qx) * (x - qx) + (y - qy) * (y - qy) + (z - qz) * (z - qz)
+                # in the plane, so that faces about the same corner differ
+                out = square - height * height if height > 0.0 else square
+                ends = max(math.sqrt(max(out, 0.0)) - margin, over)
+            key = square + max(ends, 0.0) * max(ends, 0.0)
+            if key < best:
+                best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
+        node += 1
+    if under_face >= 0 and under * under < best and under <= DEEP * size:
+        return under_face, -under, under_past
+    if past <= 0.0 and under * under >= best:
+        return found, height_best, past
+    depth = depth_inside(surface, x, y, z)
+    if depth > DEEP * size:
+        if under <= (1.0 + REACH) * depth:
+            return under_face, -under, under_past
+        return found, -depth, max(past, margin)
+    if past <= 0.0:
+        return found, height_best, past
+    return found, math.sqrt(apart * apart + past * past), past

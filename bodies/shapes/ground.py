@@ -1,0 +1,30 @@
+"""Ground: what all shapes bounded by a single plane have in common."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from typing import final
+
+from nonsmooth.interfaces import Shape
+
+
+class Ground(Shape):
+    """All that lies below the plane z = height of the body frame, whose third axis is the normal."""
+
+    @property
+    @abstractmethod
+    def height(self) -> float:
+        """Height of the plane over the origin of the body frame [m]."""
+
+    @property
+    @final
+    def length(self) -> float:
+        """0: a plane is unbounded."""
+        return 0.0
+
+    @property
+    @final
+    def extent(self) -> float:
+        """Infinite [m]."""
+        return math.inf

@@ -1,0 +1,105 @@
+"""Mass properties of a polyhedron swept by a sphere, piece by piece.
+
+On every face of the core stands a prism as high as the radius, along every edge a wedge of a cylinder, and at every
+vertex the sector of a ball whose directions are those between the normals of its faces (J. Steiner's formula, for the
+moments too).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bodies.shapes.drawing import solid_of
+from bodies.shapes.polytope import Polytope
+from nonsmooth.interfaces.body import Vector
+
+Solid = tuple[float, Vector, Vector]
+"""Volume [m^3], centroid [m], inertia tensor at density 1 about the centroid [m^5]."""
+
+
+@dataclass
+class _Sums:
+    """Integrals of 1, x and x x^T, which add up over the pieces."""
+
+    volume: float
+    first: Vector
+    second: Vector
+
+    def add(self, place: Vector, volume: float, first: Vector, second: Vector) -> None:
+        """Add a piece whose integrals are taken from ``place``."""
+        cross = np.outer(place, first)
+        self.volume += volume
+        self.first += volume * place + first
+        self.second += volume * np.outer(place, place) + cross + cross.T + second
+
+
+def swept_solid(core: Polytope, radius: float) -> Solid:
+    """Return volume, centroid and inertia of all points within ``radius`` [m] of a polyhedron.
+
+    Parameters
+    ----------
+    core : Polytope
+        The polyhedron.
+    radius : float
+        Radius of the sphere [m].
+    """
+    vertices, normals = np.array(core.vertices), np.array(core.planes)[:, :3]
+    middle = np.mean(vertices, axis=0)
+    vertices -= middle
+    sums = _Sums(0.0, np.zeros(3), np.zeros((3, 3)))
+
+    def add_mesh(points: Vector, triangles: Vector) -> None:
+        volume, centroid, inertia = solid_of(points, triangles)
+        sums.add(centroid, volume, np.zeros(3), 0.5 * np.trace(inertia) * np.eye(3) - inertia)
+
+    add_mesh(vertices, np.array(core.triangles))
+    for face, normal in zip(core.faces, normals, strict=True):
+        bottom = vertices[list(face)]
+        add_mesh(np.vstack([bottom, bottom + radius * normal]), _prism(len(face)))
+    angles = np.zeros(len(vertices))
+    firsts, seconds = np.zeros((len(vertices), 3)), np.zeros((len(vertices), 3, 3))
+    for one, two, left, right in core.edges:
+        m, n = normals[left], normals[right]
+        along = (vertices[two] - vertices[one]) / np.linalg.norm(vertices[two] - vertices[one])
+        angle = math.atan2(float(np.linalg.norm(np.cross(m, n))), float(m @ n))
+        _add_wedge(sums, vertices[one], vertices[two], (m + n) / np.linalg.norm(m + n), angle, radius)
+        # the arc between the normals is the same at both ends, on either side of the directions of the vertex
+        for vertex, inward in ((one, -along), (two, along)):
+            firsts[vertex] += 0.5 * angle * inward
+            seconds[vertex] += math.tan(0.5 * angle) / 3.0 * np.outer(m + n, inward)
+    for face in core.faces:
+        corners = vertices[list(face)]
+        before, after = np.roll(corners, 1, axis=0) - corners, np.roll(corners, -1, axis=0) - corners
+        across = np.linalg.norm(np.cross(before, after), axis=1)
+        angles[list(face)] += np.arctan2(across, np.sum(before * after, axis=1))
+    for i, place in enumerate(vertices):
+        # the integrals over the directions, by the theorems of Gauss and Bonnet and of Gauss on the cone under them
+        solid_angle = 2.0 * math.pi - angles[i]
+        second = solid_angle / 3.0 * np.eye(3) + 0.5 * (seconds[i] + seconds[i].T)
+        sums.add(place, solid_angle * radius**3 / 3.0, firsts[i] * radius**4 / 4.0, second * radius**5 / 5.0)
+    centroid = sums.first / sums.volume
+    about = sums.second - sums.volume * np.outer(centroid, centroid)
+    return sums.volume, centroid + middle, np.asarray(np.trace(about) * np.eye(3) - about)
+
+
+def _prism(n: int) -> Vector:
+    """Return the triangles of a prism on n corners, which come first below, then above."""
+    fan = [(0, i + 1, i) for i in range(1, n - 1)]
+    top = [(n, n + i, n + i + 1) for i in range(1, n - 1)]
+    sides = [(i, (i + 1) % n, n + (i + 1) % n) for i in range(n)] + [(i, n + (i + 1) % n, n + i) for i in range(n)]
+    return np.array(fan + top + sides)
+
+
+def _add_wedge(sums: _Sums, one: Vector, two: Vector, middle: Vector, angle: float, radius: float) -> None:
+    """Add the wedge of a cylinder about an edge, as wide as ``angle`` [rad] to both sides of ``middle``."""
+    way = two - one
+    length = float(np.linalg.norm(way))
+    across = np.cross(way / length, middle)
+    volume = 0.5 * angle * radius**2 * length
+    first = 2.0 / 3.0 * radius**3 * math.sin(0.5 * angle) * length * middle
+    outward = radius**4 / 8.0 * length * (angle + math.sin(angle)) * np.outer(middle, middle)
+    sideways = radius**4 / 8.0 * length * (angle - math.sin(angle)) * np.outer(across, across)
+    sums.add(0.5 * (one + two), volume, first, outward + sideways + volume / 12.0 * np.outer(way, way))

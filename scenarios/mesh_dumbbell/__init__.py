@@ -1,0 +1,1 @@
+"""The dumbbell with balls out of triangles beside the one with balls."""

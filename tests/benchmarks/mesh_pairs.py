@@ -1,0 +1,171 @@
+"""Pairs of a mesh that is not convex for the table of accuracy: which features are the nearest.
+
+The mesh is a bracket, an L.  It is touched where its convex hull is, so that nothing else is near; spheres touch it
+anywhere, if they fit there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.random import Generator
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from bodies import Box, Ellipsoid, Sphere, Superellipsoid, TriangleMesh, Triangles
+from bodies.meshes.features import Features, features_of
+from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
+from nonsmooth.interfaces import Shape
+from tests.bodies.meshes.parts import bracket
+from tests.bodies.surfaces import distances, is_inside
+
+Array = NDArray[np.float64]
+Known = tuple[tuple[Shape, Shape], Any, float, Array, Array, int]
+"""Shapes, poses, gap, normal, witness points, and the number of the contact."""
+Round = Sphere | Ellipsoid | Superellipsoid
+
+
+def _mesh(rng: Generator) -> TriangleMesh:
+    points, triangles = bracket(float(rng.uniform(8e-3, 15e-3)))
+    q = rng.normal(size=4)
+    stretched = (points - np.mean(points, axis=0)) * rng.uniform(0.4, 0.7, 3)
+    return TriangleMesh(Triangles(stretched, triangles, "bracket"), 0.0, 0.0, 0.0, *(q / np.linalg.norm(q)).tolist())
+
+
+def _outer(features: Features) -> list[int]:
+    """Return the faces of which the whole body is on one side."""
+    heights = features.vertices @ features.planes[:, :3].T - features.planes[:, 3]
+    return [int(i) for i in np.flatnonzero(np.max(heights, axis=0) < 1e-9)]
+
+
+def _feature(rng: Generator, features: Features, part: str, only_outer: bool) -> tuple[int, Array, Array]:
+    """Return number, a point and a normal of a face, edge or vertex."""
+    outer = set(_outer(features)) if only_outer else set(range(len(features.planes)))
+    normals = features.planes[:, :3]
+    while True:
+        if part == "face":
+            triangle = int(rng.integers(len(features.triangles)))
+            number = int(features.face_of[triangle])
+            corners, faces = features.triangles[triangle].tolist(), [number]
+        elif part == "edge":
+            number = int(rng.integers(len(features.edges)))
+            corners, faces = list(features.edges[number][:2]), list(features.edges[number][2:])
+        else:
+            number = int(rng.integers(len(features.corners)))
+            corners = [features.corners[number]]
+            faces = sorted(features.faces_at[corners[0]])
+        n = rng.uniform(0.2, 1.0, len(faces)) @ normals[faces]
+        n /= np.linalg.norm(n)
+        shares = rng.uniform(0.2, 1.0, len(corners))
+        ways = [] if part != "vertex" else features.vertices[list(features.stars[number])] - features.vertices[corners]
+        if outer.issuperset(faces) and all(n @ way < -0.1 * np.linalg.norm(way) for way in ways):
+            return number, shares @ features.vertices[corners] / np.sum(shares), n
+
+
+def _known(rng: Generator, shapes: tuple[Shape, Shape], gap: float, own: Any, other: Any, contact: int) -> Known:
+    """Return what is known of two shapes with a point and a normal each, put the gap apart."""
+    (point, n), (touching, m) = own, other
+    first = Rotation.random(random_state=rng)
+    axis = np.cross(m, -n)
+    angle = np.arctan2(np.linalg.norm(axis), -(m @ n))
+    facing = Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
+    second = first * Rotation.from_rotvec(rng.uniform(-3.0, 3.0) * n) * facing
+    place, normal = rng.uniform(-0.1, 0.1, 3), first.apply(n)
+    witness = place + first.apply(point)
+    poses = (
+        (place, np.roll(first.as_quat(), 1)),
+        (witness + gap * normal - second.apply(touching), np.roll(second.as_quat(), 1)),
+    )
+    return shapes, poses, gap, normal, np.array([witness, witness + gap * normal]), contact
+
+
+def _round(rng: Generator, kind: str) -> Round:
+    sizes = [float(x) for x in rng.uniform(4e-3, 10e-3, 3)]
+    if kind == "sphere":
+        return Sphere(float(rng.uniform(5e-4, 4e-3)), *rng.uniform(-2e-3, 2e-3, 3).tolist())
+    if kind == "ellipsoid":
+        return Ellipsoid(*sizes)
+    return Superellipsoid(*sizes, *rng.uniform(1.1, 1.5, 2).tolist())
+
+
+def _least_radius(shape: Round, n: Array) -> float:
+    """Return the least radius of curvature where ``n`` is the normal [m], by differences."""
+    first = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
+    first /= np.linalg.norm(first)
+    tangents, e = (first, np.cross(n, first)), 1e-4
+    rows = [[t @ (shape.support(n + e * s) - shape.support(n - e * s)) / (2.0 * e) for s in tangents] for t in tangents]
+    return float(np.linalg.eigvalsh(np.array(rows))[0])
+
+
+def _patch(patches: Patches, part: str, number: int) -> int:
+    return {"face": patches.of_faces, "edge": patches.of_edges, "vertex": patches.of_corners}[part][number]
+
+
+def _with_round(kind: str, part: str) -> Callable[[float, Generator], Known]:
+    def draw(gap: float, rng: Generator) -> Known:
+        while True:
+            mesh, second = _mesh(rng), _round(rng, kind)
+            features = mesh.features
+            if isinstance(second, Sphere):
+                patches = patches_for_ball(features, second.radius)
+            else:
+                patches = patches_for_body(features, 2.0 * (max(second.core[:3]) + second.core[5]))
+            # not where a slight overlap is more than the body is round
+            number, point, n = _feature(rng, features, part, kind != "sphere" or gap > 1e-2)
+            m = rng.normal(size=3)
+            m /= np.linalg.norm(m)
+            if gap < 0.0 and _least_radius(second, m) < -4.0 * gap:
+                continue
+            if isinstance(second, Sphere):
+                center = (point + (gap + second.radius) * n)[None]
+                corners = features.vertices[features.triangles]
+                if is_inside(center, corners)[0] or distances(center, corners)[0] < gap + second.radius - 1e-12:
+                    continue
+            touching = np.asarray(second.support(m))
+            return _known(rng, (mesh, second), gap, (point, n), (touching, m), _patch(patches, part, number))
+
+    return draw
+
+
+def _with_box(part: str, other_part: str) -> Callable[[float, Generator], Known]:
+    def draw(gap: float, rng: Generator) -> Known:
+        mesh, box = _mesh(rng), Box(*[float(x) for x in rng.uniform(4e-3, 10e-3, 3)])
+        one = mesh.features
+        two = features_of(np.array(box.polytope.vertices), np.array(box.polytope.triangles))
+        number, point, n = _feature(rng, one, part, True)
+        other, touching, m = _feature(rng, two, other_part, True)
+        patches = patches_for_body(one, 0.0)
+        crossings = len(one.edges) * len(two.edges)
+        if part == "edge":
+            contact = number * len(two.edges) + other
+        elif part == "face":
+            contact = crossings + other * patches.count + patches.of_faces[number]
+        else:
+            contact = crossings + len(two.corners) * patches.count + number
+        known = _known(rng, (mesh, box), gap, (point, n), (touching, m), contact)
+        if part != "edge":
+            return known
+        turns = [Rotation.from_quat(np.roll(q, -1)) for _, q in known[1]]
+        ways = [
+            turn.apply(np.subtract(*f.vertices[list(f.edges[i][:2])]))
+            for turn, f, i in zip(turns, (one, two), (number, other), strict=True)
+        ]
+        crossed = np.linalg.norm(np.cross(*ways)) > 0.1 * np.linalg.norm(ways[0]) * np.linalg.norm(ways[1])
+        return known if crossed else draw(gap, rng)
+
+    return draw
+
+
+MESHES: dict[str, Callable[[float, Generator], Known]] = {
+    **{
+        f"mesh-{kind}, {part}": _with_round(kind, part)
+        for kind in ("sphere", "ellipsoid", "superellipsoid")
+        for part in ("face", "edge", "vertex")
+    },
+    "mesh-box, face and vertex": _with_box("face", "vertex"),
+    "mesh-box, edges": _with_box("edge", "edge"),
+    "mesh-box, vertex and face": _with_box("vertex", "face"),
+}
+"""By name, how to draw a pose for a gap."""

@@ -1,0 +1,234 @@
+"""Contacts of meshes that are not convex: against distances found another way, and what the patches must be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from bodies import (
+    Box,
+    Capsule,
+    ConvexHull,
+    Ellipsoid,
+    MeshSphere,
+    Point,
+    Sphere,
+    Superellipsoid,
+    TriangleMesh,
+    Triangles,
+)
+from bodies.contacts import mesh_mesh
+from bodies.contacts.mesh_point import MeshPoint, PointMesh
+from nonsmooth import InvalidInput
+from nonsmooth.interfaces import Shape
+from nonsmooth.testing.kinematics import check_contact_kinematics
+from tests.bodies.carriers import Rig
+from tests.bodies.meshes.parts import box, bracket, torus
+from tests.bodies.polytopes import random_shapes
+from tests.bodies.surfaces import distances, is_inside
+
+Array = NDArray[Any]
+BRACKET = TriangleMesh(Triangles(*bracket(), "bracket"), 2e-3, -1e-3, 3e-3, 0.8, 0.36, -0.48)
+TORUS = TriangleMesh(Triangles(*torus(8, 6), "torus"))
+PLACE = np.array([0.1, 0.2, 0.3])
+UNIT = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize(("name", "n"), [("bracket", 2), ("torus", None)])
+def test_the_nearest_patch_has_the_distance_of_the_surface(build: Any, name: str, n: int | None) -> None:
+    """At random places outside; past the end of its features a patch is never nearer."""
+    mesh, rng = {"bracket": BRACKET, "torus": TORUS}[name], np.random.default_rng(3)
+    ball = Sphere(4e-3, x=1e-3)
+    rig = Rig((mesh, ball), build.laws())
+    assert n is None or len(rig.contacts) == n
+    corners = mesh.features.vertices[mesh.features.triangles]
+    low, high = mesh.bounds
+    faced = 0
+    for place in rng.uniform(low - 8e-3, high + 8e-3, (400, 3)):
+        if is_inside(place[None], corners)[0]:
+            continue
+        distance = float(distances(place[None], corners)[0])
+        turn = Rotation.random(random_state=rng)
+        center = turn.apply(place) + PLACE
+        rig.put([(PLACE, np.roll(turn.as_quat(), 1)), (center - [1e-3, 0.0, 0.0], UNIT)], np.zeros(12))
+        gaps, past = rig.geometry[:, 0], rig.geometry[:, 30]
+        facing = past <= 0.0
+        faced += int(np.sum(facing))
+        assert np.any(facing)
+        assert np.min(gaps[facing]) == pytest.approx(distance - ball.radius, abs=1e-15)
+        assert np.all(gaps[~facing] > min(distance - ball.radius, 0.0))
+        for block in rig.geometry[facing]:
+            # the witness point lies on the surface
+            point = turn.inv().apply(block[7:10] - PLACE)
+            assert distances(point[None], corners)[0] < 1e-15
+    assert faced > 300
+
+
+def test_a_ball_in_an_inner_corner_has_a_contact_with_either_wall(build: Any) -> None:
+    mesh = TriangleMesh(Triangles(*bracket(), "bracket"))
+    rig = Rig((mesh, Sphere(2e-3)), build.laws())
+    rig.put([(np.zeros(3), UNIT), (np.array([0.012, 0.012, 0.007]), UNIT)], np.zeros(12))
+    np.testing.assert_allclose(rig.geometry[:, 0], 0.0, atol=1e-17)
+    assert np.all(rig.geometry[:, 30] < 0.0)
+    np.testing.assert_allclose(sorted(rig.geometry[:, 1:4].tolist()), [[0, 1, 0], [1, 0, 0]], atol=1e-15)
+
+
+def test_a_ball_whose_centre_is_inside_overlaps(build: Any) -> None:
+    mesh = TriangleMesh(Triangles(*bracket(), "bracket"))
+    rig = Rig((mesh, Sphere(2e-3)), build.laws())
+    rig.put([(np.zeros(3), UNIT), (np.array([0.02, 0.009, 0.007]), UNIT)], np.zeros(12))
+    assert np.min(rig.geometry[:, 0]) == pytest.approx(-3e-3, abs=1e-17)
+    # below the flange is outside, though under the plane of its upper face
+    rig.put([(np.zeros(3), UNIT), (np.array([0.02, -0.004, 0.007]), UNIT)], np.zeros(12))
+    assert np.min(rig.geometry[:, 0]) == pytest.approx(2e-3, abs=1e-17)
+
+
+def test_contacts_with_points_and_balls_have_the_properties_of_the_kit() -> None:
+    pairs: list[tuple[Any, Shape, Shape]] = [
+        (contact, BRACKET, ball) for ball in [Sphere(4e-3)] for contact in MeshSphere.between(BRACKET, ball)[:1]
+    ]
+    tip = Point(1e-3, 2e-3)
+    pairs += [(MeshPoint.between(BRACKET, tip)[0], BRACKET, tip), (PointMesh.between(tip, BRACKET)[0], tip, BRACKET)]
+    for contact, first, second in pairs:
+        for check in check_contact_kinematics(contact, first, second):
+            check()
+
+
+@pytest.mark.parametrize("name", ["box-box", "box-hull", "tetrahedra"])
+def test_a_convex_mesh_has_the_contacts_of_its_hull(build: Any, name: str) -> None:
+    """At random poses near contact: the gaps of what faces each other are those of the polyhedra."""
+    rng = np.random.default_rng(5)
+    shapes = random_shapes(rng)[name]
+    one, two = (TriangleMesh(Triangles(s.polytope.vertices, s.polytope.triangles)) for s in shapes)
+    rigs = Rig(shapes, build.laws()), Rig((one, shapes[1]), build.laws()), Rig((one, two), build.laws())
+    compared = 0
+    for _ in range(60):
+        turn = [np.roll(Rotation.random(random_state=rng).as_quat(), 1) for _ in range(2)]
+        way = rng.normal(size=3)
+        poses = [(np.zeros(3), turn[0]), (way / np.linalg.norm(way) * rng.uniform(0.012, 0.025), turn[1])]
+        least = []
+        for rig in rigs:
+            rig.put(poses, np.zeros(12))
+            block = rig.geometry
+            # past the end of its features a contact is below 0 only where the bodies overlap
+            nearest = np.min(block[block[:, 30] <= 0.0, 0], initial=np.inf)
+            least.append(nearest if np.min(block[:, 0]) > 0.0 else -1.0)
+        if 0.0 < least[0] < 5e-3:
+            compared += 1
+            assert least[1] == pytest.approx(least[0], abs=1e-15)
+            assert least[2] == pytest.approx(least[0], abs=1e-15)
+    assert compared > 5
+
+
+def test_a_block_in_an_inner_corner_stands_on_both_walls(build: Any) -> None:
+    """Four of its vertices touch the wall, four the flange, two of them both."""
+    mesh, block = TriangleMesh(Triangles(*bracket(), "bracket")), Box(3e-3, 2e-3, 4e-3)
+    rig = Rig((mesh, block), build.laws())
+    rig.put([(np.zeros(3), UNIT), (np.array([0.013, 0.012, 0.007]), UNIT)], np.zeros(12))
+    touching = rig.geometry[(np.abs(rig.geometry[:, 0]) < 1e-15) & (rig.geometry[:, 30] <= 0.0)]
+    normals = touching[:, 1:4].round(12).tolist()
+    assert normals.count([1.0, 0.0, 0.0]) >= 4
+    assert normals.count([0.0, 1.0, 0.0]) >= 4
+    assert all(normal in ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]) for normal in normals)
+
+
+def test_too_many_features_are_refused_with_their_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(InvalidInput, match=r"at most 4000 pairs.*convex edges.*decomposition"):
+        mesh_mesh.MeshMesh.between(TORUS, TORUS)
+    monkeypatch.setattr(mesh_mesh, "MOST_NUMBERS", 1000)
+    with pytest.raises(InvalidInput, match="20 triangles against 20"):
+        mesh_mesh.MeshMesh.between(BRACKET, BRACKET)
+
+
+@pytest.mark.parametrize("kind", ["ellipsoid", "superellipsoid"])
+def test_a_smooth_body_has_the_gap_of_a_hull_or_of_a_ball(build: Any, kind: str) -> None:
+    """Over a convex mesh that of the hull; a smooth body that is a ball, over any mesh, that of the ball."""
+    rng = np.random.default_rng(9)
+    smooth = Ellipsoid(6e-3, 4e-3, 9e-3, x=1e-3) if kind == "ellipsoid" else Superellipsoid(6e-3, 4e-3, 9e-3, 1.5, 1.2)
+    round_one = Ellipsoid(4e-3, 4e-3, 4e-3, x=1e-3) if kind == "ellipsoid" else Superellipsoid(4e-3, 4e-3, 4e-3, x=1e-3)
+    box_mesh = TriangleMesh(Triangles(*box()))
+    hull = ConvexHull(box_mesh.features.vertices.tolist())
+    ball = Sphere(4e-3, x=1e-3)
+    for first, second in (((hull, smooth), (box_mesh, smooth)), ((BRACKET, ball), (BRACKET, round_one))):
+        rigs = Rig(first, build.laws()), Rig(second, build.laws())
+        low, high = first[0].bounds
+        compared = 0
+        for place in rng.uniform(low - 9e-3, high + 9e-3, (120, 3)):
+            turn = np.roll(Rotation.random(random_state=rng).as_quat(), 1)
+            least = []
+            for rig in rigs:
+                rig.put([(np.zeros(3), UNIT), (place, turn)], np.zeros(12))
+                block = rig.geometry
+                least.append(np.min(block[block[:, 30] <= 0.0, 0], initial=np.inf))
+            if least[0] > -5e-4:
+                compared += 1
+                assert least[1] == pytest.approx(least[0], abs=1e-15)
+        assert compared > 30
+
+
+def test_a_capsule_has_the_distance_of_its_axis(build: Any) -> None:
+    """At random places outside: the nearest of what faces each other, against many points of the axis."""
+    capsule, rng = Capsule(2e-3, 8e-3, 1e-3, 0.0, 0.0, 0.6, 0.0, 0.8), np.random.default_rng(11)
+    rig = Rig((BRACKET, capsule), build.laws())
+    corners = BRACKET.features.vertices[BRACKET.features.triangles]
+    low, high = BRACKET.bounds
+    part = np.linspace(0.0, 1.0, 401)[:, None]
+    axis = (1.0 - part) * capsule.ends[0] + part * capsule.ends[1]
+    compared = set[str]()
+    for place in rng.uniform(low - 8e-3, high + 8e-3, (150, 3)):
+        turn = Rotation.random(random_state=rng)
+        points = turn.apply(axis) + place
+        distance = float(np.min(distances(points, corners)))
+        if distance < 1e-4 or np.any(is_inside(points, corners)):
+            continue
+        rig.put([(np.zeros(3), UNIT), (place, np.roll(turn.as_quat(), 1))], np.zeros(12))
+        facing = np.flatnonzero(rig.geometry[:, 30] <= 0.0)
+        nearest = facing[np.argmin(rig.geometry[facing, 0])]
+        # a fifth of a tenth of a millimetre between two of the points
+        assert -1e-6 < rig.geometry[nearest, 0] - (distance - capsule.radius) < 1e-15
+        compared.add(rig.contacts[nearest].kinematics.features[int(rig.geometry[nearest, 29])].split()[0])
+    assert compared == {"face", "edge", "corner"}
+
+
+def test_rates_of_the_side_of_a_capsule_are_derivatives(build: Any) -> None:
+    """Across an edge and over a corner: gap rate and second-order term against differences."""
+    mesh, capsule = TriangleMesh(Triangles(*box())), Capsule(2e-3, 0.05)
+    rig, rng = Rig((mesh, capsule), build.laws()), np.random.default_rng(2)
+    step, seen = 1e-4, set[str]()
+    for way in ((1.0, 1.0, 0.0), (0.3, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, -1.0, 0.8)):
+        n = np.array(way) / np.linalg.norm(way)
+        across = np.cross(n, [0.0, 0.0, 1.0] if way[2] == 0.0 else [0.6, -0.3, 0.5])
+        tilt = Rotation.align_vectors([across / np.linalg.norm(across), n], [[0, 0, 1], [1, 0, 0]])[0]
+        touched = np.sign(way) * [0.01, 0.015, 0.025] if way[2] != 0.0 else np.array([0.01, 0.015, 0.004])
+        place, u = touched + 3e-3 * n, rng.normal(size=12) * np.repeat([0.02, 1.0, 0.02, 1.0], 3)
+
+        def put(t: float, place: Array = place, tilt: Rotation = tilt, u: Array = u) -> None:
+            turns = [Rotation.from_rotvec(t * u[3:6]), Rotation.from_rotvec(t * u[9:12]) * tilt]
+            rig.put(
+                [
+                    (p + t * v, np.roll(turn.as_quat(), 1))
+                    for p, v, turn in zip((np.zeros(3), place), (u[:3], u[6:9]), turns, strict=True)
+                ],
+                np.concatenate([u[:3], turns[0].inv().apply(u[3:6]), u[6:9], turns[1].inv().apply(u[9:12])]),
+            )
+
+        put(0.0)
+        for i in np.flatnonzero((rig.geometry[:, 30] <= 0.0) & (rig.geometry[:, 0] < 5e-3)):
+            name = rig.contacts[i].kinematics.features[0]
+            if "side" not in name:
+                continue
+            seen.add(name.split()[0])
+            rate, bias = rig.rate[i, 0], rig.bias[i, 0]
+            values = {}
+            for k in (-2, -1, 1, 2):
+                put(k * step)
+                values[k] = np.array([rig.geometry[i, 0], rig.rate[i, 0]])
+            first = (8.0 * (values[1] - values[-1]) - (values[2] - values[-2])) / (12.0 * step)
+            assert rate == pytest.approx(first[0], rel=1e-8, abs=1e-10)
+            assert bias == pytest.approx(first[1], rel=1e-6, abs=1e-7)
+            put(0.0)
+    assert seen == {"edge", "corner"}
