@@ -4,12 +4,16 @@ from bodies.ball import Ball
 from bodies.box_body import BoxBody
 from bodies.capsule_body import CapsuleBody
 from bodies.compound import Compound, Part
+from bodies.cone_body import ConeBody
 from bodies.contacts.box_sphere import BoxSphere
 from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
-from bodies.contacts.cylinder_sphere import CylinderSphere
-from bodies.contacts.disc_sphere import DiscSphere
+from bodies.contacts.frustum_capsule import FrustumCapsule
+from bodies.contacts.frustum_frustum import FrustumFrustum
+from bodies.contacts.frustum_polyhedron import FrustumPolyhedron
+from bodies.contacts.frustum_smooth import FrustumSmooth
+from bodies.contacts.frustum_sphere import FrustumSphere
 from bodies.contacts.mesh_capsule import MeshCapsule
 from bodies.contacts.mesh_mesh import MeshMesh, MeshPolyhedron
 from bodies.contacts.mesh_point import MeshPoint
@@ -17,9 +21,8 @@ from bodies.contacts.mesh_smooth import MeshSmooth
 from bodies.contacts.mesh_sphere import MeshSphere
 from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
-from bodies.contacts.plane_cylinder import PlaneCylinder
-from bodies.contacts.plane_disc import PlaneDisc
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
+from bodies.contacts.plane_frustum import PlaneFrustum
 from bodies.contacts.plane_mesh import PlaneMesh
 from bodies.contacts.plane_polyhedron import PlanePolyhedron
 from bodies.contacts.plane_smooth import PlaneSmooth
@@ -65,9 +68,11 @@ from bodies.rigid_body import RigidBody
 from bodies.rod import Rod
 from bodies.shapes.box import Box
 from bodies.shapes.capsule import Capsule
+from bodies.shapes.cone import Cone
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
 from bodies.shapes.ellipsoid import Ellipsoid
+from bodies.shapes.frustum import Frustum
 from bodies.shapes.ground import Ground
 from bodies.shapes.half_space import HalfSpace
 from bodies.shapes.hull import ConvexHull
@@ -93,16 +98,16 @@ __all__ = [
     "CapsuleSmooth",
     "CapsuleSphere",
     "Compound",
+    "Cone",
+    "ConeBody",
     "ConstantVelocity",
     "ConvexHull",
     "Coordinate",
     "Cylinder",
     "CylinderBody",
-    "CylinderSphere",
     "Decomposition",
     "Disc",
     "DiscBody",
-    "DiscSphere",
     "Distance",
     "DrivenBody",
     "Dumbbell",
@@ -110,6 +115,12 @@ __all__ = [
     "EllipsoidBody",
     "Fixed",
     "FreeBody",
+    "Frustum",
+    "FrustumCapsule",
+    "FrustumFrustum",
+    "FrustumPolyhedron",
+    "FrustumSmooth",
+    "FrustumSphere",
     "FunctionLoad",
     "FunctionMotion",
     "GeneralisedBody",
@@ -132,9 +143,8 @@ __all__ = [
     "Plane",
     "PlaneBox",
     "PlaneCapsule",
-    "PlaneCylinder",
-    "PlaneDisc",
     "PlaneEllipsoid",
+    "PlaneFrustum",
     "PlaneMesh",
     "PlanePolyhedron",
     "PlaneSmooth",

@@ -10,8 +10,8 @@ import numpy as np
 
 from bodies.shapes.drawing import revolved
 from bodies.shapes.feet import check_feet, feet_on
+from bodies.shapes.frustum import Frustum, Point, frustum_numbers, rims_over_faces
 from bodies.shapes.placement import about_axis, farthest_on_circle
-from nonsmooth.interfaces import ConvexShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -19,7 +19,7 @@ from nonsmooth.vectors import UNIT_PART, unit_vector
 
 @final
 @dataclass(frozen=True)
-class Cylinder(ConvexShape):
+class Cylinder(Frustum):
     """A solid circular cylinder with flat caps and its centre at (x, y, z) in the body frame.
 
     On a plane it touches with the lowest points of its rims, and a cylinder that stands has none.  What holds it then
@@ -43,6 +43,21 @@ class Cylinder(ConvexShape):
         check_feet("Cylinder", self.foot_height, self.radius, self.half_length)
 
     @property
+    def frustum(self) -> tuple[float, ...]:
+        """Both radii are the same."""
+        return frustum_numbers(*self._profile, self.foot_height)
+
+    @property
+    def standing_rims(self) -> tuple[tuple[float, Point], ...]:
+        """Both rims, set back."""
+        return rims_over_faces(*self._profile, self.foot_height)
+
+    @property
+    def _profile(self) -> tuple[tuple[float, float], tuple[float, float], Point, Point]:
+        radii, heights = (self.radius, self.radius), (-self.half_length, self.half_length)
+        return radii, heights, (self.x, self.y, self.z), (self.axis_x, self.axis_y, self.axis_z)
+
+    @property
     def caps(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Centres of the caps in the body frame, against and along the axis [m]."""
         return self._on_axis(self.half_length)
@@ -53,7 +68,7 @@ class Cylinder(ConvexShape):
         return self._on_axis(self.half_length - self.foot_height)
 
     @property
-    def feet(self) -> tuple[tuple[float, float, float], ...]:
+    def feet(self) -> tuple[Point, ...]:
         """Tips of the feet in the body frame, first of the cap against the axis [m]; none without a height."""
         if self.foot_height == 0.0:
             return ()

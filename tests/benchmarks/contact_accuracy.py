@@ -21,7 +21,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from bodies import Box, Capsule, ConvexHull, Ellipsoid, Plane, Sphere, Superellipsoid
+from bodies import Box, Capsule, Cone, ConvexHull, Cylinder, Disc, Ellipsoid, Frustum, Plane, Sphere, Superellipsoid
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
@@ -193,8 +193,67 @@ def on_capsule(rng: Generator) -> Touch:
     return shape, center + along * shape.half_length * axis + shape.radius * n, n
 
 
+def _along(rng: Generator) -> dict[str, float]:
+    names = [f"{kind}{c}" for kind in ("", "axis_") for c in "xyz"]
+    axis = rng.normal(size=3)
+    numbers = [*rng.uniform(-2e-3, 2e-3, 3), *axis / np.linalg.norm(axis)]
+    return dict(zip(names, map(float, numbers), strict=True))
+
+
+def cylinder(rng: Generator) -> Frustum:
+    """Return a cylinder."""
+    return Cylinder(*_sizes(rng)[:2], **_along(rng))
+
+
+def cone(rng: Generator) -> Frustum:
+    """Return a cone."""
+    radius, half, _ = _sizes(rng)
+    return Cone(radius, 2.0 * half, **_along(rng))
+
+
+def disc(rng: Generator) -> Frustum:
+    """Return a disc."""
+    return Disc(_sizes(rng)[0], **_along(rng))
+
+
+def on_round(draw: Callable[[Generator], Frustum], part: str) -> Callable[[Generator], Touch]:
+    """Return a way to touch a cylinder, a cone or a disc on a cap, a rim, the side or the apex."""
+
+    def touch(rng: Generator) -> Touch:
+        shape = draw(rng)
+        low, high, below, above, _, _, *rest = shape.frustum
+        center, axes, (cos, sin) = np.array(rest[:3]), np.array(rest[3:12]).reshape(3, 3), rest[12:]
+        angle, upper = rng.uniform(0.0, 2.0 * np.pi), bool(rng.integers(2)) and high > 0.0
+        if part == "apex":
+            upper = True
+        radius, height, up = (high, above, 1.0) if upper else (low, below, -1.0)
+        share = float(rng.uniform(0.05, 0.95))
+        if part == "cap":
+            away, along, radial, axial = share * radius, height, 0.0, up
+        elif part == "side":
+            away, along, radial, axial = low + share * (high - low), below + share * (above - below), cos, sin
+        else:
+            # between the normals of cap and side; a disc has no side, but another face
+            flat = above == below
+            start = -0.5 * np.pi if flat else float(np.arctan2(sin, cos))
+            turn = start + share * (0.5 * np.pi if flat or upper else -0.5 * np.pi - start) * (2.0 if flat else 1.0)
+            if upper and not flat:
+                turn = start + share * (0.5 * np.pi - start)
+            away, along, radial, axial = radius, height, float(np.cos(turn)), float(np.sin(turn))
+        outward = np.array([np.cos(angle), np.sin(angle), 0.0])
+        point = away * outward + np.array([0.0, 0.0, along])
+        return shape, center + axes @ point, axes @ (radial * outward + np.array([0.0, 0.0, axial]))
+
+    return touch
+
+
 SMOOTH = {"sphere": sphere, "ellipsoid": ellipsoid, "superellipsoid": superellipsoid, "boxy": boxy}
 PARTS = "face", "edge", "vertex"
+ROUND: dict[str, tuple[Callable[[Generator], Frustum], tuple[str, ...]]] = {
+    "cylinder": (cylinder, ("cap", "rim", "side")),
+    "cone": (cone, ("cap", "rim", "side", "apex")),
+    "disc": (disc, ("cap", "rim")),
+}
 PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], ConvexShape]]] = {
     "plane-ellipsoid": (on_plane, ellipsoid),
     "plane-superellipsoid": (on_plane, superellipsoid),
@@ -210,6 +269,13 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
     "boxy-boxy": (anywhere(boxy), boxy),
     **{f"box-{name}, {part}": (on(box, part), draw) for name, draw in SMOOTH.items() for part in PARTS},
     **{f"hull-{name}, {part}": (on(hull, part), draw) for name, draw in SMOOTH.items() for part in PARTS},
+    **{
+        f"{kind}-{name}, {part}": (on_round(touched, part), draw)
+        for kind, (touched, parts) in ROUND.items()
+        for name, draw in SMOOTH.items()
+        if name != "boxy"
+        for part in parts
+    },
     **{f"rounded box-{name}, {part}": (on(rounded(box), part), SMOOTH[name]) for name in SMOOTH for part in PARTS},
     **{f"rounded hull-ellipsoid, {part}": (on(rounded(hull), part), ellipsoid) for part in PARTS},
     "capsule-ellipsoid": (on_capsule, ellipsoid),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,20 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Capsule, ConvexHull, Cylinder, Disc, Ellipsoid, Ground, HalfSpace, Plane, Sphere, Superellipsoid
+from bodies import (
+    Box,
+    Capsule,
+    Cone,
+    ConvexHull,
+    Cylinder,
+    Disc,
+    Ellipsoid,
+    Ground,
+    HalfSpace,
+    Plane,
+    Sphere,
+    Superellipsoid,
+)
 from nonsmooth.interfaces import Shape
 from tests.bodies.carriers import Rig
 
@@ -25,6 +39,8 @@ BOX = Box(0.3, 0.2, 0.4, **PLACE, **AXES)
 CAPSULE = Capsule(0.15, 0.4, **PLACE, **AXIS)
 CYLINDER = Cylinder(0.3, 0.25, **PLACE, **AXIS)
 DISC = Disc(0.4, **PLACE, **AXIS)
+CONE = Cone(0.3, 0.35, **PLACE, **AXIS)
+CONE_ON_FEET = Cone(0.3, 0.35, **PLACE, **AXIS, foot_height=0.02)
 CYLINDER_ON_FEET = Cylinder(0.3, 0.25, **PLACE, **AXIS, foot_height=0.02)
 DISC_ON_FEET = Disc(0.4, **PLACE, **AXIS, foot_height=0.03)
 ROUNDED_BOX = Box(0.3, 0.2, 0.4, **PLACE, **AXES, rounding=0.04)
@@ -51,6 +67,8 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "plane-cylinder": (PLANE, CYLINDER, 2),
     "plane-disc on feet": (PLANE, DISC_ON_FEET, 1 + 6),
     "plane-cylinder on feet": (PLANE, CYLINDER_ON_FEET, 2 + 6),
+    "plane-cone": (PLANE, CONE, 2),
+    "plane-cone on feet": (PLANE, CONE_ON_FEET, 2 + 3),
     "plane-ellipsoid": (PLANE, ELLIPSOID, 1),
     "plane-hull": (PLANE, HULL, 5),
     "hull-sphere": (HULL, SPHERE, 1),
@@ -58,6 +76,7 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "box-sphere": (BOX, SPHERE, 1),
     "capsule-sphere": (CAPSULE, SPHERE, 1),
     "cylinder-sphere": (CYLINDER, SPHERE, 1),
+    "cone-sphere": (CONE, SPHERE, 1),
     "disc-sphere": (DISC, SPHERE, 1),
     "ellipsoid-ellipsoid": (ELLIPSOID, Ellipsoid(0.3, 0.1, 0.4, x=0.1), 1),
     "ellipsoid-sphere": (ELLIPSOID, SPHERE, 1),
@@ -76,6 +95,12 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "box-ellipsoid": (BOX, ELLIPSOID, 1),
     "box-superellipsoid": (BOX, SUPERELLIPSOID, 1),
     "hull-ellipsoid": (HULL, ELLIPSOID, 1),
+    "cylinder-ellipsoid": (CYLINDER, ELLIPSOID, 1),
+    "cylinder-superellipsoid": (CYLINDER, SUPERELLIPSOID, 1),
+    "cone-ellipsoid": (CONE, ELLIPSOID, 1),
+    "cone-superellipsoid": (CONE, SUPERELLIPSOID, 1),
+    "disc-ellipsoid": (DISC, ELLIPSOID, 1),
+    "disc-superellipsoid": (DISC, SUPERELLIPSOID, 1),
     "capsule-ellipsoid": (CAPSULE, ELLIPSOID, 1),
     "capsule-superellipsoid": (CAPSULE, SUPERELLIPSOID, 1),
     "capsule-capsule": (CAPSULE, Capsule(0.1, 0.3, x=0.02, axis_y=-0.6, axis_z=0.8), 1),
@@ -143,6 +168,29 @@ def _off_feet(shape: Any, x: Array, outside: Any) -> Any:
     return min(outside, np.min(np.linalg.norm(_feet(shape) - _local(shape, x), axis=-1)))
 
 
+def _cone_feet(shape: Cone) -> Array:
+    """Return the tips of the feet from the centre of the base."""
+    return _feet(replace(shape, foot_height=0.0))[:3]
+
+
+def _cone_support(shape: Cone, n: Array) -> Any:
+    """Return the larger of rim and apex, or of the feet; the rim is set back along the side."""
+    along, back = n @ _axis(shape), shape.foot_height / shape.height
+    rim = (1.0 - back) * shape.radius * _across(shape, n) + shape.foot_height * along
+    body = np.maximum(rim, shape.height * along)
+    return np.maximum(body, np.max(n @ _cone_feet(shape).T, axis=-1)) if shape.foot_height else body
+
+
+def _off_cone(shape: Cone, x: Array) -> Any:
+    own = _local(shape, x)
+    height, away = own @ _axis(shape), _across(shape, own)
+    steep = (away * shape.height + (height - shape.height) * shape.radius) / np.hypot(shape.height, shape.radius)
+    outside = max(shape.foot_height - height, steep)
+    if shape.foot_height:
+        outside = min(outside, np.min(np.linalg.norm(_cone_feet(shape) - own, axis=-1)))
+    return outside
+
+
 def _norm(shape: Superellipsoid, x: Array) -> float:
     """Return the number that is 1 on the surface, linear along rays from the centre."""
     along, across = shape.exponent_along, shape.exponent_across
@@ -203,6 +251,7 @@ SUPPORT: dict[type[Shape], Any] = {
     Sphere: lambda s, n: s.radius,
     Capsule: lambda s, n: s.radius + s.half_length * np.abs(n @ _axis(s)),
     Cylinder: lambda s, n: _with_feet(s, n, s.radius * _across(s, n) + s.half_length * np.abs(n @ _axis(s))),
+    Cone: lambda s, n: _cone_support(s, n),
     Disc: lambda s, n: _with_feet(s, n, s.radius * _across(s, n)),
     Box: lambda s, n: np.abs(n @ _own_axes(s)) @ _core(s) + s.rounding,
     ConvexHull: lambda s, n: np.max((n @ _own_axes(s)) @ np.array(s.points).T, axis=-1) + s.rounding,
@@ -222,6 +271,7 @@ OUTSIDE: dict[type[Shape], Any] = {
     Cylinder: lambda s, x: _off_feet(
         s, x, max(abs(_local(s, x) @ _axis(s)) - s.half_length + s.foot_height, _across(s, _local(s, x)) - s.radius)
     ),
+    Cone: lambda s, x: _off_cone(s, x),
     Disc: lambda s, x: _off_feet(s, x, max(abs(_local(s, x) @ _axis(s)), _across(s, _local(s, x)) - s.radius)),
     Box: lambda s, x: _off_core(s, np.abs(_local(s, x) @ _own_axes(s)) - _core(s)),
     ConvexHull: lambda s, x: _outside_hull(s, x) if s.rounding == 0.0 else _outside_rounded_hull(s, x),
@@ -309,6 +359,10 @@ DEGENERATE: dict[str, tuple[tuple[Shape, Shape], Any, float]] = {
     "sphere in the middle of a long cylinder": ((Cylinder(0.2, 0.3), Sphere(0.1)), (0.0, 0.0, 0.0), -0.3),
     "sphere in the middle of a flat cylinder": ((Cylinder(0.3, 0.2), Sphere(0.1)), (0.0, 0.0, 0.0), -0.3),
     "sphere on the rim of a cylinder": ((Cylinder(0.3, 0.2), Sphere(0.1)), (0.3, 0.0, 0.2), -0.1),
+    "sphere in the middle of a cone": ((Cone(0.3, 0.4), Sphere(0.1)), (0.0, 0.0, 0.1), -0.2),
+    "sphere on the apex of a cone": ((Cone(0.3, 0.4), Sphere(0.1)), (0.0, 0.0, 0.4), -0.1),
+    "sphere over the apex of a cone": ((Cone(0.3, 0.4), Sphere(0.1)), (0.0, 0.0, 0.6), 0.1),
+    "flat cone": ((Plane(), Cone(0.3, 0.2)), (0.0, 0.0, 0.1), 0.1),
     "sphere in the middle of a disc": ((Disc(0.3), Sphere(0.1)), (0.0, 0.0, 0.0), -0.1),
     "parallel capsules": ((Capsule(0.1, 0.3), Capsule(0.1, 0.3)), (0.5, 0.0, 0.1), 0.3),
     "opposite capsules": ((Capsule(0.1, 0.3), Capsule(0.1, 0.3, axis_z=-1.0)), (0.5, 0.0, 0.1), 0.3),
@@ -317,7 +371,12 @@ DEGENERATE: dict[str, tuple[tuple[Shape, Shape], Any, float]] = {
 }
 
 
-MEETING = ("concentric spheres", "sphere in the middle of a capsule", "capsules that cross")
+MEETING = (
+    "concentric spheres",
+    "sphere in the middle of a capsule",
+    "capsules that cross",
+    "sphere on the apex of a cone",
+)
 """Where the cores meet, the normal turns infinitely fast and the bias has no value."""
 
 

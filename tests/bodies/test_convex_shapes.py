@@ -7,7 +7,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bodies import Box, Capsule, ConvexHull, Cylinder, Ellipsoid, Sphere, Superellipsoid
+from bodies import (
+    Box,
+    Capsule,
+    Cone,
+    ConvexHull,
+    Cylinder,
+    Disc,
+    Ellipsoid,
+    Sphere,
+    Superellipsoid,
+)
 from bodies.shapes.drawing import solid_of
 from nonsmooth import InvalidInput
 from nonsmooth.interfaces import ConvexShape
@@ -23,6 +33,7 @@ SHAPES: dict[str, ConvexShape] = {
     "rounded hull": ConvexHull(POINTS, **PLACE, **AXES, rounding=0.1),
     "capsule": Capsule(0.15, 0.4, **PLACE, **AXIS),
     "cylinder": Cylinder(0.3, 0.25, **PLACE, **AXIS),
+    "cone": Cone(0.3, 0.45, **PLACE, **AXIS),
     "ellipsoid": Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES),
     "superellipsoid": Superellipsoid(0.2, 0.35, 0.5, 1.5, 1.2, **PLACE, **AXES),
     "boxy superellipsoid": Superellipsoid(0.2, 0.35, 0.5, 0.6, 0.8, **PLACE, **AXES),
@@ -104,3 +115,20 @@ def test_mass_properties_far_from_the_origin_lose_only_what_the_vertices_lost(aw
     assert volume == pytest.approx(1.0, abs=10.0 * loss)
     np.testing.assert_allclose(centroid, [away, -away, away], rtol=0, atol=loss)
     np.testing.assert_allclose(inertia, np.eye(3) / 6.0, rtol=0, atol=10.0 * loss)
+
+
+def test_a_disc_is_a_convex_shape_without_volume() -> None:
+    """Two faces of one rim: support, bounds and a closed drawing, but no mass properties."""
+    disc = Disc(0.4, **PLACE, **AXIS)
+    vertices, faces = disc.drawing(400)
+    for n in _directions(100):
+        reach = float(disc.support(2.0 * n) @ n)
+        assert reach - 1e-4 <= np.max(vertices @ n) <= reach + 1e-15
+    normals = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
+    np.testing.assert_allclose(np.sum(normals, axis=0), 0.0, rtol=0, atol=1e-15)
+    assert 0.5 * np.sum(np.linalg.norm(normals, axis=1)) == pytest.approx(2.0 * np.pi * 0.4**2, rel=1e-4)
+    axis = np.array(list(AXIS.values()))
+    half = 0.4 * np.sqrt(1.0 - axis**2)
+    np.testing.assert_allclose(disc.bounds, disc.centroid + np.array([-half, half]), rtol=0, atol=1e-15)
+    assert disc.volume == 0.0
+    assert not np.any(disc.inertia)

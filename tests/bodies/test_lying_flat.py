@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Ball, CylinderBody, Disc, DiscBody, Plane, Plate, Rest
+from bodies import Ball, ConeBody, CylinderBody, Disc, DiscBody, Plane, Plate, Rest
 from bodies.shapes.feet import USUAL
 from laws import NewtonImpact
 from scenarios.rolling_disc import steady
@@ -23,10 +23,10 @@ Array = NDArray[np.float64]
 
 GRAVITY = 9.81
 R = 0.05
-DISC, CYLINDER = DiscBody(R, mass=0.2), CylinderBody(R, 0.02, mass=0.2)
-STANDS = {DISC: USUAL * R, CYLINDER: 0.02}
+DISC, CYLINDER, CONE = DiscBody(R, mass=0.2), CylinderBody(R, 0.02, mass=0.2), ConeBody(R, 0.06, mass=0.2)
+STANDS = {DISC: USUAL * R, CYLINDER: 0.02, CONE: 0.015}
 """Height of the mass centre over the plane on which they lie flat."""
-FLAT = pytest.mark.parametrize("body", STANDS, ids=["disc", "cylinder"])
+FLAT = pytest.mark.parametrize("body", STANDS, ids=["disc", "cylinder", "cone"])
 
 
 def _about(axis: tuple[float, float, float], angle: float) -> tuple[float, float, float, float]:
@@ -99,7 +99,10 @@ def test_a_flat_spin_ends_as_under_an_even_pressure(build: Any, body: Any) -> No
     solution = ns.simulate(system, 0.5)
     assert _lies(solution, body)
     assert solution.events.causes() == ["start", "slip to stick"]
-    assert solution.events.time[1] == pytest.approx(0.75 * R * spin / (friction * GRAVITY), abs=1e-8)
+    moment = friction * body.total_mass * GRAVITY * 2.0 * R / 3.0
+    assert solution.events.time[1] == pytest.approx(body.inertia[2] * spin / moment, abs=1e-8)
+    if body is not CONE:
+        assert solution.events.time[1] == pytest.approx(0.75 * R * spin / (friction * GRAVITY), abs=1e-8)
 
 
 @pytest.mark.parametrize("excess", [-1e-3, -1e-9, 1e-3])

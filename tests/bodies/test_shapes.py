@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Capsule, Compound, Cylinder, CylinderBody, Disc, DiscBody, Ellipsoid, Part
+from bodies import Box, Capsule, Compound, Cone, Cylinder, CylinderBody, Disc, DiscBody, Ellipsoid, Part
 from nonsmooth import InvalidInput
 
 CENTERS = [(0.0, 0.0, 0.0), (0.1, -0.2, 0.05), (0.0, 0.0, 0.3)]
@@ -56,6 +56,9 @@ def test_lengths_of_shapes_with_an_axis(center: Any) -> None:
     assert Disc(0.3, *center, **AXIS).length == pytest.approx(farthest(at + rim), abs=1e-9)
     caps = [at + sign * 0.2 * axis for sign in (-1.0, 1.0)]
     assert Cylinder(0.3, 0.2, *center, **AXIS).length == pytest.approx(max(farthest(c + rim) for c in caps), abs=1e-9)
+    cone = Cone(0.3, 0.2, *center, **AXIS)
+    np.testing.assert_allclose(cone.apex, at + 0.2 * axis, rtol=0, atol=1e-15)
+    assert cone.length == pytest.approx(max(farthest(at + rim), farthest(at + 0.2 * axis)), abs=1e-9)
     assert Capsule(0.3, 0.2, *center, **AXIS).length == pytest.approx(0.3 + farthest(caps))
 
 
@@ -78,7 +81,14 @@ def test_feet_stand_on_both_faces(axis: Any) -> None:
             np.testing.assert_allclose(products, 1.5 * np.eye(3) - 0.5, rtol=0, atol=1e-14)
     rims = np.array(cylinder.rims) - center
     np.testing.assert_allclose(rims, [-0.18 * direction, 0.18 * direction], rtol=0, atol=1e-15)
+    cone = Cone(0.3, 0.2, **place, foot_height=0.02)
+    np.testing.assert_allclose(cone.feet, np.array(disc.feet[:3]) + 0.02 * direction, rtol=0, atol=1e-15)
+    # the rim is set back along the side
+    (radius, rim), (none, apex) = cone.standing_rims
+    assert (radius, none) == pytest.approx((0.27, 0.0), abs=1e-15)
+    np.testing.assert_allclose([rim, apex], [center + 0.02 * direction, center + 0.2 * direction], rtol=0, atol=1e-15)
     plain = Cylinder(0.3, 0.2, **place)
+    assert plain.standing_rims == tuple((0.3, cap) for cap in plain.caps)
     assert plain.feet == ()
     assert plain.rims == plain.caps == cylinder.caps
 

@@ -1,4 +1,4 @@
-"""A cylinder over a plane, in closed form."""
+"""A cylinder, a cone or a disc over a plane, in closed form."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.plane_rim import evaluate_rim_over_plane
 from bodies.contacts.plane_vertex import PlaneVertex
-from bodies.shapes.cylinder import Cylinder
+from bodies.shapes.frustum import AXIS, Frustum
 from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
@@ -16,14 +16,14 @@ from nonsmooth.parameters import parameter
 
 @final
 @dataclass(frozen=True)
-class PlaneCylinder(ContactKinematics):
-    """The lowest point of one rim of a cylinder over a plane; a cylinder has two such contacts.
+class PlaneFrustum(ContactKinematics):
+    """The lowest point of one rim of a cylinder, a cone or a disc over a plane.
 
-    They hold a cylinder that lies on its side.  One that stands has no lowest point: the numbers stay finite, but a
-    single contact cannot hold it.  Its feet can, each a contact of its own.
+    Two rims, or a rim and the apex, hold a body that lies on its side.  A rim that lies flat has no lowest point: the
+    numbers stay finite, but a single contact cannot hold it.  Its feet can, each a contact of its own.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Cylinder)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Frustum)
 
     radius: float = parameter(doc="radius of the rim", unit="m", above=0.0)
     x: float = parameter(doc="its centre in its body frame, first coordinate", unit="m")
@@ -36,11 +36,14 @@ class PlaneCylinder(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of the two rims, first the one against the axis, then those of the feet, if any."""
-        assert isinstance(second, Cylinder)
+        """Return the contacts of the rims, first the one against the axis, of the apex, and of the feet, if any."""
+        assert isinstance(second, Frustum)
         height = first.parameters()["height"]
-        axis = second.axis_x, second.axis_y, second.axis_z
-        rims = (cls(second.radius, *rim, *axis, height) for rim in second.rims)
+        axis = second.frustum[AXIS], second.frustum[AXIS + 3], second.frustum[AXIS + 6]
+        rims = (
+            cls(radius, *center, *axis, height) if radius > 0.0 else PlaneVertex(*center, height)
+            for radius, center in second.standing_rims
+        )
         return *rims, *(PlaneVertex(*foot, height) for foot in second.feet)
 
     @property

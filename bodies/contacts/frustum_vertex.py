@@ -1,0 +1,189 @@
+"""A vertex of a polyhedron over the caps and the side of a frustum."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.across import across
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.frames import point_in_world, vector_in_body
+from bodies.contacts.frustum import (
+    FLANK,
+    HIGH_CAP,
+    LOW_CAP,
+    axis_in_world,
+    center_in_world,
+    part_names,
+    part_number,
+    write_part,
+)
+from bodies.contacts.polytope_tables import FACE, Numbers, face_table, vertex_table
+from bodies.contacts.tangents import write_tangent
+from bodies.contacts.vertex_face import DEEP, REACH, height_over
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
+from bodies.shapes.polyhedron import Polyhedron
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+@compiled
+def _least(
+    a: Floats,
+    b: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    nx: float,
+    ny: float,
+    nz: float,
+    x: float,
+    y: float,
+    z: float,
+) -> float:
+    """Return the least height of the second body's vertices over the plane through a point with the normal n."""
+    base = nx * (b[0] - x) + ny * (b[1] - y) + nz * (b[2] - z)
+    nx, ny, nz = vector_in_body(b, nx, ny, nz)
+    least = 1e300
+    for i in range(int(n_vertices)):
+        least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
+    return base + least
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    vertex: float,
+    n_faces: float,
+    faces: Floats,
+    size: float,
+) -> None:
+    ax, ay, az = axis_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    v = 3 * int(vertex)
+    px, py, pz = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
+    along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
+    cosine, sine = frustum[COS], frustum[SIN]
+    dr, dz = away - frustum[0], along - frustum[LOW]
+    margin = REACH * size
+    flat = frustum[SIDE] == 0.0
+    best, deepest, inner = -1e300, -1e300, LOW_CAP
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
+            continue
+        radial, axial, height = 0.0, -1.0, -dz
+        if part == HIGH_CAP:
+            axial, height = 1.0, along - frustum[HIGH]
+        elif part == FLANK:
+            radial, axial, height = cosine, sine, cosine * dr + sine * dz
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
+        best = max(best, _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz))
+        if height > deepest:
+            deepest, inner = height, part
+    found, gap, past = inner, deepest, 1e300
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
+            continue
+        radial, axial, height, beyond, depth = 0.0, -1.0, -dz, away - frustum[0], frustum[HIGH] - frustum[LOW]
+        if part == HIGH_CAP:
+            axial, height, beyond = 1.0, along - frustum[HIGH], away - frustum[1]
+        elif part == FLANK:
+            radial, axial, height = cosine, sine, cosine * dr + sine * dz
+            up = cosine * dz - sine * dr
+            beyond, depth = max(-up, up - frustum[SIDE]), 2.0 * frustum[0]
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
+        least = _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz)
+        if least < best - margin:
+            continue
+        if height < 0.0:
+            # behind a part only what lies inside of the body can touch it; of a disc, what has the disc inside of it
+            beyond = max(beyond, height_over(b, n_faces, faces, qx, qy, qz) if flat else deepest)
+        beyond -= margin
+        if not flat:
+            beyond = max(beyond, -least - 0.5 * depth)
+        if beyond < past:
+            found, gap, past = part, height, beyond
+    if past > 0.0:
+        if deepest < -DEEP * size:
+            found, gap, past = inner, deepest, deepest
+        else:
+            gap = math.sqrt(gap * gap + past * past)
+    radial, axial = 0.0, -1.0 if found == LOW_CAP else 1.0
+    if found == FLANK:
+        radial, axial = cosine, sine
+    out[0], out[29], out[30] = gap, part_number(frustum, found), past
+    out[1], out[2], out[3] = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+    out[10], out[11], out[12] = px, py, pz
+    for i in range(3):
+        out[7 + i] = out[10 + i] - gap * out[1 + i]
+    write_tangent(a, out)
+    write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
+    write_round(out, SIDE_B, 0.0)
+
+
+@final
+@dataclass(frozen=True)
+class FrustumVertex(ContactKinematics):
+    """A vertex of the second body over the part of the first, cap or side, that best separates the bodies.
+
+    Attributes
+    ----------
+    frustum : tuple of float
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    vertices : tuple of float
+        All vertices of the second [m].
+    vertex : int
+        Number of this one.
+    faces : tuple of float
+        All faces of the second body.
+    size : float
+        Size of the bodies [m].
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Polyhedron)
+
+    frustum: Numbers
+    vertices: Numbers
+    vertex: int
+    faces: Numbers
+    size: float
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of all vertices."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, Polyhedron)
+        polytope = second.polytope
+        vertices, faces, size = vertex_table(polytope), face_table(polytope), max(polytope.size, 2.0 * first.extent)
+        return tuple(cls(first.frustum, vertices, i, faces, size) for i in range(len(vertices) // 3))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {
+            "frustum": self.frustum,
+            "n_vertices": float(len(self.vertices) // 3),
+            "vertices": self.vertices,
+            "vertex": float(self.vertex),
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The parts, rims among them, which this contact never has."""
+        return tuple(f"{part} and vertex {self.vertex}" for part in part_names(self.frustum))

@@ -1,0 +1,86 @@
+"""Frustum: what cylinders, cones and discs have in common."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Sequence
+
+from nonsmooth.interfaces import ConvexShape
+from nonsmooth.vectors import perpendiculars
+
+Point = tuple[float, float, float]
+LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN = 2, 3, 4, 5, 6, 11, 18, 19
+"""Where in the numbers stand the heights of the rims and of the feet, the length of the side, the centre, the axis (in
+steps of three) and the normal of the side."""
+
+
+class Frustum(ConvexShape):
+    """A convex solid between two circles about one axis: a radius may be 0, and so may the height."""
+
+    @property
+    @abstractmethod
+    def frustum(self) -> tuple[float, ...]:
+        """Its numbers (:func:`frustum_numbers`)."""
+
+    @property
+    @abstractmethod
+    def feet(self) -> tuple[Point, ...]:
+        """Tips of the feet in the body frame [m]; none without a height."""
+
+    @property
+    @abstractmethod
+    def standing_rims(self) -> tuple[tuple[float, Point], ...]:
+        """Radius and centre in the body frame of the rims over flat faces [m], set back by the feet."""
+
+
+def frustum_numbers(
+    radii: Sequence[float], heights: Sequence[float], center: Point, axis: Point, foot_height: float
+) -> tuple[float, ...]:
+    """Return the numbers by which evaluators know a frustum.
+
+    They are the radii of the lower and the upper rim [m], their heights over the centre along the axis [m], the height
+    of the feet [m], the length of the side from rim to rim [m], the centre in the body frame [m], the rotation from the
+    frustum's axes to those of the body, row by row, with the axis as the third column, and the outward normal of the
+    side: across and along the axis.
+
+    Parameters
+    ----------
+    radii : sequence of float
+        Of the lower and the upper rim [m], the upper one not larger.
+    heights : sequence of float
+        Of the lower and the upper rim over the centre [m].
+    center, axis : tuple of float
+        In the body frame [m and 1].
+    foot_height : float
+        By which rims are set back over flat faces [m].
+    """
+    (low, high), (below, above) = radii, heights
+    side = math.hypot(low - high, above - below)
+    normal = ((above - below) / side, (low - high) / side) if side > 0.0 else (1.0, 0.0)
+    norm = math.hypot(*axis)
+    unit = tuple(x / norm for x in axis)
+    rows = (value for row in zip(*perpendiculars(unit), unit, strict=True) for value in row)
+    return (low, high, below, above, foot_height, side, *center, *rows, *normal)
+
+
+def rims_over_faces(
+    radii: Sequence[float], heights: Sequence[float], center: Point, axis: Point, foot_height: float
+) -> tuple[tuple[float, Point], ...]:
+    """Return radius and centre of either rim [m], set back along the side by the height of the feet.
+
+    So a body on its side lies as without feet.  The apex of a cone, a rim of radius 0, is not set back.
+    """
+    (low, high), (below, above) = radii, heights
+    part = foot_height / (above - below)
+    rims = (
+        (low + part * (high - low), below + foot_height),
+        (high + part * (low - high), above - foot_height) if high > 0.0 else (high, above),
+    )
+    return tuple((radius, on_axis(center, axis, height)) for radius, height in rims)
+
+
+def on_axis(center: Point, axis: Point, height: float) -> Point:
+    """Return the point of the axis at a height over the centre [m]."""
+    x, y, z = (c + height * a for c, a in zip(center, axis, strict=True))
+    return x, y, z
