@@ -322,8 +322,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     theta = high
     S.trigger = max(0, first)
     roots = 0
-    while first >= 0:
-        if roots >= 3 * S.n_contacts + S.n_own_guards or (closed == 1 and roots == _MOST_ROOTS):
+    while first >= 0 and roots < 3 * S.n_contacts + S.n_own_guards:
+        if closed == 1 and roots == _MOST_ROOTS:
             return -1.0
         if closed == 1 and roots > _FEW_ROOTS and w[S.guard_first + first] < 0.0:
             return -1.0
