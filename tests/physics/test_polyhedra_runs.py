@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import BoxBody, FreeBody, HullBody, Plate
+from bodies import BoxBody, DrivenBody, FreeBody, HullBody, Plate, Rest
 from bodies.inertia import tensor_of
+from bodies.shapes.box import Box
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from tests.bodies.polytopes import random_hull, tetrahedron
 
@@ -137,3 +138,28 @@ def test_a_box_slides_over_an_edge_and_tips_where_its_centre_passes_it(angle: fl
     total = energy.kinetic_start + energy.potential_start
     assert energy.kinetic_end + energy.potential_end + lost == pytest.approx(total, abs=1e-9)
     assert float(np.min(solution.q[:, 9])) >= 0.01 - 1e-9
+
+
+def _apart(halves: Array, others: Array, q: Array) -> float:
+    """Return the widest slab without points of a box, at a pose, and of one at rest; negative where they overlap."""
+    axes = Rotation.from_quat(np.roll(q[3:7], -1)).as_matrix()
+    slabs = [*np.eye(3), *axes.T, *(np.cross(one, two) for one in np.eye(3) for two in axes.T)]
+    units = [n / np.linalg.norm(n) for n in slabs if np.linalg.norm(n) > 1e-6]
+    return float(max(abs(n @ q[:3]) - others @ np.abs(n) - halves @ np.abs(axes.T @ n) for n in units))
+
+
+@pytest.mark.parametrize("drop", [3, 21, 35, 37])
+def test_a_box_that_falls_on_a_box_does_not_sink_in(drop: int) -> None:
+    """While some corners slide others come down: no closing is missed between two events."""
+    halves, others, rng = np.array([0.03, 0.02, 0.015]), np.array([0.2, 0.2, 0.01]), np.random.default_rng(0)
+    for _ in range(drop + 1):
+        turn, restitution, mu = rng.normal(size=4), rng.uniform(0.0, 0.8), rng.uniform(0.0, 0.8)
+        velocity, spin = 0.3 * rng.normal(size=3), 10.0 * rng.normal(size=3)
+    floor, body = DrivenBody(Rest(), (Box(*others),)), BoxBody(0.03, 0.02, 0.015)
+    system = ns.System([floor, body])
+    system.contact(floor, body, **_laws(Coulomb(mu), restitution))
+    orientation = turn / np.linalg.norm(turn)
+    system.place(body, position=(0, 0, 0.06), orientation=orientation, velocity=velocity, angular_velocity=spin)
+    solution = ns.simulate(system, 0.8, sample_interval=5e-4)
+    assert min(_apart(halves, others, q) for q in solution.q) > -1e-9
+    assert abs(solution.energy.residual) < 1e-7
