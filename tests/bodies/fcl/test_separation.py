@@ -14,7 +14,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Box, Capsule, Cylinder, Disc, Plane, Point, Sphere
+from bodies import Box, Capsule, Cone, Cylinder, Disc, HalfSpace, Plane, Point, Sphere
 from bodies.distances.pose import Pose
 from bodies.distances.separation import DoubtfulDistance, separation
 from bodies.fcl.solid import FclSolid as Solid
@@ -173,10 +173,24 @@ def test_what_is_inside_of_a_mesh_overlaps() -> None:
     assert separation(small, notch, SOLIDS["mesh"], Pose()).distance == pytest.approx(0.007, abs=1e-12)
 
 
-@pytest.mark.parametrize("shape", [Plane(), Disc(0.01), Point(0.0, 0.0, 0.0)], ids=["half-space", "disc", "point"])
+@pytest.mark.parametrize("shape", [Plane(), HalfSpace(), Cone(0.01, 0.02), Disc(0.01), Point(0.0, 0.0, 0.0)])
 def test_what_fcl_cannot_hold_is_refused(shape: Any) -> None:
     with pytest.raises(ns.InvalidInput, match=r"FCL must be given a bounded solid.*Known: Box, .*contact kinematics"):
         Solid(shape)
+
+
+def test_a_cone_over_a_half_space_is_ours(build: Any) -> None:
+    """FCL is wrong for half of all orientations of these two; the pair of the engine is the height of the support."""
+    cone, rng = Cone(0.005, 0.012, y=0.002, **AXIS), np.random.default_rng(9)
+    rig = Rig((HalfSpace(0.003), cone), build.laws())
+    for _ in range(300):
+        (ground, other), up = poses(rng), np.array([0.0, 0.0, 1.0])
+        turns = [np.roll(Rotation.from_matrix(p.rotation).as_quat(), 1) for p in (ground, other)]
+        rig.put([(ground.position, turns[0]), (other.position, turns[1])], np.zeros(12))
+        normal = ground.rotation @ up
+        lowest = other.position + other.rotation @ cone.support(-other.rotation.T @ normal)
+        height = normal @ (lowest - ground.position) - 0.003
+        assert np.min(rig.geometry[:, 0]) == pytest.approx(height, abs=1e-15)
 
 
 WRONG = {
