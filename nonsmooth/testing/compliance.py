@@ -5,7 +5,8 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -228,6 +229,19 @@ def _impact(law: CompliantNormalLaw, case: Case) -> str:
     return ""
 
 
+@final
+@dataclass(frozen=True)
+class _Opening:
+    """The event of scipy's integration at which a contact opens."""
+
+    reach: float
+    terminal: ClassVar[bool] = True
+    direction: ClassVar[float] = -1.0
+
+    def __call__(self, t: float, y: Array) -> float:
+        return float(y[0]) + self.reach
+
+
 def _integrated(law: CompliantNormalLaw, load: float, depth: float, speed: float) -> tuple[float, float, float]:
     """Return how long a mass is followed that strikes, and its indentation and rate then.
 
@@ -240,15 +254,17 @@ def _integrated(law: CompliantNormalLaw, load: float, depth: float, speed: float
             raise ArithmeticError(f"an impact at {speed:g} m/s asks for more than {_MOST_CALLS} calls of the force")
         return [float(y[1]), -force(depth * float(y[0]), speed * float(y[1]), speed) / load]
 
-    def opens(t: float, y: Array) -> float:
-        return float(y[0]) + law.reach / depth
-
-    opens.terminal, opens.direction = True, -1.0  # type: ignore[attr-defined]
     start = [0.0, 1.0]
     # past the closing, where the gap may be the one at which the contact opens
     found = solve_ivp(slope, (0.0, _SHORT), start, method="DOP853", rtol=_EXACT, atol=1e-3 * _EXACT)
     found = solve_ivp(
-        slope, (_SHORT, _LONGEST), found.y[:, -1], method="DOP853", rtol=_EXACT, atol=1e-3 * _EXACT, events=opens
+        slope,
+        (_SHORT, _LONGEST),
+        found.y[:, -1],
+        method="DOP853",
+        rtol=_EXACT,
+        atol=1e-3 * _EXACT,
+        events=_Opening(law.reach / depth),
     )
     x, rate, duration = float(found.y[0, -1]), float(found.y[1, -1]), float(found.t[-1])
     if found.status == 1:
