@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-_ROUND_OFF = 1e-26
-"""Square of what turning a normal into the axes of a body and back may leave of a zero."""
+_ROUND_OFF = 1e-16
+"""Square of what round-off may leave of a zero in a normal, of a face in other axes or of edges that lie in one."""
 
 
 @compiled
@@ -22,8 +24,9 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
     # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits where the normal points down
     square = x * x + y * y
     if square < _ROUND_OFF:
-        # a face whose normal is (0, 0, -1) keeps its tangent however the body turns
-        return 1.0, 0.0, 0.0
+        # faces that lie on each other with the normal (0, 0, -1) keep their tangent however the bodies turn
+        length = math.sqrt(1.0 - x * x)
+        return length, -x * y / length, -x * z / length
     grow = (1.0 - z) / square
     return 1.0 - grow * x * x, -grow * x * y, -x
 

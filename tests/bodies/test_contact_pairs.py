@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
@@ -25,6 +27,7 @@ from bodies import (
     Sphere,
     Superellipsoid,
 )
+from bodies.contacts.tangents import tangent_of
 from nonsmooth.interfaces import Shape
 from tests.bodies.carriers import Rig
 
@@ -345,6 +348,19 @@ def test_tangent_of_a_face_that_looks_down_stays_with_it(build: Any) -> None:
         q = np.roll(turn.as_quat(), 1)
         rig.put([(np.zeros(3), q), (turn.apply([0.01 * i, 0.05, -0.6]), q)], np.zeros(12))
         np.testing.assert_allclose(rig.geometry[0, 4:7], turn.apply([1.0, 0.0, 0.0]), rtol=0, atol=1e-12)
+
+
+@settings(max_examples=50)
+@given(x=st.floats(-1.0, 1.0), y=st.floats(-1.0, 1.0), far=st.floats(-16.0, 0.0))
+def test_tangent_is_one_and_next_to_the_pole_stays(x: float, y: float, far: float) -> None:
+    """Unit and across to round-off everywhere; what round-off leaves of a normal that looks down does not turn it."""
+    n = np.array([10.0**far * x, 10.0**far * y, -1.0])
+    n /= np.linalg.norm(n)
+    tangent = np.array(tangent_of(*n.tolist()))
+    assert abs(tangent @ n) <= 4e-15
+    assert np.linalg.norm(tangent) == pytest.approx(1.0, abs=4e-15)
+    if np.hypot(n[0], n[1]) < 1e-9:
+        np.testing.assert_allclose(tangent, [1.0, 0.0, 0.0], rtol=0, atol=2e-9)
 
 
 AT_ORIGIN = (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
