@@ -12,6 +12,9 @@ from nonsmooth.types import Floats
 REACH = 1e-9
 """A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""
 
+BESIDE = 1e-2
+"""A vertex is next to a face up to this part of the size of the bodies."""
+
 DEEP = 1e-6
 """Bodies overlap where they do by more than this part of their size; less may be the error of a step at rest."""
 
@@ -104,11 +107,12 @@ def nearest_face(
         height = plane_height(faces, FACE * i, x, y, z)
         if height > deepest:
             deepest, inner = height, i
+    beside = -DEEP * size <= deepest <= BESIDE * size
     found, gap, past = -1, deepest, 1e300
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
-        # one that is farther under a face stands over another, or came in through it
-        if height < best - margin or height < min(deepest, 0.0) - DEEP * size:
+        # next to a face a vertex that is farther under another touches the one, not the other
+        if height < best - margin or (beside and height < -max(deepest, DEEP * size)):
             continue
         least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)
         if least < best - margin:
