@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import ClassVar, final
+from typing import Any, ClassVar, final
 
 from bodies.contacts.across import across
 from bodies.contacts.flank_flank import FlankFlank
@@ -26,6 +26,7 @@ from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.rim_flank import RimFlank
 from bodies.contacts.rim_rim import RimRim
 from bodies.contacts.vertex_face import REACH
+from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.frustum import HIGH, LOW, SIDE, Frustum
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -138,6 +139,11 @@ class FrustumFrustum(ContactKinematics):
     cap: int
     size: float
     name: str
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return two cylinders."""
+        return {"first": Cylinder(0.01, 0.02), "second": Cylinder(0.008, 0.02)}
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:

@@ -89,8 +89,14 @@ def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]
         raise InvalidInput(
             "--set", "must be left out", dict(words), f"The parameters of {name} follow from its shapes."
         )
-    first, second = (make(kind, kind.__name__, {}) for kind in map(_installed, owner.pair))
-    return check_contact_kinematics(owner.between(first, second)[0], first, second)
+    brought = owner.example()
+    first, second = (
+        brought[place] if place in brought else make(_installed(kind), kind.__name__, {})
+        for place, kind in zip(("first", "second"), owner.pair, strict=True)
+    )
+    # a pair may hold by contacts of several classes
+    own = next(contact for contact in owner.between(first, second) if type(contact) is owner)
+    return check_contact_kinematics(own, first, second)
 
 
 def _installed(kind: type[Shape]) -> type[Shape]:
