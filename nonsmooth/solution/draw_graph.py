@@ -30,6 +30,7 @@ _COLOURS = (
     "#f0e442",
     "#99cc00",
     "#882255",
+    "#44aa99",
 )
 """One for each cause, told apart by the colour-blind as well."""
 _BEND = 0.16
