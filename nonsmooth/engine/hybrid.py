@@ -52,6 +52,8 @@ from nonsmooth.model.layout import GEOMETRY, PAST_END
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
 _DRIFT = 0.3
+_NO_STEP = 1e-3
+"""A step below this part of the time tolerance in which guards crowd or the error grows leads nowhere."""
 _ROOM = 64
 """Free rows that an instant may need in the event buffer."""
 
@@ -263,6 +265,8 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     S.fresh = 0
     h = locate(S, w, k, h, high)
     if h < 0.0:
+        if S.h < _NO_STEP * S.time_tolerance:
+            return STEP_TOO_SMALL
         S.h_closed = 0.25 * S.h
         return RUNNING
     ends = 2 * S.n_contacts + S.n_own_guards
