@@ -81,7 +81,8 @@ def _evaluate(
         s, over, past = 0.0, 0.0, size * _PARALLEL
     gap = wx * nx + wy * ny + wz * nz
     overlap = 0.0
-    if past <= 0.0:
+    # a contact may close up to the gap tolerance past its end: there the normal must be that of the edges, too
+    if past <= margin:
         plus = max(_astray(a, edge_a, 1.0, nx, ny, nz), _astray(b, edge_b, -1.0, nx, ny, nz))
         minus = max(_astray(a, edge_a, -1.0, nx, ny, nz), _astray(b, edge_b, 1.0, nx, ny, nz))
         if minus < plus:
@@ -107,8 +108,6 @@ def _evaluate(
             # they overlap elsewhere: no contact of these edges, but a sign that another one was passed
             overlap = max(-abs(gap), outside)
     if past > 0.0:
-        if gap < 0.0:
-            nx, ny, nz = -nx, -ny, -nz
         gap = overlap if overlap < 0.0 else math.sqrt(gap * gap + past * past)
     out[0], out[29], out[30] = gap, 0.0, past
     out[1], out[2], out[3] = nx, ny, nz

@@ -86,8 +86,6 @@ def evaluate_edges(
     if gap < 0.0 and depth <= DEEP * size:
         past = max(past, over - _NEAR_ENDS * gap - margin)
     if past > 0.0:
-        if gap < 0.0:
-            nx, ny, nz = -nx, -ny, -nz
         # what is inside and no contact of these edges is a sign that another one was passed
         gap = -depth if depth > DEEP * size else math.sqrt(gap * gap + past * past)
     out[0], out[29], out[30] = gap, 0.0, past
