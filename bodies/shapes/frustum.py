@@ -5,18 +5,31 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Sequence
+from typing import final
 
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.vectors import perpendiculars
 
 Point = tuple[float, float, float]
 LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN, SWEEP = 2, 3, 4, 5, 6, 11, 18, 19, 20
 """Where in the numbers stand the heights of the rims and of the feet, the length of the side, the centre, the axis (in
 steps of three), the normal of the side, and the radius that sweeps it all."""
+_THINNEST = 1e-5
+"""The core is at least so thick, in units of the largest size."""
 
 
 class Frustum(ConvexShape):
-    """A convex solid between two circles about one axis: a radius may be 0, and so may the height."""
+    """A convex solid between two circles about one axis: a radius may be 0, and so may the height.
+
+    Its rims and its apex are sharp, or rounded by the radius ``rounding``: then it is all that is so near to a smaller
+    frustum, the core, of which everything here tells.
+    """
+
+    rounding: float
 
     @property
     @abstractmethod
@@ -26,12 +39,30 @@ class Frustum(ConvexShape):
     @property
     @abstractmethod
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet in the body frame [m]; none without a height."""
+        """Tips of the feet of the core in the body frame [m]; none without a height."""
 
     @property
     @abstractmethod
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:
         """Radius and centre in the body frame of the rims over flat faces [m], set back by the feet."""
+
+    @final
+    def _rounded(self, direction: Vector) -> Vector:
+        if self.rounding == 0.0:
+            return np.zeros(3)
+        return np.asarray(self.rounding * direction / np.linalg.norm(direction))
+
+
+def check_rounding(name: str, inner: float, sizes: Sequence[float], rounding: float) -> None:
+    """Raise InvalidInput unless a body of these sizes that holds a ball of radius ``inner`` [m] keeps a core."""
+    most = inner - _THINNEST * max(sizes)
+    if rounding > 0.0 and rounding > most:
+        raise InvalidInput(
+            f"{name}.rounding",
+            f"must be less than the radius of the largest ball within, at most {most:g} [m]",
+            rounding,
+            "The sizes are those of the whole. Round all over is a Capsule or a Sphere.",
+        )
 
 
 def frustum_numbers(

@@ -7,7 +7,7 @@ import functools
 import importlib.util
 import inspect
 import warnings
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import Distribution, EntryPoint, entry_points
 from pathlib import Path
 from typing import Any
 
@@ -81,7 +81,13 @@ def _is_ours(point: EntryPoint) -> bool:
 
 
 def _distribution(point: EntryPoint) -> str:
-    return f"{point.dist.name} {point.dist.version}" if point.dist else "unknown distribution"
+    return _title_of(point.dist) if point.dist else "unknown distribution"
+
+
+@functools.cache
+def _title_of(distribution: Distribution) -> str:
+    # every look at name or version reads the metadata again, and every contact of a system looks at all kinematics
+    return f"{distribution.name} {distribution.version}"
 
 
 def _origin(point: EntryPoint) -> str:

@@ -34,6 +34,7 @@ from tests.benchmarks.round_pairs import ROUND_PAIRS
 from tests.benchmarks.swept_pairs import SWEPT
 from tests.benchmarks.touches import (
     ROUND,
+    ROUNDED_ROUND,
     Touch,
     anywhere,
     box,
@@ -100,6 +101,7 @@ class Errors:
 
 
 SMOOTH = {"sphere": sphere, "ellipsoid": ellipsoid, "superellipsoid": superellipsoid, "boxy": boxy}
+ROUNDED_AND_SMOOTH = ("rounded cylinder", "ellipsoid"), ("rounded cone", "superellipsoid"), ("rounded disc", "sphere")
 PARTS = "face", "edge", "vertex"
 PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], ConvexShape]]] = {
     "plane-ellipsoid": (on_plane, ellipsoid),
@@ -122,6 +124,15 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
         for name, draw in SMOOTH.items()
         if name != "boxy"
         for part in parts
+    },
+    **{
+        f"{kind}-{name}, {part}": (on_round(ROUNDED_ROUND[kind][0], part), SMOOTH[name])
+        for kind, name in (
+            ("rounded cylinder", "ellipsoid"),
+            ("rounded cone", "superellipsoid"),
+            ("rounded disc", "sphere"),
+        )
+        for part in ROUNDED_ROUND[kind][1]
     },
     **{f"rounded box-{name}, {part}": (on(rounded(box), part), SMOOTH[name]) for name in SMOOTH for part in PARTS},
     **{f"rounded hull-ellipsoid, {part}": (on(rounded(hull), part), ellipsoid) for part in PARTS},

@@ -9,15 +9,18 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
+from bodies import Frustum
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.interfaces import Shape
-from tests.benchmarks.touches import ROUND, box, on, on_round, rounded
+from tests.benchmarks.touches import ROUND, ROUNDED_ROUND, Touch, box, on, on_plane, on_round, rounded
 from tests.bodies.carriers import Rig
 from tests.bodies.rounds import PosedRound, tangent
 
 Array = NDArray[np.float64]
 Known = tuple[tuple[Shape, Shape], Any, float, Array, Array, int]
 """Shapes, poses, gap, normal, witness points, and the number of the contact."""
+Touching = Callable[[Generator], Touch]
+SOLIDS = {"box": box, "rounded box": rounded(box)}
 
 
 def _edge_at(shape: Any, point: Array, normal: Array) -> Array | None:
@@ -31,10 +34,17 @@ def _edge_at(shape: Any, point: Array, normal: Array) -> Array | None:
     return None
 
 
-def _known(gap: float, rng: Generator, one: str, part: str, touch: Any) -> Known:
-    first, second = on_round(ROUND[one][0], part)(rng), touch(rng)
-    posed = PosedRound(rng, first, second, (tangent(first[0], part, first[2]), _edge_at(*second)), gap)
-    shapes: tuple[Any, Any] = first[0], second[0]
+def _tangent(touch: Touch, part: str) -> Array | None:
+    shape, point, normal = touch
+    return tangent(shape, part, normal) if isinstance(shape, Frustum) else _edge_at(shape, point, normal)
+
+
+def _known(gap: float, rng: Generator, one: Touching, part: str, two: Touching, other: str) -> Known:
+    first, second = one(rng), two(rng)
+    crossing = part != "plane" and (part == other == "side" or "edge" in other)
+    ways = (_tangent(first, part), _tangent(second, other)) if crossing else (None, None)
+    posed = PosedRound(rng, first, second, ways, gap)
+    shapes = first[0], second[0]
     laws = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(restitution=1.0)}
     rig = Rig(shapes, laws)
     rig.put(posed.poses, np.zeros(12))
@@ -43,18 +53,34 @@ def _known(gap: float, rng: Generator, one: str, part: str, touch: Any) -> Known
     return shapes, posed.poses, gap, posed.normal, np.array(posed.witness), nearest
 
 
-def _line(one: str, part: str, touch: Callable[[Generator], Any]) -> Callable[[float, Generator], Known]:
-    return lambda gap, rng: _known(gap, rng, one, part, touch)
+def _touching(name: str, part: str) -> Touching:
+    if name == "plane":
+        return on_plane
+    if name in SOLIDS:
+        return on(SOLIDS[name], part)
+    return on_round({**ROUND, **ROUNDED_ROUND}[name][0], part)
 
 
-_ROUNDED_BOX = {
-    "cylinder": ("rim-face", "rim-edge", "rim-vertex", "side-edge", "side-vertex", "cap-vertex"),
-    "cone": ("side-edge", "apex-face", "apex-edge", "apex-vertex"),
-    "disc": ("rim-edge", "cap-vertex"),
+def _line(one: str, two: str, parts: str) -> Callable[[float, Generator], Known]:
+    part, other = parts.split("-")
+    touches = _touching(one, part), _touching(two, other)
+    return lambda gap, rng: _known(gap, rng, touches[0], part, touches[1], other)
+
+
+_LINES = {
+    ("cylinder", "rounded box"): ("rim-face", "rim-edge", "rim-vertex", "side-edge", "side-vertex", "cap-vertex"),
+    ("cone", "rounded box"): ("side-edge", "apex-face", "apex-edge", "apex-vertex"),
+    ("disc", "rounded box"): ("rim-edge", "cap-vertex"),
+    ("plane", "rounded cylinder"): ("plane-rim",),
+    ("plane", "rounded cone"): ("plane-apex",),
+    ("rounded cylinder", "box"): ("rim-face", "rim-edge", "side-edge", "cap-vertex"),
+    ("rounded cone", "rounded box"): ("rim-edge", "side-edge", "apex-edge"),
+    ("rounded cylinder", "rounded cone"): ("rim-rim", "rim-side", "side-side", "side-rim", "cap-rim", "cap-apex"),
+    ("rounded cone", "rounded cone"): ("apex-side", "apex-rim", "apex-apex"),
+    ("rounded disc", "rounded disc"): ("rim-rim", "rim-cap"),
 }
+"""Features of every two shapes."""
 ROUND_PAIRS: dict[str, Callable[[float, Generator], Known]] = {
-    f"{one}-rounded box, {kind}": _line(one, kind.split("-")[0], on(rounded(box), kind.split("-")[1]))
-    for one, kinds in _ROUNDED_BOX.items()
-    for kind in kinds
+    f"{one}-{two}, {kind}": _line(one, two, kind) for (one, two), kinds in _LINES.items() for kind in kinds
 }
 """A pose of the pair at a gap."""

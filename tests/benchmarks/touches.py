@@ -175,9 +175,15 @@ def on_round(draw: Callable[[Generator], Frustum], part: str) -> Callable[[Gener
             away, along, radial, axial = radius, height, float(np.cos(turn)), float(np.sin(turn))
         outward = np.array([np.cos(angle), np.sin(angle), 0.0])
         point = away * outward + np.array([0.0, 0.0, along])
-        return shape, center + axes @ point, axes @ (radial * outward + np.array([0.0, 0.0, axial]))
+        normal = axes @ (radial * outward + np.array([0.0, 0.0, axial]))
+        return shape, center + axes @ point + shape.rounding * normal, normal
 
     return touch
+
+
+def rounded_round(draw: Callable[[Generator], Frustum]) -> Callable[[Generator], Frustum]:
+    """Return a way to draw cylinders, cones and discs with a rounding of 0.2 to 1 mm."""
+    return lambda rng: replace(draw(rng), rounding=float(rng.uniform(2e-4, 1e-3)))  # type: ignore[type-var]
 
 
 ROUND: dict[str, tuple[Callable[[Generator], Frustum], tuple[str, ...]]] = {
@@ -185,3 +191,4 @@ ROUND: dict[str, tuple[Callable[[Generator], Frustum], tuple[str, ...]]] = {
     "cone": (cone, ("cap", "rim", "side", "apex")),
     "disc": (disc, ("cap", "rim")),
 }
+ROUNDED_ROUND = {f"rounded {name}": (rounded_round(draw), parts) for name, (draw, parts) in ROUND.items()}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Capsule, Cone, ConvexHull, Cylinder, Disc
+from bodies import Box, Capsule, Cone, ConvexHull, Cylinder, Disc, Ellipsoid, Sphere, Superellipsoid
 from nonsmooth.engine.kernel import PLAIN
 from tests.bodies.carriers import Rig
 from tests.bodies.polytopes import random_hull
@@ -31,7 +31,27 @@ SWEPT = {
     "rounded hull": ConvexHull(HULL.points, rounding=2e-3),
     "capsule": Capsule(2e-3, 7e-3),
 }
-PAIRS: dict[str, tuple[Any, Any]] = {f"{one}-{two}": (ROUND[one], SWEPT[two]) for one in ROUND for two in SWEPT}
+ROUNDED = {
+    "rounded cylinder": Cylinder(6e-3, 8e-3, x=1e-3, **AXIS, rounding=2e-3),
+    "rounded flat cylinder": Cylinder(9e-3, 2e-3, x=1e-3, **AXIS, rounding=5e-4),
+    "rounded cone": Cone(7e-3, 1.2e-2, x=1e-3, **AXIS, rounding=1e-3),
+    "rounded flat cone": Cone(1.1e-2, 4e-3, x=1e-3, **AXIS, rounding=5e-4),
+    "rounded disc": Disc(8e-3, x=1e-3, **AXIS, rounding=1e-3),
+}
+OTHERS = {
+    "sphere": Sphere(5e-3),
+    "ellipsoid": Ellipsoid(4e-3, 6e-3, 8e-3),
+    "superellipsoid": Superellipsoid(5e-3, 6e-3, 8e-3, 1.3, 1.2),
+    "box": Box(8e-3, 5e-3, 4e-3),
+    "hull": HULL,
+    **SWEPT,
+    **ROUND,
+}
+PAIRS: dict[str, tuple[Any, Any]] = {
+    **{f"{one}-{two}": (ROUND[one], SWEPT[two]) for one in ROUND for two in SWEPT},
+    **{f"{one}-{two}": (ROUNDED[one], OTHERS[two]) for one in ROUNDED for two in OTHERS},
+    **{f"{one}-{two}": (ROUNDED[one], ROUNDED[two]) for one in ROUNDED for two in ROUNDED},
+}
 
 
 def _slab(shapes: Any, poses: Any, n: Any) -> float:
