@@ -15,7 +15,6 @@ from bodies.contacts.frustum import FLANK, HIGH_RIM, LOW_RIM, center_in_world
 from bodies.contacts.frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
 from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.smooth_core import axes_in_world, back, forth
-from bodies.contacts.swept_vertex import END
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -25,6 +24,8 @@ from nonsmooth.types import Floats
 _STEEP = 0.5
 """Cosine of the angle between the two axes beyond which only the nearest point of the rim is looked at."""
 _SAMPLES, _STEPS = 12, 60
+_BEYOND = 3e-8
+"""So far past its end, in units of the size, a side at a distance holds a rim."""
 _BENT = 1e-6
 """Least curvature of the height round the rim for a minimum, in units of the radius."""
 
@@ -153,8 +154,8 @@ def _evaluate(
     astray = astray_of_rim(first, up, radial, axial, first[SIDE] == 0.0)
     over = max(-along, along - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
-        # as far as the other rim takes over
-        over -= 8.0 * END * size
+        # as far as the other rim takes over, along which the lowest point may go much farther
+        over -= _BEYOND * size
     past = past_border(gap, over, astray, size)
     if not found or (steep and half < 0.0):
         past, over = max(past, size), size

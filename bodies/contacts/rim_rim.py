@@ -16,7 +16,6 @@ from bodies.contacts.frustum import HIGH_RIM, LOW_RIM, center_in_world, nearest_
 from bodies.contacts.frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
 from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.smooth_core import axes_in_world, back, forth
-from bodies.contacts.swept_vertex import END
 from bodies.contacts.vertex_face import REACH
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from nonsmooth.compiled import compiled
@@ -28,6 +27,8 @@ _PARALLEL = 0.01
 """Sine of the angle between tangents below which rims do not cross; then each holds over the other's side and cap."""
 _BOTH = 1e-9
 """Angle round the rim, from the line of centres, within which both halves see the same crossing [rad]."""
+_ASIDE = 0.01
+"""Part of the reach by which the normal of two rims at a distance is beyond those of a side, at the least."""
 _LEAN = 0.02
 """Sine of the angle by which the normal may leave those of the rims where they overlap."""
 _SAMPLES, _STEPS = 16, 60
@@ -183,7 +184,7 @@ def _evaluate(
             lean = up_a * (first[COS] * axial - first[SIN] * radial)
         if second[SIDE] > 0.0:
             lean = min(lean, -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)))
-        past = max(past, END * size - apart * lean)
+        past = max(past, _ASIDE * REACH * size - apart * lean)
     # no minimum within the half, or one that was not found
     none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= 1e-6
     if none:

@@ -11,7 +11,7 @@ import numpy as np
 from bodies.shapes.drawing import revolved
 from bodies.shapes.feet import FEET, check_feet, feet_on
 from bodies.shapes.frustum import Frustum, Point, check_rounding, frustum_numbers, on_axis, rims_over_faces
-from bodies.shapes.placement import about_axis, farthest_on_circle
+from bodies.shapes.placement import about_axis, across_axis, farthest_on_circle
 from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
@@ -107,16 +107,10 @@ class Cone(Frustum):
 
     def support(self, direction: Vector) -> Vector:
         """Return the apex or the farthest point of the base, of several its centre, and the rounding [m]."""
-        axis, center = np.array(self._axis), np.array(self._base)
-        along = direction @ axis
-        across = direction - along * axis
-        size = float(np.linalg.norm(across))
-        # next to the axis a direction across is round-off
-        if size <= 1e-15 * abs(along):
-            size = 0.0
+        along, size, across = across_axis(direction, self._axis)
         if along * self.height >= size * self.radius:
             return np.asarray(self.apex + self._rounded(direction))
-        point = center + self.core_sizes[0] * across / size if size > 0.0 else center
+        point = np.array(self._base) + self.core_sizes[0] * across
         return np.asarray(point + self._rounded(direction))
 
     @property

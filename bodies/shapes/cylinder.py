@@ -11,7 +11,7 @@ import numpy as np
 from bodies.shapes.drawing import revolved
 from bodies.shapes.feet import check_feet, feet_on
 from bodies.shapes.frustum import Frustum, Point, check_rounding, frustum_numbers, rims_over_faces
-from bodies.shapes.placement import about_axis, farthest_on_circle
+from bodies.shapes.placement import about_axis, across_axis, farthest_on_circle
 from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
@@ -101,12 +101,8 @@ class Cylinder(Frustum):
 
     def support(self, direction: Vector) -> Vector:
         """Return the farthest point of the farther cap's circle, of several the centre, and the rounding [m]."""
-        axis = np.array([self.axis_x, self.axis_y, self.axis_z])
-        along = direction @ axis
-        across = direction - along * axis
-        size, cap = np.linalg.norm(across), np.array(self.caps[1 if along >= 0.0 else 0])
-        # next to the axis a direction across is round-off
-        point = cap + self.core_sizes[0] * across / size if size > 1e-15 * abs(along) else cap
+        along, _, across = across_axis(direction, (self.axis_x, self.axis_y, self.axis_z))
+        point = np.array(self.caps[1 if along >= 0.0 else 0]) + self.core_sizes[0] * across
         return np.asarray(point + self._rounded(direction))
 
     @property

@@ -11,7 +11,7 @@ import numpy as np
 from bodies.shapes.drawing import revolved
 from bodies.shapes.feet import check_feet, feet_on
 from bodies.shapes.frustum import Frustum, Point, check_rounding, frustum_numbers
-from bodies.shapes.placement import farthest_on_circle
+from bodies.shapes.placement import across_axis, farthest_on_circle
 from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
@@ -85,12 +85,8 @@ class Disc(Frustum):
 
     def support(self, direction: Vector) -> Vector:
         """Return the farthest point of the rim, of several the centre, and the rounding [m]."""
-        axis, center = np.array(self._axis), np.array(self._center)
-        along = direction @ axis
-        across = direction - along * axis
-        size = np.linalg.norm(across)
-        # next to the axis a direction across is round-off
-        point = center + self.core_radius * across / size if size > 1e-15 * abs(along) else center
+        _, _, across = across_axis(direction, self._axis)
+        point = np.array(self._center) + self.core_radius * across
         return np.asarray(point + self._rounded(direction))
 
     @property

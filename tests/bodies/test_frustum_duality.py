@@ -79,3 +79,64 @@ def test_the_least_gap_is_that_of_the_bodies(build: Any, name: str) -> None:
             if gap is not None:
                 # moved along the normal they keep their nearest points
                 poses = [poses[0], (poses[1][0] + (gap - block[0]) * block[1:4], turns[1])]
+
+
+PASSING = (
+    "cylinder-rounded box",
+    "flat cone-rounded hull",
+    "disc-capsule",
+    "rounded cylinder-box",
+    "rounded flat cylinder-rounded cylinder",
+    "rounded cone-rounded flat cone",
+    "rounded flat cone-rounded disc",
+    "rounded disc-rounded disc",
+)
+_CLOSE = 1e-11
+"""Gap at which bodies are moved past each other [m]."""
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+@pytest.mark.parametrize("name", PASSING)
+def test_features_hand_over_without_a_hole(build: Any, name: str) -> None:
+    """Past each other, all but touching: some contact has the gap of the bodies everywhere.
+
+    Where another one takes over, which is looked at to 1e-12 of the way, the normal does not jump.
+    """
+    shapes, rng = PAIRS[name], np.random.default_rng(9)
+    rig = Rig(shapes, build.laws())
+    changes = 0
+    for _ in range(4):
+        start, spin = rng.normal(size=3), 2.0 * rng.normal(size=3)
+        turns, way = Rotation.random(2, random_state=rng), np.cross(start, rng.normal(size=3))
+        start /= np.linalg.norm(start)
+
+        def at(t: float, start: Any = start, spin: Any = spin, turns: Any = turns, way: Any = way) -> tuple[int, Any]:
+            turned = Rotation.from_rotvec(t * spin) * turns[1]
+            poses = [(np.zeros(3), np.roll(turns[0].as_quat(), 1))]
+            poses += [(0.04 * start + 0.008 * t * way, np.roll(turned.as_quat(), 1))]
+            for _ in range(2):
+                rig.put(poses, np.zeros(12))
+                blocks = rig.geometry
+                nearest = int(np.argmin(np.where(blocks[:, 30] <= 0.0, blocks[:, 0], np.inf)))
+                block, before = blocks[nearest], poses
+                poses = [poses[0], (poses[1][0] + (_CLOSE - block[0]) * block[1:4], poses[1][1])]
+            # next to a border others have the same gap, and normals are off by the margins of the features
+            closed = (blocks[:, 30] <= 0.0) & (blocks[:, 0] < block[0] + _CLOSE)
+            widest = max(_slab(shapes, before, n) for n in blocks[closed, 1:4])
+            assert block[0] == pytest.approx(widest, abs=2e-8)
+            assert np.min(blocks[:, 0]) > 0.0
+            return nearest, block
+
+        before, times = -1, np.linspace(-1.0, 1.0, 60)
+        for i, t in enumerate(times):
+            nearest, _ = at(t)
+            if before not in (-1, nearest):
+                changes += 1
+                low, high = times[i - 1], t
+                while high - low > 1e-12:
+                    middle = 0.5 * (low + high)
+                    low, high = (middle, high) if at(middle)[0] == before else (low, middle)
+                one, two = at(low)[1], at(high)[1]
+                np.testing.assert_allclose(two[1:4], one[1:4], rtol=0, atol=1e-6)
+            before = nearest
+    assert changes > 3
