@@ -24,6 +24,8 @@ from nonsmooth.types import Floats
 END = 3e-10
 """So far before its end, in units of the size of the bodies, an edge gives its contact to the vertex, and the vertex
 gives it back after twice that way: neither none of them is closed nor both of them for long."""
+_OPEN = 100.0
+"""Gap of a contact that another one has, over its way past the end."""
 NEAR = 1e-6
 """A wider gap, in units of the size, ends nowhere: it is that of a sphere that is part of the body."""
 
@@ -112,7 +114,8 @@ def write_vertex_over(
     shared = END * size - within
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
-        gap, past = math.sqrt((distance - sweep - radius) ** 2 + shared * shared), max(past, shared)
+        # so small a way past the end is written large, that nobody takes the open contact for one that touches
+        gap, past = math.hypot(distance - sweep - radius, _OPEN * shared), max(past, shared)
     out[0], out[29], out[30] = gap, number, past
     out[1], out[2], out[3] = -nx, -ny, -nz
     out[7], out[8], out[9] = center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz
