@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-import numpy as np
-
 from bodies.free import FreeBody
-from bodies.inertia import check_mass, mass_of
+from bodies.inertia import check_mass, mass_of, moments_of
 from bodies.shapes.box import Box, check_rounding
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
@@ -66,9 +64,7 @@ class BoxBody(FreeBody):
     def inertia(self) -> tuple[float, float, float]:
         """Moments m (b^2 + c^2) / 3 and so on [kg m^2]; of a rounded one, piece by piece."""
         if self.rounding > 0.0:
-            box = self._box
-            moments = (self.total_mass / box.volume * np.diag(box.inertia)).tolist()
-            return moments[0], moments[1], moments[2]
+            return moments_of(self._box, self.total_mass)
         third, x, y, z = self.total_mass / 3.0, self.half_x**2, self.half_y**2, self.half_z**2
         return third * (y + z), third * (z + x), third * (x + y)
 

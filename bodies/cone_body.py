@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 from bodies.free import FreeBody
-from bodies.inertia import check_mass, mass_of
-from bodies.shapes.cone import Cone
+from bodies.inertia import check_mass, mass_of, moments_of
+from bodies.shapes.cone import Cone, inner_radius
 from bodies.shapes.feet import USUAL, check_feet
+from bodies.shapes.frustum import check_rounding
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 
@@ -27,7 +27,7 @@ class ConeBody(FreeBody):
     radius : float
         Radius of the base [m].
     height : float
-        Distance of the apex from the base [m]; the mass centre is a quarter of it over the base.
+        Distance of the apex from the base [m]; the mass centre of a sharp one is a quarter of it over the base.
     density : float, optional
         Density [kg/m^3]; steel, 7800, where no mass is given.
     mass : float, optional
@@ -35,12 +35,15 @@ class ConeBody(FreeBody):
     foot_height : float, optional
         Height of the three feet of the base [m]; 0 for none.  Where it is not given, a ten-thousandth of the radius,
         but no more than a tenth of the height.
+    rounding : float, optional
+        Radius of its rim and its apex [m]; radius and height are those of the sharp cone with the same base and side,
+        the feet those of the core.
 
     Raises
     ------
     InvalidInput
         If a size is not positive, both mass and density are given, or the feet are higher than a tenth of the radius
-        or not less than half the height.
+        or not less than half the height, or the rounding leaves no core.
     """
 
     radius: float = parameter(doc="radius of the base", unit="m", above=0.0, usual=(1e-5, 10.0))
@@ -52,19 +55,32 @@ class ConeBody(FreeBody):
     foot_height: float | None = parameter(
         None, doc="height of the three feet of the base; 1e-4 of the radius where not given", unit="m", minimum=0.0
     )
+    rounding: float = parameter(0.0, doc="radius of its rim and its apex", unit="m", minimum=0.0)
 
     def _check(self) -> None:
         check_mass("ConeBody", self.mass, self.density)
-        check_feet("ConeBody", self.foot_height or 0.0, self.radius, 0.5 * self.height)
+        sizes = self.radius, self.height
+        check_rounding("ConeBody", inner_radius(*sizes), sizes, self.rounding)
+        radius, height = Cone(*sizes, rounding=self.rounding).core_sizes
+        check_feet("ConeBody", self.foot_height or 0.0, radius, 0.5 * height)
+
+    @property
+    def _cone(self) -> Cone:
+        bare = Cone(self.radius, self.height, rounding=self.rounding)
+        radius, height = bare.core_sizes
+        feet = min(USUAL * radius, 0.1 * height) if self.foot_height is None else self.foot_height
+        return replace(bare, z=-float(bare.centroid[2]), foot_height=feet)
 
     @property
     def total_mass(self) -> float:
-        """As given, or density times a third of pi r^2 h [kg]."""
-        return mass_of(self.mass, self.density, math.pi * self.radius**2 * self.height / 3.0)
+        """As given, or density times a third of pi r^2 h of a sharp one [kg]."""
+        return mass_of(self.mass, self.density, self._cone.volume)
 
     @property
     def inertia(self) -> tuple[float, float, float]:
-        """Moments 3 m (4 r^2 + h^2) / 80 across the axis, 3 m r^2 / 10 about it [kg m^2]."""
+        """Moments 3 m (4 r^2 + h^2) / 80 across the axis, 3 m r^2 / 10 about it, or by slices [kg m^2]."""
+        if self.rounding > 0.0:
+            return moments_of(self._cone, self.total_mass)
         mass, square = self.total_mass, self.radius**2
         across = 3.0 / 80.0 * mass * (4.0 * square + self.height**2)
         return across, across, 0.3 * mass * square
@@ -72,6 +88,4 @@ class ConeBody(FreeBody):
     @property
     def shapes(self) -> tuple[Shape, ...]:
         """The cone about the mass centre."""
-        usual = min(USUAL * self.radius, 0.1 * self.height)
-        foot_height = usual if self.foot_height is None else self.foot_height
-        return (Cone(self.radius, self.height, z=-0.25 * self.height, foot_height=foot_height),)
+        return (self._cone,)

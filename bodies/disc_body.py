@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from typing import final
 
 from bodies.free import FreeBody
-from bodies.inertia import check_mass, mass_of
+from bodies.inertia import check_mass, mass_of, moments_of
 from bodies.shapes.disc import Disc
 from bodies.shapes.feet import USUAL, check_feet
+from bodies.shapes.frustum import check_rounding
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 
@@ -17,7 +18,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class DiscBody(FreeBody):
-    """A free disc without thickness about the third body axis: a coin, a plate on its rim.
+    """A free disc about the third body axis, without thickness unless it is rounded: a coin, a plate on its rim.
 
     Flat on a plane it stands on three feet, so that its centre is by their height above the plane; tilted by more than
     three times their height over the radius it touches with its rim only.
@@ -32,6 +33,9 @@ class DiscBody(FreeBody):
         Mass [kg], instead of the surface density.
     foot_height : float, optional
         Height of the three feet of either face [m]; 0 for none, a ten-thousandth of the radius where it is not given.
+    rounding : float, optional
+        Radius of its rim [m]: it is twice that thick, of even density; the radius is that of the whole, the feet are
+        those of the core.
 
     Raises
     ------
@@ -48,10 +52,17 @@ class DiscBody(FreeBody):
     foot_height: float | None = parameter(
         None, doc="height of the three feet of either face; 1e-4 of the radius where not given", unit="m", minimum=0.0
     )
+    rounding: float = parameter(0.0, doc="radius of its rim, half of its thickness", unit="m", minimum=0.0)
 
     def _check(self) -> None:
         check_mass("DiscBody", self.mass, self.surface_density)
-        check_feet("DiscBody", self.foot_height or 0.0, self.radius)
+        check_rounding("DiscBody", self.radius, (self.radius,), self.rounding)
+        check_feet("DiscBody", self.foot_height or 0.0, self.radius - self.rounding)
+
+    @property
+    def _disc(self) -> Disc:
+        height = USUAL * (self.radius - self.rounding) if self.foot_height is None else self.foot_height
+        return Disc(self.radius, foot_height=height, rounding=self.rounding)
 
     @property
     def total_mass(self) -> float:
@@ -61,12 +72,13 @@ class DiscBody(FreeBody):
 
     @property
     def inertia(self) -> tuple[float, float, float]:
-        """Moments m r^2 / 4 across the axis, m r^2 / 2 about it [kg m^2]."""
+        """Moments m r^2 / 4 across the axis, m r^2 / 2 about it [kg m^2]; of a rounded one, by slices."""
+        if self.rounding > 0.0:
+            return moments_of(self._disc, self.total_mass)
         across = self.total_mass * self.radius**2 / 4.0
         return across, across, 2.0 * across
 
     @property
     def shapes(self) -> tuple[Shape, ...]:
         """The disc about the mass centre."""
-        height = USUAL * self.radius if self.foot_height is None else self.foot_height
-        return (Disc(self.radius, foot_height=height),)
+        return (self._disc,)

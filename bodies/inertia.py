@@ -9,6 +9,7 @@ import numpy as np
 
 from bodies.values import vector
 from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import ConvexShape
 from nonsmooth.interfaces.body import Vector
 
 Triple = tuple[float, float, float]
@@ -95,3 +96,9 @@ def mass_of(mass: float | None, density: float | None, volume: float) -> float:
     if mass is not None:
         return mass
     return (STEEL if density is None else density) * volume
+
+
+def moments_of(shape: ConvexShape, mass: float) -> Triple:
+    """Return the moments about the body axes [kg m^2] of an even mass [kg] in a shape."""
+    x, y, z = (mass / shape.volume * np.diag(shape.inertia)).tolist()
+    return x, y, z

@@ -36,6 +36,7 @@ def _capsule(shape: Any) -> Made:
 
 
 def _cylinder(shape: Any) -> Made:
+    sharp("coal", shape)
     import coal
 
     return coal.Cylinder(shape.radius, 2.0 * shape.half_length), centre(shape), along(shape)

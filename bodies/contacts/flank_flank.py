@@ -88,9 +88,9 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     overlap = 0.0
     if past > 0.0 and over <= 0.0:
         overlap = overlap_of(a, first, b, second, gap, size, (px, py, pz), (nx, ny, nz))
-    write_two(a, out, 0.0, gap, past, nx, ny, nz, px, py, pz, overlap)
-    write_side(out, 0.0, FLANK, ax, ay, az, px - cx, py - cy, pz - cz, nx, ny, nz, max(away_a, 0.0))
-    write_side(out, 1.0, FLANK, bx, by, bz, qx - kx, qy - ky, qz - kz, -nx, -ny, -nz, max(away_b, 0.0))
+    write_two(a, out, 0.0, first, second, gap, past, nx, ny, nz, px, py, pz, overlap)
+    write_side(out, 0.0, first, FLANK, ax, ay, az, px - cx, py - cy, pz - cz, nx, ny, nz, max(away_a, 0.0))
+    write_side(out, 1.0, second, FLANK, bx, by, bz, qx - kx, qy - ky, qz - kz, -nx, -ny, -nz, max(away_b, 0.0))
 
 
 @final

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar, final
 
 from bodies.contacts.across import across
+from bodies.contacts.apex_frustum import ApexFrustum
 from bodies.contacts.flank_flank import FlankFlank
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.frustum import (
@@ -27,11 +28,12 @@ from bodies.contacts.rim_flank import RimFlank
 from bodies.contacts.rim_rim import RimRim
 from bodies.contacts.vertex_face import REACH
 from bodies.shapes.cylinder import Cylinder
-from bodies.shapes.frustum import HIGH, LOW, SIDE, Frustum
+from bodies.shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
+_OTHERS: tuple[type[ContactKinematics], ...] = (FlankFlank, RimFlank, RimRim, ApexFrustum)
 _ON_SIDE = 0.01
 """Of a body that is on one side of a disc no more than this part of the size is on the other."""
 
@@ -65,7 +67,10 @@ def _evaluate(
     along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
     gap = up * (along - height)
     past = past_border(gap, away - wide, 0.0, size)
-    if gap < 0.0:
+    if gap < 0.0 and second[SIDE] == 0.0 and first[SWEEP] + second[SWEEP] > 0.0:
+        # at a distance from a disc on its other side
+        past = max(past, size)
+    elif gap < 0.0:
         if second[SIDE] > 0.0:
             # under a cap only what lies inside of the body can touch it
             inside, _, _, _ = nearest_part(second, along, away)
@@ -89,9 +94,9 @@ def _evaluate(
     overlap = 0.0
     if past > 0.0 and away <= wide:
         overlap = overlap_of(own, first, other, second, gap, size, (px, py, pz), (nx, ny, nz))
-    write_two(a, out, swap, gap, past, nx, ny, nz, px, py, pz, overlap)
-    write_side(out, swap, LOW_RIM, ax, ay, az, ex, ey, ez, nx, ny, nz, radius)
-    write_side(out, 1.0 - swap, part, bx, by, bz, fx, fy, fz, -nx, -ny, -nz, away)
+    write_two(a, out, swap, first, second, gap, past, nx, ny, nz, px, py, pz, overlap)
+    write_side(out, swap, first, LOW_RIM, ax, ay, az, ex, ey, ez, nx, ny, nz, radius)
+    write_side(out, 1.0 - swap, second, part, bx, by, bz, fx, fy, fz, -nx, -ny, -nz, away)
 
 
 @final
@@ -100,7 +105,8 @@ class FrustumFrustum(ContactKinematics):
     """The lowest point of a rim over one cap of another body; a foot or an apex has no radius.
 
     The others are the sides across each other, rims and apex against the other's side, and rims across rims.  Every one
-    of them has its number for ever; one whose features do not face each other is open.
+    of them has its number for ever; one whose features do not face each other is open.  Where one of the bodies is
+    rounded, an apex is a sphere, with one contact for all parts of the other.
 
     Attributes
     ----------
@@ -151,12 +157,14 @@ class FrustumFrustum(ContactKinematics):
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
         own = *cls._of(first, second, False), *cls._of(second, first, True)
-        return tuple(itertools.chain(own, *(kind.between(first, second) for kind in (FlankFlank, RimFlank, RimRim))))
+        return tuple(itertools.chain(own, *(kind.between(first, second) for kind in _OTHERS)))
 
     @classmethod
     def _of(cls, own: Frustum, other: Frustum, swap: bool) -> tuple[FrustumFrustum, ...]:
         numbers, size = other.frustum, 2.0 * max(own.extent, other.extent)
-        named = [(*rim, f"rim {i}" if rim[0] > 0.0 else "apex") for i, rim in enumerate(own.standing_rims)]
+        named = [(*rim, f"rim {i}") for i, rim in enumerate(own.standing_rims) if rim[0] > 0.0]
+        if own.rounding + other.rounding == 0.0:
+            named += [(*rim, "apex") for rim in own.standing_rims if rim[0] == 0.0]
         named += [(0.0, foot, f"foot {i}") for i, foot in enumerate(own.feet)]
         caps = [LOW_CAP, HIGH_CAP] if numbers[1] > 0.0 else [LOW_CAP]
         return tuple(

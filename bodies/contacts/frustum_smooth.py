@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_sweep
 from bodies.contacts.dual_newton import climb
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.frustum import (
@@ -30,7 +30,7 @@ from bodies.contacts.frustum import (
 )
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, back, bend, between_axes, forth, write_core
 from bodies.contacts.tangents import write_tangent
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import gauge_of, support_of
 from nonsmooth.compiled import compiled
@@ -190,8 +190,7 @@ def _nearest(
         # at first by the centre, then steep, flat, and last all round
         tilt = -0.5 if start == 0 else 0.05 if start == 1 else 0.95 if start == 2 else 0.5
         if start > 2:
-            if best == best:
-                break
+            # a stop on the far side is none of bodies that are apart
             sx, sy = math.cos(2.0 * math.pi * start / _TURNS), math.sin(2.0 * math.pi * start / _TURNS)
         for i in range(9):
             # the part before which the centre is, and others the nearer first
@@ -227,7 +226,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, hig
     turn = between_axes(axes_a, axes_b)
     g, nx, ny, nz, part = _nearest(first, low, high, second, turn, x, y, z)
     px, py, pz = _point_against(second, turn, x, y, z, nx, ny, nz)
-    out[0] = g - second[RADIUS]
+    out[0] = g - second[RADIUS] - first[SWEEP]
     out[1], out[2], out[3] = forth(axes_a, nx, ny, nz)
     qx, qy, qz = forth(axes_a, px, py, pz)
     out[10], out[11], out[12] = ax + qx, ay + qy, az + qz
@@ -245,6 +244,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, hig
     if part == LOW_RIM or part == HIGH_RIM:
         away = first[0] if part == LOW_RIM else first[1]
     write_part(out, SIDE_A, part, axes_a[2], axes_a[5], axes_a[8], ux, uy, uz, radial, away)
+    write_sweep(out, SIDE_A, first[SWEEP])
 
 
 @final

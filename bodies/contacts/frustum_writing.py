@@ -6,11 +6,11 @@ import math
 from typing import TypeAlias
 
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_sweep
 from bodies.contacts.frustum import axis_in_world, center_in_world, nearest_part, write_part
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import DEEP, REACH
-from bodies.shapes.frustum import COS, FEET, SIN
+from bodies.shapes.frustum import COS, FEET, SIN, SWEEP
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -23,7 +23,10 @@ _INSIDE = 4.0
 
 @compiled
 def past_border(gap: float, over: float, astray: float, size: float) -> float:
-    """Return how far features are past their ends, by the way over them and the sine by which the normal leaves."""
+    """Return how far features are past their ends, by the way over them and the sine by which the normal leaves.
+
+    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.
+    """
     past = max(over - REACH * size, size * (astray - ASTRAY))
     if gap < 0.0:
         past = max(past, over - _INSIDE * gap - REACH * size)
@@ -42,7 +45,10 @@ def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat:
 def overlap_of(
     one: Floats, first: Floats, other: Floats, second: Floats, gap: float, size: float, p: Point, n: Point
 ) -> float:
-    """Return how deep a point of the one body is in the other, or the other's in the one: negative, or 0."""
+    """Return how deep a point of the one body is in the other, or the other's in the one: negative, or 0.
+
+    The point p and the other's, at the gap along n, are those of the cores.
+    """
     ax, ay, az = axis_in_world(one, first)
     x, y, z = center_in_world(one, first)
     along, away, _, _, _ = across(p[0] + gap * n[0] - x, p[1] + gap * n[1] - y, p[2] + gap * n[2] - z, ax, ay, az)
@@ -51,7 +57,7 @@ def overlap_of(
     x, y, z = center_in_world(other, second)
     along, away, _, _, _ = across(p[0] - x, p[1] - y, p[2] - z, ax, ay, az)
     found, _, _, _ = nearest_part(second, along, away)
-    outside = min(outside, found)
+    outside = min(outside, found) - first[SWEEP] - second[SWEEP]
     # rims are set back by the height of the feet over caps only
     return outside if outside < -DEEP * size - 2.0 * (first[FEET] + second[FEET]) else 0.0
 
@@ -61,7 +67,9 @@ def write_two(
     a: Floats,
     out: Floats,
     swap: float,
-    gap: float,
+    one: Floats,
+    two: Floats,
+    distance: float,
     past: float,
     nx: float,
     ny: float,
@@ -70,14 +78,17 @@ def write_two(
     py: float,
     pz: float,
     overlap: float,
-) -> float:
-    """Write all but the matrices; n goes from the one frustum, on which p lies, to the other.  Return the gap.
+) -> None:
+    """Write all but the matrices; n goes from the core of the one frustum, on which p lies, to the other's.
 
     The one is the first body, or the second if ``swap`` is 1.  What overlaps, by a negative number, where the features
     are past their ends is no contact of theirs, but a sign that another one was passed.
     """
+    sweep = one[SWEEP]
+    gap = distance - sweep - two[SWEEP]
     if past > 0.0:
         gap = max(-abs(gap), overlap) if overlap < 0.0 else math.sqrt(gap * gap + past * past)
+    px, py, pz = px + sweep * nx, py + sweep * ny, pz + sweep * nz
     sign = 1.0 - 2.0 * swap
     own, other = 7 + int(3.0 * swap), 10 - int(3.0 * swap)
     out[0], out[29], out[30] = gap, 0.0, past
@@ -85,13 +96,13 @@ def write_two(
     out[own], out[own + 1], out[own + 2] = px, py, pz
     out[other], out[other + 1], out[other + 2] = px + gap * nx, py + gap * ny, pz + gap * nz
     write_tangent(a, out)
-    return gap
 
 
 @compiled
 def write_side(
     out: Floats,
     second: float,
+    frustum: Floats,
     part: int,
     ax: float,
     ay: float,
@@ -115,4 +126,6 @@ def write_side(
     if length > 0.0:
         x, y, z = x / length, y / length, z / length
         radial = nx * x + ny * y + nz * z
-    write_part(out, SIDE_B if second == 1.0 else SIDE_A, part, ax, ay, az, x, y, z, radial, away)
+    side = SIDE_B if second == 1.0 else SIDE_A
+    write_part(out, side, part, ax, ay, az, x, y, z, radial, away)
+    write_sweep(out, side, frustum[SWEEP])

@@ -13,6 +13,8 @@ from nonsmooth.types import Floats
 Nearest = tuple[int, float, float, float, float, float]
 """Number of the feature (faces first, then edges, then vertices), distance, unit vector to the point, and how far the
 nearest point is from the nearer end of its edge; 0 at a vertex, infinite on a face."""
+_SAME = 1e-14
+"""Squares of distances that differ by this part are the same."""
 
 
 @compiled
@@ -34,16 +36,20 @@ def _face(faces: Floats, n_faces: float, x: float, y: float, z: float) -> tuple[
 
 @compiled
 def _edge(edges: Floats, n_edges: float, x: float, y: float, z: float) -> tuple[int, float]:
-    """Return the edge that is nearest to a point, and where on it the nearest point is [m]."""
-    least, best, place = 1e300, 0, 0.0
+    """Return the edge that is nearest to a point, and where on it the nearest point is [m].
+
+    Next to a vertex the distances of its edges are the same to round-off: the one with the point inside is taken.
+    """
+    least, best, place, inside = 1e300, 0, 0.0, 0.0
     for i in range(int(n_edges)):
         e = EDGE * i
         wx, wy, wz = x - edges[e], y - edges[e + 1], z - edges[e + 2]
         along = min(max(wx * edges[e + 3] + wy * edges[e + 4] + wz * edges[e + 5], 0.0), edges[e + 6])
         wx, wy, wz = wx - along * edges[e + 3], wy - along * edges[e + 4], wz - along * edges[e + 5]
         square = wx * wx + wy * wy + wz * wz
-        if square < least:
-            least, best, place = square, i, along
+        within = min(along, edges[e + 6] - along)
+        if square < least * (1.0 - _SAME) or (square <= least * (1.0 + _SAME) and within > inside):
+            least, best, place, inside = square, i, along, within
     return best, place
 
 

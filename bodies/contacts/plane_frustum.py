@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.plane_rim import evaluate_rim_over_plane
+from bodies.contacts.plane_sphere import PlaneSphere
 from bodies.contacts.plane_vertex import PlaneVertex
-from bodies.shapes.frustum import AXIS, Frustum
+from bodies.shapes.frustum import AXIS, Frustum, Point
 from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
@@ -20,7 +21,8 @@ class PlaneFrustum(ContactKinematics):
     """The lowest point of one rim of a cylinder, a cone or a disc over a plane.
 
     Two rims, or a rim and the apex, hold a body that lies on its side.  A rim that lies flat has no lowest point: the
-    numbers stay finite, but a single contact cannot hold it.  Its feet can, each a contact of its own.
+    numbers stay finite, but a single contact cannot hold it.  Its feet can, each a contact of its own.  A rounded body
+    has a torus about every rim, and spheres about its apex and the tips of its feet.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Frustum)
@@ -33,6 +35,7 @@ class PlaneFrustum(ContactKinematics):
     axis_y: float = parameter(doc="unit axis in its body frame, second component")
     axis_z: float = parameter(doc="unit axis in its body frame, third component")
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
+    rounding: float = parameter(0.0, doc="radius of the torus about a rounded rim", unit="m", minimum=0.0)
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
@@ -40,11 +43,16 @@ class PlaneFrustum(ContactKinematics):
         assert isinstance(second, Frustum)
         height = first.parameters()["height"]
         axis = second.frustum[AXIS], second.frustum[AXIS + 3], second.frustum[AXIS + 6]
+        sweep = second.rounding
+
+        def point(place: Point) -> ContactKinematics:
+            return PlaneSphere(sweep, *place, height) if sweep > 0.0 else PlaneVertex(*place, height)
+
         rims = (
-            cls(radius, *center, *axis, height) if radius > 0.0 else PlaneVertex(*center, height)
+            cls(radius, *center, *axis, height, sweep) if radius > 0.0 else point(center)
             for radius, center in second.standing_rims
         )
-        return *rims, *(PlaneVertex(*foot, height) for foot in second.feet)
+        return *rims, *(point(foot) for foot in second.feet)
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_B, write_principal
+from bodies.contacts.curvature import SIDE_B, write_principal, write_sweep
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.plane_point import place_over_plane
 from nonsmooth.types import Floats
@@ -24,16 +24,19 @@ def evaluate_rim_over_plane(
     axis_y: float,
     axis_z: float,
     height: float,
+    rounding: float,
 ) -> None:
-    """Write the geometry block of the lowest point of the rim.
+    """Write the geometry block of the lowest point of the rim, or of the torus about it.
 
     For a rim that lies flat all points are lowest; any one is taken, and stands for a rim that is :data:`FLATTEST`.
     """
     x, y, z = point_in_world(b, x, y, z)
     axis_x, axis_y, axis_z = vector_in_world(b, axis_x, axis_y, axis_z)
     _, sine, down_x, down_y, down_z = across(-a[5], -a[8], -a[11], axis_x, axis_y, axis_z)
-    place_over_plane(a, out, x + radius * down_x, y + radius * down_y, z + radius * down_z, height)
+    x, y, z = x + radius * down_x, y + radius * down_y, z + radius * down_z
+    place_over_plane(a, out, x - rounding * a[5], y - rounding * a[8], z - rounding * a[11], height)
     rim_x = axis_y * down_z - axis_z * down_y
     rim_y = axis_z * down_x - axis_x * down_z
     rim_z = axis_x * down_y - axis_y * down_x
     write_principal(out, SIDE_B, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
+    write_sweep(out, SIDE_B, rounding)

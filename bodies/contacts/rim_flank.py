@@ -15,7 +15,7 @@ from bodies.contacts.frustum import FLANK, HIGH_RIM, LOW_RIM, center_in_world
 from bodies.contacts.frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
 from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.smooth_core import axes_in_world, back, forth
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -24,6 +24,8 @@ from nonsmooth.types import Floats
 _STEEP = 0.5
 """Cosine of the angle between the two axes beyond which only the nearest point of the rim is looked at."""
 _SAMPLES, _STEPS = 12, 60
+_BEYOND = 3e-8
+"""So far past its end, in units of the size, a side at a distance holds a rim."""
 _BENT = 1e-6
 """Least curvature of the height round the rim for a minimum, in units of the radius."""
 
@@ -92,7 +94,9 @@ def least_round(
         angle = after
     _, _, bend = _height(second, cx, cy, cz, gx, gy, gz, hx, hy, hz, angle)
     size = math.sqrt(gx * gx + gy * gy + gz * gz)
-    return angle, low <= angle <= high and bend > _BENT * size
+    # all round there is no end that a minimum could be past
+    within = low <= angle <= high or high - low > 1.5 * math.pi
+    return angle, within and bend > _BENT * size
 
 
 def _evaluate(
@@ -149,6 +153,9 @@ def _evaluate(
     radial = (nx * ox + ny * oy + nz * oz) / radius if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
     astray = astray_of_rim(first, up, radial, axial, first[SIDE] == 0.0)
     over = max(-along, along - second[SIDE])
+    if first[SWEEP] + second[SWEEP] > 0.0:
+        # as far as the other rim takes over, along which the lowest point may go much farther
+        over -= _BEYOND * size
     past = past_border(gap, over, astray, size)
     if not found or (steep and half < 0.0):
         past, over = max(past, size), size
@@ -161,11 +168,10 @@ def _evaluate(
     if past > 0.0 and over <= 0.0:
         point = (kx + px, ky + py, kz + pz)
         overlap = overlap_of(own, first, other, second, gap, size, point, (wx, wy, wz))
-    gap = write_two(a, out, swap, gap, past, wx, wy, wz, kx + px, ky + py, kz + pz, overlap)
-    write_side(out, swap, part, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
-    write_side(
-        out, 1.0 - swap, FLANK, axes[2], axes[5], axes[8], px, py, pz, -wx, -wy, -wz, max(away - gap * cosine, 0.0)
-    )
+    write_two(a, out, swap, first, second, gap, past, wx, wy, wz, kx + px, ky + py, kz + pz, overlap)
+    write_side(out, swap, first, part, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
+    away = max(away - gap * cosine, 0.0)
+    write_side(out, 1.0 - swap, second, FLANK, axes[2], axes[5], axes[8], px, py, pz, -wx, -wy, -wz, away)
 
 
 @final
@@ -202,20 +208,21 @@ class RimFlank(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of all rims of either with the side of the other."""
+        """Return the contacts of all rims of either with the side of the other, and of the apices of sharp ones."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
         size = 2.0 * max(first.extent, second.extent)
         one, two = first.frustum, second.frustum
-        return *cls._of(one, two, size, False), *cls._of(two, one, size, True)
+        pointed = one[SWEEP] + two[SWEEP] == 0.0
+        return *cls._of(one, two, size, False, pointed), *cls._of(two, one, size, True, pointed)
 
     @classmethod
-    def _of(cls, own: Numbers, other: Numbers, size: float, swap: bool) -> tuple[RimFlank, ...]:
+    def _of(cls, own: Numbers, other: Numbers, size: float, swap: bool, pointed: bool) -> tuple[RimFlank, ...]:
         if other[SIDE] == 0.0:
             return ()
         rims = [(LOW_RIM, 1.0), (LOW_RIM, -1.0)]
         if own[SIDE] > 0.0:
-            rims += [(HIGH_RIM, 1.0), (HIGH_RIM, -1.0)] if own[1] > 0.0 else [(HIGH_RIM, 1.0)]
+            rims += [(HIGH_RIM, 1.0), (HIGH_RIM, -1.0)] if own[1] > 0.0 else [(HIGH_RIM, 1.0)] * pointed
         return tuple(cls(swap, own, rim, half, other, size) for rim, half in rims)
 
     def parameters(self) -> dict[str, Value]:

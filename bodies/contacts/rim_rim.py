@@ -17,7 +17,7 @@ from bodies.contacts.frustum_writing import astray_of_rim, overlap_of, past_bord
 from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.smooth_core import axes_in_world, back, forth
 from bodies.contacts.vertex_face import REACH
-from bodies.shapes.frustum import HIGH, LOW, SIDE, Frustum
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -27,6 +27,8 @@ _PARALLEL = 0.01
 """Sine of the angle between tangents below which rims do not cross; then each holds over the other's side and cap."""
 _BOTH = 1e-9
 """Angle round the rim, from the line of centres, within which both halves see the same crossing [rad]."""
+_ASIDE = 0.01
+"""Part of the reach by which the normal of two rims at a distance is beyond those of a side, at the least."""
 _LEAN = 0.02
 """Sine of the angle by which the normal may leave those of the rims where they overlap."""
 _SAMPLES, _STEPS = 16, 60
@@ -152,12 +154,19 @@ def _evaluate(
     # across both tangents; that of the second is (-ey, ex, 0)
     nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
     crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
-    if crossing > 1e-6:
+    total = first[SWEEP] + second[SWEEP]
+    apart = math.sqrt(wx * wx + wy * wy + wz * wz)
+    if total > 0.0 and apart > 1e-9 * size:
+        # cores apart touch where tangents are parallel, too
+        nx, ny, nz, crossing = wx / apart, wy / apart, wz / apart, 1.0
+    elif crossing > 1e-6:
         nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
     else:
         nx, ny, nz = ux, uy, uz
     astray, flip = 3.0, 1.0
     for sign in (-1.0, 1.0):
+        if total > 0.0 and sign * (nx * wx + ny * wy + nz * wz) < 0.0:
+            continue
         radial, axial = sign * (nx * ux + ny * uy + nz * uz), sign * (nx * ax + ny * ay + nz * az)
         off = astray_of_rim(first, up_a, radial, axial, first[SIDE] == 0.0)
         radial = -sign * (nx * ex + ny * ey)
@@ -167,6 +176,15 @@ def _evaluate(
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = nx * wx + ny * wy + nz * wz
     past = max(past_border(gap, -size, astray, size), size * (_PARALLEL - crossing))
+    if total > 0.0:
+        # along sides it is the rims over the other's side that hold
+        lean = size
+        if first[SIDE] > 0.0:
+            radial, axial = nx * ux + ny * uy + nz * uz, nx * ax + ny * ay + nz * az
+            lean = up_a * (first[COS] * axial - first[SIN] * radial)
+        if second[SIDE] > 0.0:
+            lean = min(lean, -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)))
+        past = max(past, _ASIDE * REACH * size - apart * lean)
     # no minimum within the half, or one that was not found
     none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= 1e-6
     if none:
@@ -196,9 +214,9 @@ def _evaluate(
     overlap = 0.0
     if past > 0.0 and not none:
         overlap = overlap_of(a, first, b, second, gap, size, (px, py, pz), (wx, wy, wz))
-    write_two(a, out, 0.0, gap, past, wx, wy, wz, px, py, pz, overlap)
-    write_side(out, 0.0, LOW_RIM, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
-    write_side(out, 1.0, LOW_RIM, axes[2], axes[5], axes[8], vx, vy, vz, -wx, -wy, -wz, wide)
+    write_two(a, out, 0.0, first, second, gap, past, wx, wy, wz, px, py, pz, overlap)
+    write_side(out, 0.0, first, LOW_RIM, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
+    write_side(out, 1.0, second, LOW_RIM, axes[2], axes[5], axes[8], vx, vy, vz, -wx, -wy, -wz, wide)
 
 
 @final

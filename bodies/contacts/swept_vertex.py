@@ -10,10 +10,11 @@ from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.nearest import nearest_feature
+from bodies.contacts.nearest import Nearest, nearest_feature
 from bodies.contacts.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
 from bodies.contacts.swept_side import write_swept
 from bodies.contacts.tangents import write_tangent
+from bodies.shapes.polytope import Point
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -23,12 +24,14 @@ from nonsmooth.types import Floats
 END = 3e-10
 """So far before its end, in units of the size of the bodies, an edge gives its contact to the vertex, and the vertex
 gives it back after twice that way: neither none of them is closed nor both of them for long."""
+_OPEN = 100.0
+"""Gap of a contact that another one has, over its way past the end."""
 NEAR = 1e-6
 """A wider gap, in units of the size, ends nowhere: it is that of a sphere that is part of the body."""
 
 
 @compiled
-def _past(
+def past_star(
     frame: Floats, star: Floats, n_star: float, distance: float, nx: float, ny: float, nz: float, size: float
 ) -> float:
     """Return how far the nearest point of the other core, along -n from the vertex, is past it along one of its edges.
@@ -44,7 +47,7 @@ def _past(
 
 
 @compiled
-def _gap(gap: float, past: float, size: float) -> tuple[float, float]:
+def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
     """Return gap and way past the end as they are written."""
     if gap > NEAR * size:
         return gap, min(past, -END * size)
@@ -75,8 +78,8 @@ def _evaluate(
     x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
     number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(a, nx, ny, nz)
-    past = _past(b, star, n_star, distance, nx, ny, nz, size)
-    gap, past = _gap(distance - sweep - radius, past, size)
+    past = past_star(b, star, n_star, distance, nx, ny, nz, size)
+    gap, past = ended_gap(distance - sweep - radius, past, size)
     out[0], out[29], out[30] = gap, number, past
     out[1], out[2], out[3] = nx, ny, nz
     out[10], out[11], out[12] = center_x - radius * nx, center_y - radius * ny, center_z - radius * nz
@@ -85,6 +88,42 @@ def _evaluate(
     write_tangent(a, out)
     write_swept(a, out, SIDE_A, number, n_faces, n_edges, edges, sweep)
     write_round(out, SIDE_B, radius)
+
+
+@compiled
+def write_vertex_over(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    center: Point,
+    radius: float,
+    found: Nearest,
+    past: float,
+    n_faces: float,
+    n_edges: float,
+    edges: Floats,
+    sweep: float,
+    size: float,
+) -> None:
+    """Write the geometry block of a vertex of the first body, with its radius, and what is nearest of the second.
+
+    Where that is a vertex, the contact is the second body's; ``past`` is how far it is past the end otherwise.
+    """
+    number, distance, nx, ny, nz, within = found
+    nx, ny, nz = vector_in_world(b, nx, ny, nz)
+    shared = END * size - within
+    gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
+    if shared > 0.0:
+        # so small a way past the end is written large, that nobody takes the open contact for one that touches
+        gap, past = math.hypot(distance - sweep - radius, _OPEN * shared), max(past, shared)
+    out[0], out[29], out[30] = gap, number, past
+    out[1], out[2], out[3] = -nx, -ny, -nz
+    out[7], out[8], out[9] = center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz
+    for i in range(3):
+        out[10 + i] = out[7 + i] + gap * out[1 + i]
+    write_tangent(a, out)
+    write_round(out, SIDE_A, radius)
+    write_swept(b, out, SIDE_B, number, n_faces, n_edges, edges, sweep)
 
 
 def _evaluate_reversed(
@@ -105,24 +144,12 @@ def _evaluate_reversed(
     radius: float,
     size: float,
 ) -> None:
-    center_x, center_y, center_z = point_in_world(a, x_v, y_v, z_v)
-    x, y, z = vector_in_body(b, center_x - b[0], center_y - b[1], center_z - b[2])
-    number, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    nx, ny, nz = vector_in_world(b, nx, ny, nz)
-    past = _past(a, star, n_star, distance, nx, ny, nz, size)
-    # two vertices are the contact of the second body's
-    shared = END * size - within
-    gap, past = _gap(distance - sweep - radius, max(past, shared), size)
-    if shared > 0.0:
-        gap, past = math.sqrt((distance - sweep - radius) ** 2 + shared * shared), max(past, shared)
-    out[0], out[29], out[30] = gap, number, past
-    out[1], out[2], out[3] = -nx, -ny, -nz
-    out[7], out[8], out[9] = center_x - radius * nx, center_y - radius * ny, center_z - radius * nz
-    for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
-    write_tangent(a, out)
-    write_round(out, SIDE_A, radius)
-    write_swept(b, out, SIDE_B, number, n_faces, n_edges, edges, sweep)
+    px, py, pz = point_in_world(a, x_v, y_v, z_v)
+    x, y, z = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
+    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    nx, ny, nz = vector_in_world(b, found[2], found[3], found[4])
+    past = past_star(a, star, n_star, found[1], nx, ny, nz, size)
+    write_vertex_over(a, b, out, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
 
 
 @dataclass(frozen=True)

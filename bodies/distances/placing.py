@@ -43,11 +43,11 @@ def made(library: str, makers: Makers, shape: Shape) -> Made:
 
 
 def sharp(library: str, shape: Any) -> None:
-    """Raise InvalidInput if a polyhedron is rounded: the library would be given another body."""
+    """Raise InvalidInput if a shape is rounded: the library would be given another body."""
     if shape.rounding > 0.0:
         raise InvalidInput(
             library,
-            "must be given polyhedra without a rounding",
+            "must be given polyhedra and cylinders without a rounding",
             shape.rounding,
             "Ask for the distance of the core, and take the rounding off.",
         )

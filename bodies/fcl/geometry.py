@@ -40,6 +40,7 @@ def _capsule(shape: Any) -> Made:
 
 
 def _cylinder(shape: Any) -> Made:
+    sharp("FCL", shape)
     import fcl
 
     return fcl.Cylinder(SCALE * shape.radius, 2.0 * SCALE * shape.half_length), centre(shape), along(shape)

@@ -10,8 +10,9 @@ import numpy as np
 
 from bodies.shapes.drawing import revolved
 from bodies.shapes.feet import check_feet, feet_on
-from bodies.shapes.frustum import Frustum, Point, frustum_numbers, rims_over_faces
-from bodies.shapes.placement import about_axis, farthest_on_circle
+from bodies.shapes.frustum import Frustum, Point, check_rounding, frustum_numbers, rims_over_faces
+from bodies.shapes.placement import about_axis, across_axis, farthest_on_circle
+from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -26,6 +27,10 @@ class Cylinder(Frustum):
     are three small feet on either cap, at two thirds of the radius, if they have a height.  Their tips lie in the
     planes of the caps; it is the rims that are set back by the height, so that the cylinder is as long as without.
     As a convex solid it is that without feet: they are too low to count.
+
+    Its rims are sharp, or rounded by the radius ``rounding``.  Radius and half-length are those of the whole: a rounded
+    cylinder is as large as a sharp one.  Its feet are those of the core, and round: they stand on the core's caps at
+    two thirds of its radius, with tips in the planes of the caps of the whole.
     """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)
@@ -37,15 +42,23 @@ class Cylinder(Frustum):
     axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component", **UNIT_PART)
     axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component", **UNIT_PART)
     foot_height: float = parameter(0.0, doc="height of the feet on either cap; 0 for none", unit="m", minimum=0.0)
+    rounding: float = parameter(0.0, doc="radius of its rims", unit="m", minimum=0.0)
 
     def _check(self) -> None:
         unit_vector("Cylinder axis", (self.axis_x, self.axis_y, self.axis_z))
-        check_feet("Cylinder", self.foot_height, self.radius, self.half_length)
+        sizes = self.radius, self.half_length
+        check_rounding("Cylinder", min(sizes), sizes, self.rounding)
+        check_feet("Cylinder", self.foot_height, *self.core_sizes)
+
+    @property
+    def core_sizes(self) -> tuple[float, float]:
+        """Radius and half-length without the rounding [m]."""
+        return self.radius - self.rounding, self.half_length - self.rounding
 
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both radii are the same."""
-        return frustum_numbers(*self._profile, self.foot_height)
+        return frustum_numbers(*self._profile, self.foot_height, self.rounding)
 
     @property
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:
@@ -54,18 +67,19 @@ class Cylinder(Frustum):
 
     @property
     def _profile(self) -> tuple[tuple[float, float], tuple[float, float], Point, Point]:
-        radii, heights = (self.radius, self.radius), (-self.half_length, self.half_length)
+        radius, half = self.core_sizes
+        radii, heights = (radius, radius), (-half, half)
         return radii, heights, (self.x, self.y, self.z), (self.axis_x, self.axis_y, self.axis_z)
 
     @property
     def caps(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Centres of the caps in the body frame, against and along the axis [m]."""
-        return self._on_axis(self.half_length)
+        """Centres of the core's caps in the body frame, against and along the axis [m]."""
+        return self._on_axis(self.core_sizes[1])
 
     @property
     def rims(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Centres of the rims in the body frame, against and along the axis [m]."""
-        return self._on_axis(self.half_length - self.foot_height)
+        """Centres of the core's rims in the body frame, against and along the axis [m]."""
+        return self._on_axis(self.core_sizes[1] - self.foot_height)
 
     @property
     def feet(self) -> tuple[Point, ...]:
@@ -73,7 +87,7 @@ class Cylinder(Frustum):
         if self.foot_height == 0.0:
             return ()
         center, axis = (self.x, self.y, self.z), (self.axis_x, self.axis_y, self.axis_z)
-        return feet_on(center, axis, self.radius, self.half_length)
+        return feet_on(center, axis, *self.core_sizes)
 
     def _on_axis(self, away: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         x, y, z = (away * component for component in (self.axis_x, self.axis_y, self.axis_z))
@@ -83,20 +97,19 @@ class Cylinder(Frustum):
     def length(self) -> float:
         """Distance of the farthest point of the two rims [m]."""
         axis = self.axis_x, self.axis_y, self.axis_z
-        return max(farthest_on_circle(self.radius, cap, axis) for cap in self.caps)
+        return max(farthest_on_circle(self.core_sizes[0], cap, axis) for cap in self.caps) + self.rounding
 
     def support(self, direction: Vector) -> Vector:
-        """Return the farthest point of the farther cap's circle, of several the centre [m]."""
-        axis = np.array([self.axis_x, self.axis_y, self.axis_z])
-        along = direction @ axis
-        across = direction - along * axis
-        size, cap = np.linalg.norm(across), np.array(self.caps[1 if along >= 0.0 else 0])
-        # next to the axis a direction across is round-off
-        return cap + self.radius * across / size if size > 1e-15 * abs(along) else cap
+        """Return the farthest point of the farther cap's circle, of several the centre, and the rounding [m]."""
+        along, _, across = across_axis(direction, (self.axis_x, self.axis_y, self.axis_z))
+        point = np.array(self.caps[1 if along >= 0.0 else 0]) + self.core_sizes[0] * across
+        return np.asarray(point + self._rounded(direction))
 
     @property
     def volume(self) -> float:
-        """2 pi r^2 c [m^3]."""
+        """2 pi r^2 c [m^3]; of a rounded one, slice by slice."""
+        if self.rounding > 0.0:
+            return swept_frustum(self.frustum)[0]
         return 2.0 * math.pi * self.radius**2 * self.half_length
 
     @property
@@ -106,13 +119,17 @@ class Cylinder(Frustum):
 
     @property
     def inertia(self) -> Vector:
-        """V r^2 / 2 about its axis, V (r^2 / 4 + c^2 / 3) across [m^5]."""
+        """V r^2 / 2 about its axis, V (r^2 / 4 + c^2 / 3) across [m^5]; of a rounded one, slice by slice."""
+        if self.rounding > 0.0:
+            return swept_frustum(self.frustum)[2]
         across = self.volume * (self.radius**2 / 4.0 + self.half_length**2 / 3.0)
         axis = self.axis_x, self.axis_y, self.axis_z
         return about_axis(axis, 0.5 * self.volume * self.radius**2, across)
 
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
-        """Return a prism with the caps."""
+        """Return a prism with the caps; of a rounded one with arcs at the rims."""
+        if self.rounding > 0.0:
+            return draw_swept_frustum(self.frustum, fineness)
         r, c = self.radius, self.half_length
         profile = ((0.0, -c), (r, -c), (r, c), (0.0, c))
         return revolved(profile, fineness, self.centroid, (self.axis_x, self.axis_y, self.axis_z))

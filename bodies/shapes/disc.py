@@ -10,8 +10,9 @@ import numpy as np
 
 from bodies.shapes.drawing import revolved
 from bodies.shapes.feet import check_feet, feet_on
-from bodies.shapes.frustum import Frustum, Point, frustum_numbers
-from bodies.shapes.placement import farthest_on_circle
+from bodies.shapes.frustum import Frustum, Point, check_rounding, frustum_numbers
+from bodies.shapes.placement import across_axis, farthest_on_circle
+from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -20,11 +21,14 @@ from nonsmooth.vectors import UNIT_PART, unit_vector
 @final
 @dataclass(frozen=True)
 class Disc(Frustum):
-    """A rigid disc without thickness, with its centre at (x, y, z) in the body frame: a rim and two faces.
+    """A rigid disc with its centre at (x, y, z) in the body frame, a rim and two faces; a sharp one has no thickness.
 
     On a plane it touches with the lowest point of its rim, and a disc that lies flat has none.  What holds it then are
     three small feet on either face, at two thirds of the radius, if they have a height.  As a convex shape it is that
     without feet, flat and without volume.
+
+    Rounded by the radius ``rounding`` it is twice that thick, with half a torus for a rim.  Its radius is that of the
+    whole.  Its feet are those of the core, and round: they stand out of the faces.
     """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0)
@@ -35,10 +39,17 @@ class Disc(Frustum):
     axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component", **UNIT_PART)
     axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component", **UNIT_PART)
     foot_height: float = parameter(0.0, doc="height of the feet on either face; 0 for none", unit="m", minimum=0.0)
+    rounding: float = parameter(0.0, doc="radius of its rim, half of its thickness", unit="m", minimum=0.0)
 
     def _check(self) -> None:
         unit_vector("Disc axis", self._axis)
-        check_feet("Disc", self.foot_height, self.radius)
+        check_rounding("Disc", self.radius, (self.radius,), self.rounding)
+        check_feet("Disc", self.foot_height, self.core_radius)
+
+    @property
+    def core_radius(self) -> float:
+        """Radius without the rounding [m]."""
+        return self.radius - self.rounding
 
     @property
     def _center(self) -> Point:
@@ -51,39 +62,37 @@ class Disc(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both rims are the same."""
-        return frustum_numbers((self.radius, self.radius), (0.0, 0.0), self._center, self._axis, self.foot_height)
+        radii = self.core_radius, self.core_radius
+        return frustum_numbers(radii, (0.0, 0.0), self._center, self._axis, self.foot_height, self.rounding)
 
     @property
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:
         """The rim, which is not set back: it is the feet that stand out."""
-        return ((self.radius, self._center),)
+        return ((self.core_radius, self._center),)
 
     @property
     def feet(self) -> tuple[Point, ...]:
         """Tips of the feet in the body frame, first of the face against the axis [m]; none without a height."""
         if self.foot_height == 0.0:
             return ()
-        return feet_on(self._center, self._axis, self.radius, self.foot_height)
+        return feet_on(self._center, self._axis, self.core_radius, self.foot_height)
 
     @property
     def length(self) -> float:
         """Distance of the farthest point of the rim and the feet [m]."""
-        rim = farthest_on_circle(self.radius, self._center, self._axis)
-        return max([rim, *(math.hypot(*foot) for foot in self.feet)])
+        rim = farthest_on_circle(self.core_radius, self._center, self._axis)
+        return max([rim, *(math.hypot(*foot) for foot in self.feet)]) + self.rounding
 
     def support(self, direction: Vector) -> Vector:
-        """Return the farthest point of the rim, of several the centre [m]."""
-        axis, center = np.array(self._axis), np.array(self._center)
-        along = direction @ axis
-        across = direction - along * axis
-        size = np.linalg.norm(across)
-        # next to the axis a direction across is round-off
-        return np.asarray(center + self.radius * across / size if size > 1e-15 * abs(along) else center)
+        """Return the farthest point of the rim, of several the centre, and the rounding [m]."""
+        _, _, across = across_axis(direction, self._axis)
+        point = np.array(self._center) + self.core_radius * across
+        return np.asarray(point + self._rounded(direction))
 
     @property
     def volume(self) -> float:
-        """None."""
-        return 0.0
+        """None, or that of a rounded one, slice by slice [m^3]."""
+        return swept_frustum(self.frustum)[0] if self.rounding > 0.0 else 0.0
 
     @property
     def centroid(self) -> Vector:
@@ -92,9 +101,11 @@ class Disc(Frustum):
 
     @property
     def inertia(self) -> Vector:
-        """None, as without volume."""
-        return np.zeros((3, 3))
+        """None, as without volume, or that of a rounded one, slice by slice [m^5]."""
+        return swept_frustum(self.frustum)[2] if self.rounding > 0.0 else np.zeros((3, 3))
 
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
-        """Return both faces."""
+        """Return both faces; of a rounded one with arcs at the rim."""
+        if self.rounding > 0.0:
+            return draw_swept_frustum(self.frustum, fineness)
         return revolved(((0.0, 0.0), (self.radius, 0.0), (0.0, 0.0)), fineness, self._center, self._axis)

@@ -25,6 +25,22 @@ def about_axis(axis: tuple[float, float, float], along: float, across: float) ->
     return across * np.eye(3) + (along - across) * np.outer(axis, axis)
 
 
+def across_axis(direction: Vector, axis: tuple[float, float, float]) -> tuple[float, float, Vector]:
+    """Return the part of a direction along a unit axis, the size of that across, and the unit vector there.
+
+    Next to the axis a direction across is round-off: then both are 0.
+    """
+    along = float(direction @ np.array(axis))
+    across = direction - along * np.array(axis)
+    size = float(np.linalg.norm(across))
+    if size <= 1e-15 * abs(along):
+        return along, 0.0, np.zeros(3)
+    # of a short one what is left along the axis is round-off, too
+    across = across / size
+    across = across - across @ np.array(axis) * np.array(axis)
+    return along, size, across / np.linalg.norm(across)
+
+
 def farthest_on_circle(radius: float, center: tuple[float, float, float], axis: tuple[float, float, float]) -> float:
     """Return the distance of the farthest point of a circle from the origin [m]."""
     along = sum(c * a for c, a in zip(center, axis, strict=True))

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from bodies import Frustum
 from bodies.shapes.frustum import AXIS
-from tests.benchmarks.contact_accuracy import ROUND, Touch, on_round
+from tests.benchmarks.touches import ROUND, ROUNDED_ROUND, Touch, on_round
 
 Array = NDArray[np.float64]
 _SHARPEST = 0.2
@@ -19,8 +19,8 @@ _SHARPEST = 0.2
 
 
 def touch_round(rng: Generator, name: str, part: str) -> Touch:
-    """Return a cylinder, cone or disc, a point of a part of it and a normal there."""
-    return on_round(ROUND[name][0], part)(rng)
+    """Return a cylinder, cone or disc, sharp or rounded, a point of a part of it and a normal there."""
+    return on_round({**ROUND, **ROUNDED_ROUND}[name][0], part)(rng)
 
 
 def tangent(shape: Any, part: str, normal: Array) -> Array | None:

@@ -46,6 +46,9 @@ CONE = Cone(0.3, 0.35, **PLACE, **AXIS)
 CONE_ON_FEET = Cone(0.3, 0.35, **PLACE, **AXIS, foot_height=0.02)
 CYLINDER_ON_FEET = Cylinder(0.3, 0.25, **PLACE, **AXIS, foot_height=0.02)
 DISC_ON_FEET = Disc(0.4, **PLACE, **AXIS, foot_height=0.03)
+ROUNDED_CYLINDER = Cylinder(0.3, 0.25, **PLACE, **AXIS, foot_height=0.02, rounding=0.05)
+ROUNDED_CONE = Cone(0.3, 0.35, **PLACE, **AXIS, foot_height=0.01, rounding=0.04)
+ROUNDED_DISC = Disc(0.4, **PLACE, **AXIS, rounding=0.05)
 ROUNDED_BOX = Box(0.3, 0.2, 0.4, **PLACE, **AXES, rounding=0.04)
 HULL = ConvexHull(
     ((0.0, 0.0, 0.5), (0.4, 0.0, -0.2), (-0.3, 0.4, -0.2), (-0.3, -0.4, -0.1), (0.0, -0.1, -0.4)), **PLACE, **AXES
@@ -72,6 +75,14 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "plane-cylinder on feet": (PLANE, CYLINDER_ON_FEET, 2 + 6),
     "plane-cone": (PLANE, CONE, 2),
     "plane-cone on feet": (PLANE, CONE_ON_FEET, 2 + 3),
+    "plane-rounded cylinder on feet": (PLANE, ROUNDED_CYLINDER, 2 + 6),
+    "plane-rounded cone on feet": (PLANE, ROUNDED_CONE, 2 + 3),
+    "plane-rounded disc": (PLANE, ROUNDED_DISC, 1),
+    "rounded cylinder-sphere": (replace(ROUNDED_CYLINDER, foot_height=0.0), SPHERE, 1),
+    "rounded cone-sphere": (replace(ROUNDED_CONE, foot_height=0.0), SPHERE, 1),
+    "rounded cylinder-ellipsoid": (replace(ROUNDED_CYLINDER, foot_height=0.0), ELLIPSOID, 1),
+    "rounded cone-superellipsoid": (replace(ROUNDED_CONE, foot_height=0.0), SUPERELLIPSOID, 1),
+    "rounded disc-ellipsoid": (ROUNDED_DISC, ELLIPSOID, 1),
     "plane-ellipsoid": (PLANE, ELLIPSOID, 1),
     "plane-hull": (PLANE, HULL, 5),
     "hull-sphere": (HULL, SPHERE, 1),
@@ -250,6 +261,44 @@ def _outside_rounded_hull(shape: Any, x: Array) -> Any:
     return nearest - shape.rounding
 
 
+def _is_round(shape: Any) -> bool:
+    return isinstance(shape, (Cylinder, Cone, Disc)) and shape.rounding > 0.0
+
+
+def _core_of(shape: Any) -> Any:
+    """Return the sharp body of which the rounded one is all that is near to it."""
+    r = shape.rounding
+    if isinstance(shape, Disc):
+        return replace(shape, radius=shape.radius - r, rounding=0.0)
+    if isinstance(shape, Cylinder):
+        return replace(shape, radius=shape.radius - r, half_length=shape.half_length - r, rounding=0.0)
+    # side and base go inwards by the radius, so that a cone of the same slope is left
+    part = 1.0 - r / (shape.radius * shape.height / (shape.radius + np.hypot(shape.radius, shape.height)))
+    base = dict(zip("xyz", ([shape.x, shape.y, shape.z] + r * _axis(shape)).tolist(), strict=True))
+    return replace(shape, radius=part * shape.radius, height=part * shape.height, rounding=0.0, **base)
+
+
+def _outside_rounded(shape: Any, x: Array) -> Any:
+    """Return how far a point is outside of a core with a radius, by its profile, and of the tips of its feet."""
+    core = _core_of(shape)
+    own, back = _local(core, x), core.foot_height
+    if isinstance(core, Cone):
+        rim = core.radius * (1.0 - back / core.height)
+        profile, feet = [(0.0, back), (rim, back), (0.0, core.height)], _cone_feet(core)
+    elif isinstance(core, Cylinder):
+        half = core.half_length - back
+        profile, feet = [(0.0, -half), (core.radius, -half), (core.radius, half), (0.0, half)], _feet(core)
+    else:
+        profile, feet = [(0.0, 0.0), (core.radius, 0.0)], _feet(core)
+    point, nearest = np.array([_across(core, own), own @ _axis(core)]), np.inf
+    for one, two in itertools.pairwise(np.array(profile)):
+        share = np.clip((point - one) @ (two - one) / ((two - one) @ (two - one)), 0.0, 1.0)
+        nearest = min(nearest, float(np.linalg.norm(point - one - share * (two - one))))
+    if back:
+        nearest = min(nearest, float(np.min(np.linalg.norm(feet - own, axis=-1))))
+    return nearest - shape.rounding
+
+
 SUPPORT: dict[type[Shape], Any] = {
     Sphere: lambda s, n: s.radius,
     Capsule: lambda s, n: s.radius + s.half_length * np.abs(n @ _axis(s)),
@@ -286,9 +335,15 @@ OUTSIDE: dict[type[Shape], Any] = {
 """Zero on the surface, positive outside, negative inside."""
 
 
+def _outside(shape: Any, x: Array) -> Any:
+    return _outside_rounded(shape, x) if _is_round(shape) else OUTSIDE[type(shape)](shape, x)
+
+
 def _support(shape: Any, n: Array) -> Any:
     if isinstance(shape, Ground):
         return np.where(n[..., 2] > 1.0 - 1e-12, shape.height, np.inf)
+    if _is_round(shape):
+        return _support(_core_of(shape), n) + shape.rounding
     return SUPPORT[type(shape)](shape, n) + n @ np.array([shape.x, shape.y, shape.z])
 
 
@@ -327,7 +382,7 @@ def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
             np.testing.assert_allclose([n @ n, t @ t, n @ t], [1.0, 1.0, 0.0], rtol=0, atol=1e-13)
             np.testing.assert_allclose(block[10:13] - block[7:10], gap * n, rtol=0, atol=1e-13)
             for shape, witness, pose, axes in zip(shapes, (block[7:10], block[10:13]), poses, matrices, strict=True):
-                outside = OUTSIDE[type(shape)](shape, axes.T @ (witness - pose[0]))
+                outside = _outside(shape, axes.T @ (witness - pose[0]))
                 assert outside <= 1e-12
                 # only of several contacts the farther ones may lie inside the whole shape
                 assert outside >= -1e-12 or gap > np.min(blocks[:, 0])

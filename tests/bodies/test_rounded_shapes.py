@@ -35,7 +35,7 @@ def test_who_asks_a_rounded_polyhedron_for_sharp_edges_is_refused() -> None:
     """Pairs and libraries that know sharp ones only must not take the core for the body."""
     with pytest.raises(InvalidInput, match=r"Box\.rounding"):
         assert Box(0.1, 0.2, 0.3, rounding=0.05).polytope
-    with pytest.raises(InvalidInput, match="polyhedra without a rounding"):
+    with pytest.raises(InvalidInput, match="polyhedra and cylinders without a rounding"):
         sharp("FCL", Box(0.1, 0.2, 0.3, rounding=0.05))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,9 @@ from bodies import (
     EllipsoidBody,
     FreeBody,
     HullBody,
+    Plane,
+    Plate,
+    Rest,
     SuperellipsoidBody,
 )
 from bodies.inertia import tensor_of
@@ -45,6 +49,14 @@ def _laws(friction: Any, restitution: float) -> dict[str, Any]:
     return {"normal": Unilateral(), "friction": friction, "impact": EnergeticImpact(restitution=restitution)}
 
 
+ROUND_PILLAR = replace(PILLAR, rounding=0.003)
+SMOOTH_TABLE = replace(TABLE, rounding=0.005)
+ROUND_CONE = ConeBody(0.01, 0.02, rounding=0.001)
+(_shape,) = ROUND_CONE.shapes
+ROUND_LIES = (0.02 + _shape.parameters()["z"]) * math.sin(STEEP)
+"""Its mass centre is so far from the side, whose plane goes through the apex of a sharp one."""
+ROUNDED = BoxBody(0.01, 0.012, 0.005, rounding=0.002)
+
 RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float], int]] = {
     "a cylinder stands on a box": (TABLE, CylinderBody(0.01, 0.02), 0.02, UPRIGHT, 3),
     "a cylinder lies on a box": (TABLE, CylinderBody(0.01, 0.02), 0.01, LYING, 2),
@@ -62,6 +74,32 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
     "a cylinder lies across a cap": (PILLAR, CylinderBody(0.01, 0.04), 0.01, LYING, 2),
     "a cone stands on a cap": (PILLAR, ConeBody(0.01, 0.02), 0.005, UPRIGHT, 3),
     "a disc lies on a cap": (PILLAR, DiscBody(0.01), 1e-6, UPRIGHT, 3),
+    "a rounded box stands on a cap": (Cylinder(0.02, 0.02, z=-0.02), ROUNDED, 0.005, UPRIGHT, 4),
+    "a rounded beam lies across a log": (LOG, BoxBody(0.005, 0.03, 0.005, rounding=0.001), 0.005, UPRIGHT, 2),
+    "a cylinder stands on a rounded box": (SMOOTH_TABLE, CylinderBody(0.01, 0.02), 0.02, UPRIGHT, 3),
+    "a cylinder lies on a rounded box": (SMOOTH_TABLE, CylinderBody(0.01, 0.02), 0.01, LYING, 2),
+    "a cone lies on a rounded box": (SMOOTH_TABLE, ConeBody(0.01, 0.02), 0.015 * math.sin(STEEP), ON_ITS_SIDE, 2),
+    "a rounded cylinder stands on a plane": (Plane(), CylinderBody(0.01, 0.02, rounding=0.002), 0.02, UPRIGHT, 3),
+    "a rounded cylinder lies on a plane": (Plane(), CylinderBody(0.01, 0.02, rounding=0.002), 0.01, LYING, 2),
+    "a rounded disc lies on a plane": (Plane(), DiscBody(0.01, rounding=0.001), 0.001 + 9e-7, UPRIGHT, 3),
+    "a rounded cone lies on a plane": (Plane(), ROUND_CONE, ROUND_LIES, ON_ITS_SIDE, 2),
+    "a rounded cylinder stands on a box": (TABLE, CylinderBody(0.01, 0.02, rounding=0.002), 0.02, UPRIGHT, 3),
+    "a rounded cylinder lies on a rounded box": (
+        SMOOTH_TABLE,
+        CylinderBody(0.01, 0.02, rounding=0.002),
+        0.01,
+        LYING,
+        2,
+    ),
+    "a rounded cylinder stands on a rounded cap": (
+        ROUND_PILLAR,
+        CylinderBody(0.01, 0.02, rounding=0.002),
+        0.02,
+        UPRIGHT,
+        3,
+    ),
+    "a box stands on a rounded cap": (ROUND_PILLAR, BoxBody(0.01, 0.006, 0.005), 0.005, UPRIGHT, 4),
+    "a rounded cylinder lies on a cap": (PILLAR, CylinderBody(0.01, 0.015, rounding=0.002), 0.01, LYING, 2),
     "a beam lies across a log": (LOG, BoxBody(0.005, 0.03, 0.005), 0.005, UPRIGHT, 2),
 }
 """Shape of the support, body, height of its origin over the support, orientation, contacts that hold it."""
@@ -104,6 +142,12 @@ COLLIDING: dict[str, tuple[FreeBody, FreeBody]] = {
         CylinderBody(0.03, 0.05),
         HullBody(tetrahedron(np.random.default_rng(2), 0.06).points),
     ),
+    "cylinder and rounded box": (CylinderBody(0.03, 0.05), BoxBody(0.03, 0.04, 0.05, rounding=0.01)),
+    "cone and rounded box": (ConeBody(0.04, 0.07), BoxBody(0.03, 0.04, 0.05, rounding=0.003)),
+    "disc and rounded tetrahedron": (
+        DiscBody(0.05),
+        HullBody(tetrahedron(np.random.default_rng(2), 0.05).points, rounding=0.01),
+    ),
     "cylinder and capsule": (CylinderBody(0.03, 0.05), CapsuleBody(0.02, 0.04)),
     "cone and capsule": (ConeBody(0.04, 0.07), CapsuleBody(0.02, 0.04)),
     "disc and capsule": (DiscBody(0.05), CapsuleBody(0.02, 0.04)),
@@ -111,6 +155,20 @@ COLLIDING: dict[str, tuple[FreeBody, FreeBody]] = {
     "cylinder and cone": (CylinderBody(0.03, 0.05), ConeBody(0.04, 0.07)),
     "cone and cone": (ConeBody(0.03, 0.05), ConeBody(0.04, 0.07)),
     "disc and cylinder": (DiscBody(0.05), CylinderBody(0.03, 0.05)),
+    "rounded cylinder and box": (CylinderBody(0.03, 0.05, rounding=0.01), BoxBody(0.03, 0.04, 0.05)),
+    "rounded cone and rounded box": (
+        ConeBody(0.04, 0.07, rounding=0.005),
+        BoxBody(0.03, 0.04, 0.05, rounding=0.01),
+    ),
+    "rounded disc and capsule": (DiscBody(0.05, rounding=0.005), CapsuleBody(0.02, 0.04)),
+    "rounded cylinder and ellipsoid": (CylinderBody(0.03, 0.05, rounding=0.01), EllipsoidBody(0.03, 0.04, 0.05)),
+    "rounded cylinder and rounded cone": (
+        CylinderBody(0.03, 0.05, rounding=0.005),
+        ConeBody(0.04, 0.07, rounding=0.005),
+    ),
+    "two rounded cones": (ConeBody(0.03, 0.05, rounding=0.005), ConeBody(0.04, 0.07, rounding=0.002)),
+    "two rounded discs": (DiscBody(0.05, rounding=0.005), DiscBody(0.06, rounding=0.01)),
+    "rounded disc and cylinder": (DiscBody(0.05, rounding=0.005), CylinderBody(0.04, 0.02)),
     "disc and disc": (DiscBody(0.05), DiscBody(0.06)),
     "cylinder and ellipsoid": (CylinderBody(0.03, 0.05), EllipsoidBody(0.03, 0.04, 0.05)),
     "cone and superellipsoid": (ConeBody(0.04, 0.07), SuperellipsoidBody(0.03, 0.04, 0.05, 1.3, 1.2)),
@@ -151,3 +209,91 @@ def test_colliding_bodies_keep_momentum_and_energy(name: str) -> None:
         np.testing.assert_allclose(after[1], before[1], rtol=0, atol=1e-10 * momentum)
         assert solution.energy.kinetic_end == pytest.approx(solution.energy.kinetic_start, rel=1e-9)
     assert impacts >= 8
+
+
+def test_a_rounded_beam_slides_along_a_log() -> None:
+    """At mu g against its motion until it sticks, without leaving the middle of the log."""
+    log, beam, mu, speed = Stand((LOG,)), BoxBody(0.005, 0.03, 0.005, rounding=0.001), 0.3, 0.2
+    system = ns.System([log, beam])
+    system.contact(log, beam, **_laws(Coulomb(mu), 0.3))
+    system.place(beam, position=(-0.01, 0.0, 0.005), orientation=UPRIGHT, velocity=(speed, 0.0, 0.0))
+    solution = ns.simulate(system, 0.1)
+    assert solution.status == "done"
+    way = speed**2 / (2.0 * mu * 9.81)
+    np.testing.assert_allclose(solution.q_end[:3], [-0.01 + way, 0.0, 0.005], rtol=0, atol=1e-10)
+    assert solution.energy.residual < 1e-10
+    assert np.max(np.abs(solution.u_end)) < 1e-10
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_rounded_box_falls_on_a_cylinder(seed: int) -> None:
+    """At any orientation: it strikes, slides and rolls off, and the books balance."""
+    log, rng = Stand((LOG,)), np.random.default_rng(seed)
+    box = BoxBody(0.01, 0.012, 0.008, rounding=0.002)
+    system = ns.System([log, box])
+    system.contact(log, box, **_laws(Coulomb(0.2), 0.5))
+    orientation = np.roll(Rotation.random(random_state=rng).as_quat(), 1)
+    place = np.array([0.0, 0.004, 0.03])
+    system.place(box, position=place, orientation=orientation, angular_velocity=5.0 * rng.normal(size=3))
+    solution = ns.simulate(system, 0.3)
+    assert solution.status == "done"
+    assert solution.events.causes().count("impact") >= 2
+    assert solution.q_end[2] < -0.02
+    assert solution.energy.residual < 1e-8
+
+
+@pytest.mark.parametrize("rounding", [0.0, 0.003])
+def test_a_cylinder_rolls_down_a_slope(rounding: float) -> None:
+    """On its side: the acceleration is g sin / (1 + J / m R^2), and it keeps rolling, rounded or not."""
+    body, slope = CylinderBody(0.01, 0.02, rounding=rounding), 0.1
+    plate = Plate(motion=Rest(slope))
+    system = ns.System([plate, body])
+    system.contact(plate, body, **_laws(Coulomb(0.3), 0.3))
+    tilt = Rotation.from_rotvec([0.0, slope, 0.0])
+    turn = np.roll((tilt * Rotation.from_quat(np.roll(LYING, -1))).as_quat(), 1)
+    system.place(body, position=tilt.apply([0.0, 0.0, 0.01]), orientation=turn)
+    solution = ns.simulate(system, 0.3)
+    assert solution.status == "done"
+    share = body.inertia[2] / (body.total_mass * 0.01**2)
+    assert (share == pytest.approx(0.5)) == (rounding == 0.0)
+    speed = 0.3 * 9.81 * math.sin(slope) / (1.0 + share)
+    np.testing.assert_allclose(tilt.inv().apply(solution.u_end[:3]), [speed, 0.0, 0.0], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(solution.u_end[3:], [0.0, 0.0, -speed / 0.01], rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(tilt.inv().apply(solution.q_end[:3]), [0.15 * speed, 0.0, 0.01], rtol=0, atol=1e-10)
+
+
+def test_a_rounded_disc_rolls_in_a_circle() -> None:
+    """Steadily, leaning by an angle: the rate of precession is the one that holds it up.
+
+    The centre is at rest for a circle of radius 0 of the rim about it: with the contact at a p + r n from the centre,
+    the torque of gravity is that which turns the angular momentum.
+    """
+    radius, rounding, lean = 0.03, 0.004, 0.5
+    body, plate = DiscBody(radius, rounding=rounding), Stand((Plane(),))
+    wide = radius - rounding
+    across, _, along = (moment / body.total_mass for moment in body.inertia)
+    # the disc's axis leans by ``lean`` from the vertical; the centre stays where it is
+    s, c = math.sin(lean), math.cos(lean)
+    arm, height = wide * c, wide * s + rounding
+    # rates: precession p about the vertical, spin w about the own axis; the point of contact is at rest
+    # velocity of the lowest point of the torus: p arm + w (wide + rounding s) = 0
+    part = -arm / (wide + rounding * s)
+    # own components: about the axis w + p c, across p s; angular momentum's horizontal part times p is the torque
+    rate = math.sqrt(9.81 * arm / abs(s * (along * (part + c) - across * c)))
+    turned = np.array([math.cos(0.5 * lean), 0.0, math.sin(0.5 * lean), 0.0])
+    axis = np.array([s, 0.0, c])
+    spin = rate * (np.array([0.0, 0.0, 1.0]) + part * axis)
+    system = ns.System([plate, body])
+    system.contact(plate, body, **_laws(Coulomb(0.5), 0.3))
+    system.place(
+        body,
+        position=(0.0, 0.0, height),
+        orientation=turned,
+        angular_velocity=Rotation.from_quat(np.roll(turned, -1)).inv().apply(spin),
+    )
+    solution = ns.simulate(system, 0.5, options=ns.Options(tolerance=1e-12))
+    assert solution.status == "done"
+    np.testing.assert_allclose(solution.q_end[:3], [0.0, 0.0, height], rtol=0, atol=1e-8)
+    axes = Rotation.from_quat(np.roll(solution.q_end[3:], -1)).as_matrix()
+    expected = Rotation.from_rotvec([0.0, 0.0, 0.5 * rate]).apply(axis)
+    np.testing.assert_allclose(axes[:, 2], expected, rtol=0, atol=1e-7)
