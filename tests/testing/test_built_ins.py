@@ -202,6 +202,7 @@ SHAPES: list[tuple[Shape, Shape]] = [
     (CUBOID, Capsule(0.15, 0.4, axis_y=-0.6, axis_z=0.8)),
     (CUBOID, Point(0.1, -0.05, 0.07)),
     (TETRAHEDRON, ConvexHull(WEDGE)),
+    (TETRAHEDRON, ConvexHull(WEDGE, rounding=0.01)),
     (TETRAHEDRON, TETRAHEDRON),
     (Plane(0.1), ConvexHull(WEDGE)),
     (Box(0.3, 0.4, 0.5), Point(0.1, -0.05, 0.07)),
