@@ -9,11 +9,11 @@ from bodies.contacts.box_sphere import BoxSphere
 from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
-from bodies.contacts.frustum_capsule import FrustumCapsule
 from bodies.contacts.frustum_frustum import FrustumFrustum
 from bodies.contacts.frustum_polyhedron import FrustumPolyhedron
 from bodies.contacts.frustum_smooth import FrustumSmooth
 from bodies.contacts.frustum_sphere import FrustumSphere
+from bodies.contacts.frustum_swept import FrustumSwept
 from bodies.contacts.mesh_mesh import MeshMesh
 from bodies.contacts.mesh_point import MeshPoint
 from bodies.contacts.mesh_smooth import MeshSmooth
@@ -116,11 +116,11 @@ __all__ = [
     "Fixed",
     "FreeBody",
     "Frustum",
-    "FrustumCapsule",
     "FrustumFrustum",
     "FrustumPolyhedron",
     "FrustumSmooth",
     "FrustumSphere",
+    "FrustumSwept",
     "FunctionLoad",
     "FunctionMotion",
     "GeneralisedBody",

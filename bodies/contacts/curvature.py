@@ -28,6 +28,16 @@ def write_flat(out: Floats, side: int) -> None:
 
 
 @compiled
+def write_sweep(out: Floats, side: int, radius: float) -> None:
+    """Turn the matrices of a core into those of the surface at a distance from it, which has the same normals.
+
+    As the point of the core slides by u and the normal turns by nu, that of the surface slides by u + radius nu.
+    """
+    for i in range(side, side + 4):
+        out[i + 4] += radius * out[i]
+
+
+@compiled
 def write_principal(
     out: Floats,
     side: int,

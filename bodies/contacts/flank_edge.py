@@ -7,13 +7,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A
+from bodies.contacts.curvature import SIDE_A, write_sweep
 from bodies.contacts.frustum import FLANK, center_in_world, write_part
-from bodies.contacts.frustum_edge import astray_of_edge, edge_in_frustum, overlap_at, past_end, write_crossing
+from bodies.contacts.frustum_edge import (
+    astray_of_edge,
+    edge_in_frustum,
+    overlap_at,
+    past_end,
+    size_of_both,
+    write_crossing,
+)
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.smooth_core import axes_in_world, forth
-from bodies.shapes.frustum import COS, LOW, SIDE, SIN, Frustum
-from bodies.shapes.polyhedron import Polyhedron
+from bodies.shapes.frustum import COS, LOW, SIDE, SIN, SWEEP, Frustum
+from bodies.shapes.swept import SweptPolytope
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -60,7 +67,7 @@ def _evaluate(
     away = ex * px + ey * py - gap * cosine
     up = cosine * (pz - gap * nz - frustum[LOW]) - sine * (away - frustum[0])
     over = max(max(-s, s - edge[6]), max(-up, up - frustum[SIDE]))
-    past = past_end(gap - radius, over, abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz), size)
+    past = past_end(gap, over, abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz), size)
     if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
         # no normal is across both
         past, over = max(past, size), size
@@ -69,9 +76,10 @@ def _evaluate(
     if past > 0.0:
         overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, px, py, pz, cx, cy, cz)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, axes, edge, radius, gap - radius, past, nx, ny, nz, qx, qy, qz, overlap, size)
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, nx, ny, nz, qx, qy, qz, overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, FLANK, axes[2], axes[5], axes[8], ux, uy, uz, cosine, max(away, 0.0))
+    write_sweep(out, SIDE_A, frustum[SWEEP])
 
 
 @final
@@ -88,14 +96,14 @@ class FlankEdge(ContactKinematics):
     radius : float
         Radius about it [m].
     faces : tuple of float
-        All faces of the second body; none where it is not a polyhedron.
+        All faces of the second body's core; none of a segment.
     size : float
         Size of the bodies [m].
     name : str
         What it is.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Polyhedron)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
 
     frustum: Numbers
     edge: Numbers
@@ -108,13 +116,11 @@ class FlankEdge(ContactKinematics):
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
         """Return the contacts of all edges; a disc has no side."""
         assert isinstance(first, Frustum)
-        assert isinstance(second, Polyhedron)
+        assert isinstance(second, SweptPolytope)
         if first.frustum[SIDE] == 0.0:
             return ()
-        size = max(second.polytope.size, 2.0 * first.extent)
-        rows = enumerate(edge_rows(second.polytope))
-        faces = face_table(second.polytope)
-        return tuple(cls(first.frustum, row, 0.0, faces, size, f"edge {i}") for i, row in rows)
+        size, faces, rows = size_of_both(first, second), face_table(second.core), enumerate(edge_rows(second.core))
+        return tuple(cls(first.frustum, row, second.sweep, faces, size, f"edge {i}") for i, row in rows)
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both."""

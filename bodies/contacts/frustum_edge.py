@@ -1,6 +1,6 @@
 """What the contacts of a frustum with an edge share: the edge's row, how it faces the frustum, and what is written.
 
-The edge belongs to the second body, a polyhedron or, with a radius about it and no faces, a capsule.
+The edge belongs to the second body, a polyhedron or, with a radius about it, a rounded one or a capsule.
 """
 
 from __future__ import annotations
@@ -10,12 +10,11 @@ import math
 from bodies.contacts.curvature import SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.frustum import nearest_part
-from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.smooth_core import Axes, back, forth
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import DEEP, REACH, height_over
-from bodies.shapes.capsule import Capsule
-from bodies.shapes.frustum import FEET
+from bodies.shapes.frustum import FEET, SWEEP, Frustum
+from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -27,10 +26,9 @@ _INSIDE = 4.0
 """What overlaps does so only where it crosses so many depths away from its ends."""
 
 
-def segment_row(capsule: Capsule) -> Numbers:
-    """Return the row of a capsule's segment: an edge without faces."""
-    (x, y, z), _ = capsule.ends
-    return (x, y, z, capsule.axis_x, capsule.axis_y, capsule.axis_z, 2.0 * capsule.half_length, *(6 * [0.0]))
+def size_of_both(first: Frustum, second: SweptPolytope) -> float:
+    """Return the size of the larger of the two [m]."""
+    return max(second.core.size + 2.0 * second.sweep, 2.0 * first.extent)
 
 
 @compiled
@@ -56,7 +54,10 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
 
 @compiled
 def past_end(gap: float, over: float, sine: float, astray: float, size: float) -> float:
-    """Return how far a crossing is past its ends, by the way over them, the sine of the crossing and the normal."""
+    """Return how far a crossing is past its ends, by the way over them, the sine of the crossing and the normal.
+
+    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.
+    """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - _ASTRAY))
     if gap < 0.0:
         past = max(past, over - _INSIDE * gap - REACH * size)
@@ -89,7 +90,7 @@ def overlap_at(
     if over > 0.0:
         return 0.0
     outside, _, _, _ = nearest_part(frustum, qz, math.sqrt(qx * qx + qy * qy))
-    outside -= radius
+    outside -= radius + frustum[SWEEP]
     if n_faces > 0.0:
         outside = min(outside, height_over(b, n_faces, faces, px + x, py + y, pz + z))
     # rims are set back by the height of the feet over faces only
@@ -101,10 +102,11 @@ def write_crossing(
     a: Floats,
     b: Floats,
     out: Floats,
+    frustum: Floats,
     axes: Axes,
     edge: Floats,
     radius: float,
-    gap: float,
+    distance: float,
     past: float,
     nx: float,
     ny: float,
@@ -115,13 +117,15 @@ def write_crossing(
     overlap: float,
     size: float,
 ) -> None:
-    """Write gap, axes, witness points and the matrices of the edge; p is the frustum's point in the world."""
+    """Write all but the matrices of the frustum, by the distance of the cores; p is the frustum's, in the world."""
+    sweep = frustum[SWEEP]
+    gap = distance - radius - sweep
     if past > 0.0:
         # what overlaps is no contact of this crossing, but a sign that another one was passed
         gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.sqrt(gap * gap + past * past)
     out[0], out[29], out[30] = gap, 0.0, past
     out[1], out[2], out[3] = forth(axes, nx, ny, nz)
-    out[7], out[8], out[9] = px, py, pz
+    out[7], out[8], out[9] = px + sweep * out[1], py + sweep * out[2], pz + sweep * out[3]
     for i in range(3):
         out[10 + i] = out[7 + i] + gap * out[1 + i]
     write_tangent(a, out)

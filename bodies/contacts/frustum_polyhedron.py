@@ -1,4 +1,4 @@
-"""A cylinder, a cone or a disc and a polyhedron: a rim, a foot or the apex over the faces, and all other contacts."""
+"""A cylinder, a cone or a disc and a polyhedron: a vertex over caps and side, and all other contacts."""
 
 from __future__ import annotations
 
@@ -9,44 +9,54 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
 from bodies.contacts.flank_edge import FlankEdge
-from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.frustum import axis_in_world, center_in_world, least_height
-from bodies.contacts.frustum_vertex import FrustumVertex
-from bodies.contacts.plane_rim import FLATTEST
-from bodies.contacts.polytope_tables import FACE, Numbers, face_table
+from bodies.contacts.frames import point_in_world, vector_in_body
+from bodies.contacts.frustum import (
+    FLANK,
+    HIGH_CAP,
+    LOW_CAP,
+    axis_in_world,
+    center_in_world,
+    part_names,
+    part_number,
+    write_part,
+)
+from bodies.contacts.frustum_edge import size_of_both
+from bodies.contacts.frustum_swept import FrustumSwept, check_number
+from bodies.contacts.polytope_tables import FACE, Numbers, face_table, vertex_table
 from bodies.contacts.rim_edge import RimEdge
-from bodies.contacts.swept_swept import MOST_CONTACTS
+from bodies.contacts.rim_face import RimFace
 from bodies.contacts.tangents import write_tangent
-from bodies.contacts.vertex_face import DEEP, REACH, past_face, plane_height
-from bodies.shapes.frustum import Frustum
+from bodies.contacts.vertex_face import DEEP, REACH, height_over
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 
 @compiled
-def _lowest(
+def _least(
     a: Floats,
-    radius: float,
-    x: float,
-    y: float,
-    z: float,
-    ax: float,
-    ay: float,
-    az: float,
+    b: Floats,
+    n_vertices: float,
+    vertices: Floats,
     nx: float,
     ny: float,
     nz: float,
-) -> tuple[float, float, float, float, float, float, float]:
-    """Return the rim's farthest point of the world against n, the way to it from the centre, and its sine."""
-    _, sine, ex, ey, ez = across(-nx, -ny, -nz, ax, ay, az)
-    px, py, pz = point_in_world(a, x, y, z)
-    return px + radius * ex, py + radius * ey, pz + radius * ez, ex, ey, ez, sine
+    x: float,
+    y: float,
+    z: float,
+) -> float:
+    """Return the least height of the second body's vertices over the plane through a point with the normal n."""
+    base = nx * (b[0] - x) + ny * (b[1] - y) + nz * (b[2] - z)
+    nx, ny, nz = vector_in_body(b, nx, ny, nz)
+    least = 1e300
+    for i in range(int(n_vertices)):
+        least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
+    return base + least
 
 
 def _evaluate(
@@ -54,132 +64,133 @@ def _evaluate(
     b: Floats,
     out: Floats,
     frustum: Floats,
-    radius: float,
-    x: float,
-    y: float,
-    z: float,
+    n_vertices: float,
+    vertices: Floats,
+    vertex: float,
     n_faces: float,
     faces: Floats,
     size: float,
 ) -> None:
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
-    ux, uy, uz = vector_in_body(b, ax, ay, az)
-    kx, ky, kz = vector_in_body(b, cx - b[0], cy - b[1], cz - b[2])
+    v = 3 * int(vertex)
+    px, py, pz = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
+    along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
+    cosine, sine = frustum[COS], frustum[SIN]
+    dr, dz = away - frustum[0], along - frustum[LOW]
     margin = REACH * size
-    best = -1e300
-    for i in range(int(n_faces)):
-        f = FACE * i
-        cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
-        best = max(best, least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine))
-    found, gap, past, deepest = 0, 0.0, 1e300, -1e300
-    for i in range(int(n_faces)):
-        f = FACE * i
-        cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
-        least = least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine)
+    flat = frustum[SIDE] == 0.0
+    best, deepest, inner = -1e300, -1e300, LOW_CAP
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
+            continue
+        radial, axial, height = 0.0, -1.0, -dz
+        if part == HIGH_CAP:
+            axial, height = 1.0, along - frustum[HIGH]
+        elif part == FLANK:
+            radial, axial, height = cosine, sine, cosine * dr + sine * dz
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
+        best = max(best, _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz))
+        if height > deepest:
+            deepest, inner = height, part
+    found, gap, past = inner, deepest, 1e300
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
+            continue
+        radial, axial, height, beyond, depth = 0.0, -1.0, -dz, away - frustum[0], frustum[HIGH] - frustum[LOW]
+        if part == HIGH_CAP:
+            axial, height, beyond = 1.0, along - frustum[HIGH], away - frustum[1]
+        elif part == FLANK:
+            radial, axial, height = cosine, sine, cosine * dr + sine * dz
+            up = cosine * dz - sine * dr
+            beyond, depth = max(-up, up - frustum[SIDE]), 2.0 * frustum[0]
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
+        least = _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz)
         if least < best - margin:
             continue
-        nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-        px, py, pz, _, _, _, _ = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
-        px, py, pz = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
-        height = plane_height(faces, f, px, py, pz)
-        beyond = past_face(faces, n_faces, f, height, px, py, pz)
-        highest = height
-        for j in range(int(n_faces)):
-            highest = max(highest, plane_height(faces, FACE * j, px, py, pz))
         if height < 0.0:
-            # under the plane of a face only what lies inside of the body can touch it
-            beyond = max(beyond, highest)
-        beyond = max(beyond - margin, -least - 0.5 * faces[f + 4])
+            # behind a part only what lies inside of the body can touch it; of a disc, what has the disc inside of it
+            beyond = max(beyond, height_over(b, n_faces, faces, qx, qy, qz) if flat else deepest)
+        beyond -= margin
+        if not flat:
+            beyond = max(beyond, -least - 0.5 * depth)
         if beyond < past:
-            found, gap, past, deepest = i, height, beyond, highest
+            found, gap, past = part, height, beyond
     if past > 0.0:
-        # inside of the body it is no contact of its own, but a sign that they overlap
-        gap = deepest if deepest < -DEEP * size else math.sqrt(gap * gap + past * past)
-    f = FACE * found
-    nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-    px, py, pz, ex, ey, ez, sine = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
-    out[0], out[29], out[30] = gap, float(found), past
-    out[1], out[2], out[3] = -nx, -ny, -nz
-    out[7], out[8], out[9] = px, py, pz
+        if deepest < -DEEP * size:
+            found, gap, past = inner, deepest, deepest
+        else:
+            gap = math.sqrt(gap * gap + past * past)
+    radial, axial = 0.0, -1.0 if found == LOW_CAP else 1.0
+    if found == FLANK:
+        radial, axial = cosine, sine
+    out[0], out[29], out[30] = gap, part_number(frustum, found), past
+    out[1], out[2], out[3] = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+    out[10], out[11], out[12] = px, py, pz
     for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[7 + i] = out[10 + i] - gap * out[1 + i]
     write_tangent(a, out)
-    write_flat(out, SIDE_B)
-    if radius > 0.0:
-        rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
-        write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
-    else:
-        write_round(out, SIDE_A, 0.0)
-
-
-def _check_number(edges: int) -> None:
-    """Raise InvalidInput if there are too many contacts."""
-    if 5 * edges > MOST_CONTACTS:
-        raise InvalidInput(
-            "contact of a polyhedron with a round body",
-            f"must have at most {MOST_CONTACTS} pairs of features",
-            f"{edges} edges make {5 * edges}",
-            "Take a polyhedron with fewer edges, or a smooth shape.",
-        )
+    write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
+    write_round(out, SIDE_B, 0.0)
 
 
 @final
 @dataclass(frozen=True)
 class FrustumPolyhedron(ContactKinematics):
-    """The lowest point of a rim over the face that best separates the bodies; a foot or an apex has no radius.
+    """A vertex of the polyhedron over the part of the round body, cap or side, that best separates the bodies.
 
-    The others are the vertices of the polyhedron over caps and side, and its edges across the side and the rims.  Every
-    one of them has its number for ever; one whose features do not face each other is open.  So two rims hold what lies
-    on its side, and feet what stands.
+    The others are the edges across the side and the rims, and the rims and feet over the faces.  Every one of them has
+    its number for ever; one whose features do not face each other is open.  So two rims hold what lies on its side, and
+    feet what stands.
 
     Attributes
     ----------
     frustum : tuple of float
         The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
-    radius : float
-        Radius of the rim [m].
-    center : tuple of float
-        Its centre in the body frame [m].
+    vertices : tuple of float
+        All vertices of the second [m].
+    vertex : int
+        Number of this one.
     faces : tuple of float
-        The faces of the second body (:func:`bodies.contacts.polytope_tables.face_table`).
+        All faces of the second body.
     size : float
         Size of the bodies [m].
-    name : str
-        What it is.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Polyhedron)
 
     frustum: Numbers
-    radius: float
-    center: tuple[float, float, float]
+    vertices: Numbers
+    vertex: int
     faces: Numbers
     size: float
-    name: str
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of rims and feet over faces, of vertices, and of edges with side and rims."""
+        """Return the contacts of rims and feet over faces, of vertices, and of edges with side and rims.
+
+        Where one of the two is rounded, they are those of :class:`bodies.FrustumSwept`.
+        """
         assert isinstance(first, Frustum)
         assert isinstance(second, Polyhedron)
-        _check_number(len(second.polytope.edges))
-        named = [(*rim, f"rim {i}" if rim[0] > 0.0 else "apex") for i, rim in enumerate(first.standing_rims)]
-        named += [(0.0, foot, f"foot {i}") for i, foot in enumerate(first.feet)]
-        size, faces = max(second.polytope.size, 2.0 * first.extent), face_table(second.polytope)
-        own = (cls(first.frustum, radius, center, faces, size, name) for radius, center, name in named)
-        others = (kind.between(first, second) for kind in (FrustumVertex, FlankEdge, RimEdge))
-        return tuple(itertools.chain(own, *others))
+        if first.frustum[SWEEP] > 0.0 or second.sweep > 0.0:
+            return FrustumSwept.between(first, second)
+        core, size = second.core, size_of_both(first, second)
+        check_number(len(core.edges))
+        vertices, faces = vertex_table(core), face_table(core)
+        own = (cls(first.frustum, vertices, i, faces, size) for i in range(len(vertices) // 3))
+        edges = FlankEdge.between(first, second), RimEdge.between(first, second)
+        return tuple(itertools.chain(RimFace.between(first, second), own, *edges))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of all."""
-        x, y, z = self.center
+        """Return the numbers of both."""
         return {
             "frustum": self.frustum,
-            "radius": self.radius,
-            "x": x,
-            "y": y,
-            "z": z,
+            "n_vertices": float(len(self.vertices) // 3),
+            "vertices": self.vertices,
+            "vertex": float(self.vertex),
             "n_faces": float(len(self.faces) // FACE),
             "faces": self.faces,
             "size": self.size,
@@ -192,5 +203,5 @@ class FrustumPolyhedron(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
-        return tuple(f"{self.name} and face {i}" for i in range(len(self.faces) // FACE))
+        """The parts, rims among them, which this contact never has."""
+        return tuple(f"{part} and vertex {self.vertex}" for part in part_names(self.frustum))

@@ -7,21 +7,26 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round, write_sweep
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.frustum import axis_in_world, center_in_world, nearest_part, part_names, part_number, write_part
 from bodies.contacts.offset import place_sphere
-from bodies.shapes.frustum import FEET, Frustum
+from bodies.shapes.frustum import SWEEP, Frustum, without_feet
 from bodies.shapes.sphere import Sphere
+from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 
-def evaluate_frustum_ball(
+@compiled
+def write_frustum_ball(
     a: Floats, b: Floats, out: Floats, first: Floats, radius: float, x: float, y: float, z: float
-) -> None:
-    """Write the geometry block of a frustum and a ball about a point of the second body, or that point."""
+) -> tuple[float, float, float, float]:
+    """Write the geometry block of a frustum and a ball about a point of the second body.
+
+    Return where in the world the point is, and its distance from the frustum's core [m].
+    """
     ax, ay, az = axis_in_world(a, first)
     cx, cy, cz = center_in_world(a, first)
     x, y, z = point_in_world(b, x, y, z)
@@ -29,9 +34,15 @@ def evaluate_frustum_ball(
     distance, radial, axial, part = nearest_part(first, along, away)
     out[1], out[2], out[3] = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
     out[29] = part_number(first, part)
-    place_sphere(a, out, x, y, z, distance, radius)
+    place_sphere(a, out, x, y, z, distance - first[SWEEP], radius)
     write_part(out, SIDE_A, part, ax, ay, az, ex, ey, ez, radial, away - distance * radial)
+    write_sweep(out, SIDE_A, first[SWEEP])
     write_round(out, SIDE_B, radius)
+    return x, y, z, distance
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, radius: float, x: float, y: float, z: float) -> None:
+    write_frustum_ball(a, b, out, first, radius, x, y, z)
 
 
 @final
@@ -57,9 +68,7 @@ class FrustumSphere(ContactKinematics):
         """Return the single contact of the two."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Sphere)
-        numbers = first.frustum
-        # spheres meet the faces as if there were no feet
-        return (cls((*numbers[:FEET], 0.0, *numbers[FEET + 1 :]), second),)
+        return (cls(without_feet(first.frustum), second),)
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the numbers of both."""
@@ -68,7 +77,7 @@ class FrustumSphere(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
-        return evaluate_frustum_ball
+        return _evaluate
 
     @property
     def features(self) -> tuple[str, ...]:

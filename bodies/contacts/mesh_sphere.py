@@ -22,7 +22,7 @@ from bodies.contacts.surface_tables import (
     Numbers,
     surface_numbers,
 )
-from bodies.contacts.swept_vertex import END, NEAR, past_vertex
+from bodies.contacts.swept_vertex import END, NEAR, past_star
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.sphere import Sphere
@@ -58,7 +58,7 @@ def _evaluate(
         nx, ny, nz = (x - px) / distance, (y - py) / distance, (z - pz) / distance
     nx, ny, nz = vector_in_world(a, nx, ny, nz)
     if n_star > 0.0:
-        beyond = past_vertex(b, star, n_star, distance, nx, ny, nz, size)
+        beyond = past_star(b, star, n_star, distance, nx, ny, nz, size)
         past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
     out[1], out[2], out[3] = nx, ny, nz
     if past > 0.0:

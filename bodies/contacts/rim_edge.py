@@ -10,13 +10,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A
+from bodies.contacts.curvature import SIDE_A, write_sweep
 from bodies.contacts.frustum import HIGH_RIM, LOW_RIM, center_in_world, write_part
-from bodies.contacts.frustum_edge import astray_of_edge, edge_in_frustum, overlap_at, past_end, write_crossing
+from bodies.contacts.frustum_edge import (
+    astray_of_edge,
+    edge_in_frustum,
+    overlap_at,
+    past_end,
+    size_of_both,
+    write_crossing,
+)
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.smooth_core import axes_in_world, forth
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
-from bodies.shapes.polyhedron import Polyhedron
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -113,16 +120,20 @@ def _evaluate(
     px, py, pz = wide * ex, wide * ey, height
     s = (px - vx) * dx + (py - vy) * dy + (pz - vz) * dz
     wx, wy, wz = vx + s * dx - px, vy + s * dy - py, vz + s * dz - pz
-    if crossing > 1e-6:
+    total = radius + frustum[SWEEP]
+    if total == 0.0 and crossing > 1e-6:
         nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
     else:
-        # along the tangent: the way between the two, or out of the frustum
+        # of cores apart, and where the edge is along the tangent: the way between the two, or out of the frustum
         apart = math.sqrt(wx * wx + wy * wy + wz * wz)
         nx, ny, nz = (wx / apart, wy / apart, wz / apart) if apart > 1e-9 * size else (ex, ey, 0.0)
+    if total > 0.0:
+        # at a distance an edge along the tangent touches a rim at one point, too
+        crossing = 1.0
     ahead = nx * wx + ny * wy + nz * wz
     astray, flip = 2.0, 1.0
     for sign in (-1.0, 1.0):
-        if radius > 0.0 and sign * ahead < 0.0:
+        if total > 0.0 and sign * ahead < 0.0:
             # with a radius about it an edge lies outside
             continue
         radial, axial = sign * (ex * nx + ey * ny), sign * nz
@@ -134,7 +145,7 @@ def _evaluate(
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = flip * ahead
     over = max(-s, s - edge[6])
-    past = past_end(gap - radius, over, crossing, astray, size)
+    past = past_end(gap, over, crossing, astray, size)
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
         past, over = max(past, size), size
     qx, qy, qz = forth(axes, px, py, pz)
@@ -143,9 +154,10 @@ def _evaluate(
         wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
         overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, wx, wy, wz, cx, cy, cz)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, axes, edge, radius, gap - radius, past, nx, ny, nz, qx, qy, qz, overlap, size)
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, nx, ny, nz, qx, qy, qz, overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, part, axes[2], axes[5], axes[8], ux, uy, uz, ex * nx + ey * ny, wide)
+    write_sweep(out, SIDE_A, frustum[SWEEP])
 
 
 @final
@@ -168,14 +180,14 @@ class RimEdge(ContactKinematics):
     radius : float
         Radius about it [m].
     faces : tuple of float
-        All faces of the second body; none where it is not a polyhedron.
+        All faces of the second body's core; none of a segment.
     size : float
         Size of the bodies [m].
     name : str
         What it is.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Polyhedron)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
 
     frustum: Numbers
     rim: int
@@ -190,21 +202,16 @@ class RimEdge(ContactKinematics):
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
         """Return the contacts of all rims and edges."""
         assert isinstance(first, Frustum)
-        assert isinstance(second, Polyhedron)
-        size, faces = max(second.polytope.size, 2.0 * first.extent), face_table(second.polytope)
+        assert isinstance(second, SweptPolytope)
+        numbers, faces, size = first.frustum, face_table(second.core), size_of_both(first, second)
+        # a disc has one rim, and an apex is none
+        rims = [LOW_RIM, HIGH_RIM] if numbers[SIDE] > 0.0 and numbers[1] > 0.0 else [LOW_RIM]
         return tuple(
-            contact
-            for i, row in enumerate(edge_rows(second.polytope))
-            for contact in cls.of_rims(first.frustum, row, 0.0, faces, size, f"edge {i}")
+            cls(numbers, rim, half, row, second.sweep, faces, size, f"edge {i}")
+            for i, row in enumerate(edge_rows(second.core))
+            for rim in rims
+            for half in (1.0, -1.0)
         )
-
-    @classmethod
-    def of_rims(
-        cls, frustum: Numbers, edge: Numbers, radius: float, faces: Numbers, size: float, name: str
-    ) -> tuple[RimEdge, ...]:
-        """Return the contacts of both rims with one edge; a disc has one rim, and an apex is none."""
-        rims = [LOW_RIM, HIGH_RIM] if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else [LOW_RIM]
-        return tuple(cls(frustum, rim, half, edge, radius, faces, size, name) for rim in rims for half in (1.0, -1.0))
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both."""

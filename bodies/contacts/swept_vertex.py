@@ -10,10 +10,11 @@ from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.nearest import nearest_feature
+from bodies.contacts.nearest import Nearest, nearest_feature
 from bodies.contacts.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
 from bodies.contacts.swept_side import write_swept
 from bodies.contacts.tangents import write_tangent
+from bodies.shapes.polytope import Point
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -28,7 +29,7 @@ NEAR = 1e-6
 
 
 @compiled
-def past_vertex(
+def past_star(
     frame: Floats, star: Floats, n_star: float, distance: float, nx: float, ny: float, nz: float, size: float
 ) -> float:
     """Return how far the nearest point of the other core, along -n from the vertex, is past it along one of its edges.
@@ -44,13 +45,52 @@ def past_vertex(
 
 
 @compiled
-def _gap(gap: float, past: float, size: float) -> tuple[float, float]:
+def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
     """Return gap and way past the end as they are written."""
     if gap > NEAR * size:
         return gap, min(past, -END * size)
     if past > 0.0:
         return math.sqrt(gap * gap + past * past), past
     return gap, past
+
+
+@compiled
+def write_vertex_over(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
+    center: Point,
+    radius: float,
+    found: Nearest,
+    past: float,
+    n_faces: float,
+    n_edges: float,
+    edges: Floats,
+    sweep: float,
+    size: float,
+) -> None:
+    """Write the geometry block of a vertex, with its radius, and what is nearest of the other body.
+
+    The vertex is the first body's if ``swap`` is 1, else the second's, whose contact two vertices are; ``past`` is how
+    far it is past the end otherwise.
+    """
+    other = b if swap == 1.0 else a
+    number, distance, nx, ny, nz, within = found
+    nx, ny, nz = vector_in_world(other, nx, ny, nz)
+    shared = END * size - within if swap == 1.0 else -1e300
+    gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
+    if shared > 0.0:
+        gap, past = math.sqrt((distance - sweep - radius) ** 2 + shared * shared), max(past, shared)
+    sign = 1.0 - 2.0 * swap
+    near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
+    out[0], out[29], out[30] = gap, number, past
+    out[1], out[2], out[3] = sign * nx, sign * ny, sign * nz
+    out[near], out[near + 1], out[near + 2] = center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz
+    out[far], out[far + 1], out[far + 2] = out[near] - gap * nx, out[near + 1] - gap * ny, out[near + 2] - gap * nz
+    write_tangent(a, out)
+    write_swept(other, out, SIDE_B if swap == 1.0 else SIDE_A, number, n_faces, n_edges, edges, sweep)
+    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
 
 
 def _evaluate(
@@ -73,25 +113,12 @@ def _evaluate(
     size: float,
 ) -> None:
     own, other = (a, b) if swap == 1.0 else (b, a)
-    center_x, center_y, center_z = point_in_world(own, x_v, y_v, z_v)
-    x, y, z = vector_in_body(other, center_x - other[0], center_y - other[1], center_z - other[2])
-    number, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    nx, ny, nz = vector_in_world(other, nx, ny, nz)
-    past = past_vertex(own, star, n_star, distance, nx, ny, nz, size)
-    # two vertices are the contact of the second body's
-    shared = END * size - within if swap == 1.0 else -1e300
-    gap, past = _gap(distance - sweep - radius, max(past, shared), size)
-    if shared > 0.0:
-        gap, past = math.sqrt((distance - sweep - radius) ** 2 + shared * shared), max(past, shared)
-    sign = 1.0 - 2.0 * swap
-    near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
-    out[0], out[29], out[30] = gap, number, past
-    out[1], out[2], out[3] = sign * nx, sign * ny, sign * nz
-    out[near], out[near + 1], out[near + 2] = center_x - radius * nx, center_y - radius * ny, center_z - radius * nz
-    out[far], out[far + 1], out[far + 2] = out[near] - gap * nx, out[near + 1] - gap * ny, out[near + 2] - gap * nz
-    write_tangent(a, out)
-    write_swept(other, out, SIDE_B if swap == 1.0 else SIDE_A, number, n_faces, n_edges, edges, sweep)
-    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
+    px, py, pz = point_in_world(own, x_v, y_v, z_v)
+    x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
+    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
+    past = past_star(own, star, n_star, found[1], nx, ny, nz, size)
+    write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
 
 
 def size_of(first: SweptPolytope, second: SweptPolytope) -> float:

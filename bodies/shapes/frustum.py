@@ -10,9 +10,9 @@ from nonsmooth.interfaces import ConvexShape
 from nonsmooth.vectors import perpendiculars
 
 Point = tuple[float, float, float]
-LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN = 2, 3, 4, 5, 6, 11, 18, 19
+LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN, SWEEP = 2, 3, 4, 5, 6, 11, 18, 19, 20
 """Where in the numbers stand the heights of the rims and of the feet, the length of the side, the centre, the axis (in
-steps of three) and the normal of the side."""
+steps of three), the normal of the side, and the radius that sweeps it all."""
 
 
 class Frustum(ConvexShape):
@@ -35,14 +35,19 @@ class Frustum(ConvexShape):
 
 
 def frustum_numbers(
-    radii: Sequence[float], heights: Sequence[float], center: Point, axis: Point, foot_height: float
+    radii: Sequence[float],
+    heights: Sequence[float],
+    center: Point,
+    axis: Point,
+    foot_height: float,
+    sweep: float = 0.0,
 ) -> tuple[float, ...]:
     """Return the numbers by which evaluators know a frustum.
 
     They are the radii of the lower and the upper rim [m], their heights over the centre along the axis [m], the height
     of the feet [m], the length of the side from rim to rim [m], the centre in the body frame [m], the rotation from the
-    frustum's axes to those of the body, row by row, with the axis as the third column, and the outward normal of the
-    side: across and along the axis.
+    frustum's axes to those of the body, row by row, with the axis as the third column, the outward normal of the
+    side, across and along the axis, and the radius of the sphere that sweeps it all [m].
 
     Parameters
     ----------
@@ -54,6 +59,8 @@ def frustum_numbers(
         In the body frame [m and 1].
     foot_height : float
         By which rims are set back over flat faces [m].
+    sweep : float
+        Radius about the core that all other numbers tell of [m].
     """
     (low, high), (below, above) = radii, heights
     side = math.hypot(low - high, above - below)
@@ -61,7 +68,12 @@ def frustum_numbers(
     norm = math.hypot(*axis)
     unit = tuple(x / norm for x in axis)
     rows = (value for row in zip(*perpendiculars(unit), unit, strict=True) for value in row)
-    return (low, high, below, above, foot_height, side, *center, *rows, *normal)
+    return (low, high, below, above, foot_height, side, *center, *rows, *normal, sweep)
+
+
+def without_feet(numbers: tuple[float, ...]) -> tuple[float, ...]:
+    """Return the numbers of the frustum as those see it who meet its faces as if there were no feet."""
+    return (*numbers[:FEET], 0.0, *numbers[FEET + 1 :])
 
 
 def rims_over_faces(

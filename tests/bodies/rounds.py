@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from bodies import Frustum
 from bodies.shapes.frustum import AXIS
-from tests.benchmarks.contact_accuracy import ROUND, Touch, on_round
+from tests.benchmarks.touches import ROUND, Touch, on_round
 
 Array = NDArray[np.float64]
 _SHARPEST = 0.2

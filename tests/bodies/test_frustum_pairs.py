@@ -10,7 +10,7 @@ from numpy.random import Generator
 
 from bodies import Capsule, ConvexHull, Cylinder
 from nonsmooth.errors import InvalidInput
-from tests.benchmarks.contact_accuracy import ROUND, Touch, box, hull, on
+from tests.benchmarks.touches import ROUND, Touch, box, hull, on, rounded
 from tests.bodies.carriers import Rig
 from tests.bodies.rounds import PosedRound, tangent, touch_round
 
@@ -25,15 +25,27 @@ FEATURES = (
 )
 KINDS = [(name, *pair) for name in ROUND for pair in FEATURES if pair[0] in ROUND[name][1]]
 POLYHEDRA = {"box": box, "hull": hull}
+AT_A_DISTANCE = (
+    ("rim", "face"),
+    ("apex", "face"),
+    ("side", "edge"),
+    ("rim", "edge"),
+    ("apex", "edge"),
+    ("cap", "vertex"),
+    ("side", "vertex"),
+    ("rim", "vertex"),
+    ("apex", "vertex"),
+)
+SWEPT_KINDS = [(name, *pair) for name in ROUND for pair in AT_A_DISTANCE if pair[0] in ROUND[name][1]]
 _STEP = 1e-4
 _WEIGHTS = {1: 3.0 / 4.0, 2: -3.0 / 20.0, 3: 1.0 / 60.0}
 """Central differences of sixth order."""
 
 
-def _edge_through(shape: Any, point: Any) -> Any:
-    """Return the direction of the edge of a polyhedron that a point lies on."""
-    vertices = np.array(shape.polytope.vertices)
-    ends = [(vertices[one], vertices[two]) for one, two, *_ in shape.polytope.edges]
+def _edge_through(shape: Any, point: Any, normal: Any) -> Any:
+    """Return the direction of the edge of a polyhedron that a point lies on, or is off by the rounding."""
+    vertices, point = np.array(shape.core.vertices), point - shape.sweep * normal
+    ends = [(vertices[one], vertices[two]) for one, two, *_ in shape.core.edges]
     lengths = [np.linalg.norm(two - one) for one, two in ends]
     longer = [np.linalg.norm(point - one) + np.linalg.norm(point - two) for one, two in ends]
     number = int(np.argmin(np.array(longer) - lengths))
@@ -41,7 +53,7 @@ def _edge_through(shape: Any, point: Any) -> Any:
 
 
 def _posed(rng: Generator, first: Touch, part: str, second: Touch, other: str, gap: float) -> PosedRound:
-    tangents = tangent(first[0], part, first[2]), _edge_through(second[0], second[1]) if other == "edge" else None
+    tangents = tangent(first[0], part, first[2]), _edge_through(*second) if other == "edge" else None
     return PosedRound(rng, first, second, tangents, gap)
 
 
@@ -107,6 +119,29 @@ def test_rates_are_derivatives(build: Any, name: str, part: str, other: str) -> 
             assert rig.bias[number, 0] == pytest.approx(second_rate, rel=1e-6, abs=1e-7)
 
 
+@pytest.mark.parametrize(("name", "part", "other"), SWEPT_KINDS)
+def test_rounded_polyhedra_at_constructed_poses(build: Any, name: str, part: str, other: str) -> None:
+    """As above, also 0.1 mm deep; no other contact is as near; and rates are derivatives."""
+    rng = np.random.default_rng(14)
+    for gap in (*GAPS, -1e-4):
+        first, second = touch_round(rng, name, part), on(rounded(hull), other)(rng)
+        rig = Rig((first[0], second[0]), build.laws())
+        posed = _posed(rng, first, part, second, other, gap)
+        rig.put(posed.poses, np.zeros(12))
+        blocks = rig.geometry
+        (number,) = posed.found_in(blocks)
+        others = np.delete(blocks, number, axis=0)
+        past = others[:, 30] > 0.0
+        assert np.min(others[~past, 0], initial=1.0) > gap + 1e-9
+        assert gap < 0.0 or np.min(others[past, 0], initial=1.0) > 1e-10
+        if gap > 1e-2:
+            continue
+        u = np.concatenate([rng.normal(size=3) * scale for scale in (0.02, 1.0, 0.02, 1.0)])
+        rate, second_rate = _differences(rig, posed, u, number)
+        assert rig.rate[number, 0] == pytest.approx(rate, rel=1e-8, abs=1e-10)
+        assert rig.bias[number, 0] == pytest.approx(second_rate, rel=1e-6, abs=1e-7)
+
+
 def on_capsule(rng: Generator, part: str) -> Touch:
     """Return a capsule, a point of its side or of an end, and the normal there."""
     radius, half = float(rng.uniform(1e-3, 4e-3)), float(rng.uniform(4e-3, 1e-2))
@@ -125,7 +160,7 @@ CAPSULE_KINDS = [
     for name, (_, parts) in ROUND.items()
     for part in parts
     for other in ("end", "side")
-    if other == "end" or part in ("rim", "side")
+    if other == "end" or part != "cap"
 ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,9 @@ def _laws(friction: Any, restitution: float) -> dict[str, Any]:
     return {"normal": Unilateral(), "friction": friction, "impact": EnergeticImpact(restitution=restitution)}
 
 
+SMOOTH_TABLE = replace(TABLE, rounding=0.005)
+ROUNDED = BoxBody(0.01, 0.012, 0.005, rounding=0.002)
+
 RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float], int]] = {
     "a cylinder stands on a box": (TABLE, CylinderBody(0.01, 0.02), 0.02, UPRIGHT, 3),
     "a cylinder lies on a box": (TABLE, CylinderBody(0.01, 0.02), 0.01, LYING, 2),
@@ -62,6 +66,11 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
     "a cylinder lies across a cap": (PILLAR, CylinderBody(0.01, 0.04), 0.01, LYING, 2),
     "a cone stands on a cap": (PILLAR, ConeBody(0.01, 0.02), 0.005, UPRIGHT, 3),
     "a disc lies on a cap": (PILLAR, DiscBody(0.01), 1e-6, UPRIGHT, 3),
+    "a rounded box stands on a cap": (Cylinder(0.02, 0.02, z=-0.02), ROUNDED, 0.005, UPRIGHT, 4),
+    "a rounded beam lies across a log": (LOG, BoxBody(0.005, 0.03, 0.005, rounding=0.001), 0.005, UPRIGHT, 2),
+    "a cylinder stands on a rounded box": (SMOOTH_TABLE, CylinderBody(0.01, 0.02), 0.02, UPRIGHT, 3),
+    "a cylinder lies on a rounded box": (SMOOTH_TABLE, CylinderBody(0.01, 0.02), 0.01, LYING, 2),
+    "a cone lies on a rounded box": (SMOOTH_TABLE, ConeBody(0.01, 0.02), 0.015 * math.sin(STEEP), ON_ITS_SIDE, 2),
     "a beam lies across a log": (LOG, BoxBody(0.005, 0.03, 0.005), 0.005, UPRIGHT, 2),
 }
 """Shape of the support, body, height of its origin over the support, orientation, contacts that hold it."""
@@ -103,6 +112,12 @@ COLLIDING: dict[str, tuple[FreeBody, FreeBody]] = {
     "cylinder and tetrahedron": (
         CylinderBody(0.03, 0.05),
         HullBody(tetrahedron(np.random.default_rng(2), 0.06).points),
+    ),
+    "cylinder and rounded box": (CylinderBody(0.03, 0.05), BoxBody(0.03, 0.04, 0.05, rounding=0.01)),
+    "cone and rounded box": (ConeBody(0.04, 0.07), BoxBody(0.03, 0.04, 0.05, rounding=0.003)),
+    "disc and rounded tetrahedron": (
+        DiscBody(0.05),
+        HullBody(tetrahedron(np.random.default_rng(2), 0.05).points, rounding=0.01),
     ),
     "cylinder and capsule": (CylinderBody(0.03, 0.05), CapsuleBody(0.02, 0.04)),
     "cone and capsule": (ConeBody(0.04, 0.07), CapsuleBody(0.02, 0.04)),
@@ -151,3 +166,34 @@ def test_colliding_bodies_keep_momentum_and_energy(name: str) -> None:
         np.testing.assert_allclose(after[1], before[1], rtol=0, atol=1e-10 * momentum)
         assert solution.energy.kinetic_end == pytest.approx(solution.energy.kinetic_start, rel=1e-9)
     assert impacts >= 8
+
+
+def test_a_rounded_beam_slides_along_a_log() -> None:
+    """At mu g against its motion until it sticks, without leaving the middle of the log."""
+    log, beam, mu, speed = Stand((LOG,)), BoxBody(0.005, 0.03, 0.005, rounding=0.001), 0.3, 0.2
+    system = ns.System([log, beam])
+    system.contact(log, beam, **_laws(Coulomb(mu), 0.3))
+    system.place(beam, position=(-0.01, 0.0, 0.005), orientation=UPRIGHT, velocity=(speed, 0.0, 0.0))
+    solution = ns.simulate(system, 0.1)
+    assert solution.status == "done"
+    way = speed**2 / (2.0 * mu * 9.81)
+    np.testing.assert_allclose(solution.q_end[:3], [-0.01 + way, 0.0, 0.005], rtol=0, atol=1e-10)
+    assert solution.energy.residual < 1e-10
+    assert np.max(np.abs(solution.u_end)) < 1e-10
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_rounded_box_falls_on_a_cylinder(seed: int) -> None:
+    """At any orientation: it strikes, slides and rolls off, and the books balance."""
+    log, rng = Stand((LOG,)), np.random.default_rng(seed)
+    box = BoxBody(0.01, 0.012, 0.008, rounding=0.002)
+    system = ns.System([log, box])
+    system.contact(log, box, **_laws(Coulomb(0.2), 0.5))
+    orientation = np.roll(Rotation.random(random_state=rng).as_quat(), 1)
+    place = np.array([0.0, 0.004, 0.03])
+    system.place(box, position=place, orientation=orientation, angular_velocity=5.0 * rng.normal(size=3))
+    solution = ns.simulate(system, 0.3)
+    assert solution.status == "done"
+    assert solution.events.causes().count("impact") >= 2
+    assert solution.q_end[2] < -0.02
+    assert solution.energy.residual < 1e-8
