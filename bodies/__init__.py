@@ -10,6 +10,7 @@ from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
 from bodies.contacts.frustum_frustum import FrustumFrustum
+from bodies.contacts.frustum_mesh import FrustumMesh
 from bodies.contacts.frustum_polyhedron import FrustumPolyhedron
 from bodies.contacts.frustum_smooth import FrustumSmooth
 from bodies.contacts.frustum_sphere import FrustumSphere
@@ -117,6 +118,7 @@ __all__ = [
     "FreeBody",
     "Frustum",
     "FrustumFrustum",
+    "FrustumMesh",
     "FrustumPolyhedron",
     "FrustumSmooth",
     "FrustumSphere",

@@ -14,12 +14,14 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Ellipsoid, Sphere, Superellipsoid, SweptPolytope, TriangleMesh, Triangles
+from bodies import Box, Ellipsoid, FrustumMesh, Sphere, Superellipsoid, SweptPolytope, TriangleMesh, Triangles
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
 from nonsmooth.interfaces import Shape
+from nonsmooth.testing.rig import Rig
 from tests.benchmarks.swept_pairs import capsule, rounded_box, rounded_hull
 from tests.bodies.meshes.parts import bracket
+from tests.bodies.rounds import PosedRound, tangent, touch_round
 from tests.bodies.surfaces import distances, is_inside
 from tests.bodies.swept_poses import feature
 
@@ -185,6 +187,34 @@ def _with_swept(shape: Callable[[Generator], SweptPolytope], part: str, other_pa
     return draw
 
 
+def _with_frustum(name: str, part: str, other: str) -> Callable[[float, Generator], Known]:
+    def draw(gap: float, rng: Generator) -> Known:
+        mesh, first = _mesh(rng), touch_round(rng, name, part)
+        number, point, n = _feature(rng, mesh.features, other, True)
+        along = None
+        if other == "edge":
+            along = np.subtract(*mesh.features.vertices[list(mesh.features.edges[number][:2])])
+            along /= np.linalg.norm(along)
+        posed = PosedRound(rng, first, (mesh, point, n), (tangent(first[0], part, first[2]), along), gap)
+        shapes = first[0], mesh
+        # which half of a rim it is, only the contacts know
+        for contact, one in enumerate(FrustumMesh.between(*shapes)):
+            if _are_of(one.features, part, f"{other if other != 'vertex' else 'corner'} {number}"):
+                rig = Rig(one, shapes)
+                rig.put(posed.poses, np.zeros(12))
+                if posed.found_in(rig.geometry[None]):
+                    return shapes, posed.poses, gap, posed.normal, np.array(posed.witness), contact
+        raise LookupError(f"no contact of {part} and {other} at {posed.poses}")
+
+    return draw
+
+
+def _are_of(features: tuple[str, ...], part: str, other: str) -> bool:
+    kinds = {"cap": ("cap", "base", "face"), "side": ("side",), "apex": ("apex",), "rim": ("rim", "upper rim")}[part]
+    named = [one.split(" and ") for one in features]
+    return any(other in names and any(name != other and name.startswith(kinds) for name in names) for names in named)
+
+
 PARTS = "face", "edge", "vertex"
 _OVER_EDGES = (("edge", "edge"), ("vertex", "edge"))
 MESHES: dict[str, Callable[[float, Generator], Known]] = {
@@ -204,6 +234,21 @@ MESHES: dict[str, Callable[[float, Generator], Known]] = {
             ("capsule", capsule, _OVER_EDGES),
         )
         for part, other in kinds
+    },
+    **{
+        f"{name}-mesh, {part} and {other}": _with_frustum(name, part, other)
+        for name, part, other in (
+            ("cylinder", "rim", "face"),
+            ("cylinder", "cap", "vertex"),
+            ("cylinder", "side", "vertex"),
+            ("cylinder", "side", "edge"),
+            ("cylinder", "rim", "edge"),
+            ("cone", "apex", "face"),
+            ("cone", "side", "vertex"),
+            ("cone", "side", "edge"),
+            ("disc", "rim", "face"),
+            ("disc", "rim", "edge"),
+        )
     },
 }
 """By name, how to draw a pose for a gap."""

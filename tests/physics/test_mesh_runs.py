@@ -112,7 +112,7 @@ def test_a_ball_rolls_over_the_edge_of_a_step(build: Any, velocity: Any, cause: 
     assert solution.energy.residual < 1e-8
 
 
-def _collision(
+def collision(
     build: Any, shapes: Any, seed: int, restitution: float = 1.0, friction: float = 0.0
 ) -> tuple[ns.Solution, Array]:
     """Return a run of two bodies that fly at each other, and their total momentum before and after."""
@@ -145,10 +145,10 @@ def test_meshes_of_boxes_collide_like_boxes(build: Any, seed: int) -> None:
     halves = (0.1, 0.08, 0.12), (0.07, 0.1, 0.09)
     boxes = [Box(*half) for half in halves]
     meshes = [TriangleMesh(Triangles(*box(*(2.0 * np.array(half))))) for half in halves]
-    plain, _ = _collision(build, boxes, seed)
+    plain, _ = collision(build, boxes, seed)
     assert plain.counters.impacts > 0
-    _as_one(_collision(build, meshes, seed)[0], plain, 1e-9)
-    _as_one(_collision(build, (meshes[0], boxes[1]), seed)[0], plain, 1e-9)
+    _as_one(collision(build, meshes, seed)[0], plain, 1e-9)
+    _as_one(collision(build, (meshes[0], boxes[1]), seed)[0], plain, 1e-9)
 
 
 @pytest.mark.parametrize(("restitution", "friction"), [(1.0, 0.0), (0.5, 0.3)])
@@ -159,7 +159,7 @@ def test_brackets_collide_without_passing_into_each_other(
     """Momentum and energy are kept, and no vertex of one, nor point of its edges, is ever inside of the other."""
     points, triangles = bracket()
     mesh = TriangleMesh(Triangles(points - [0.01, 0.006, 0.0075], triangles))
-    solution, momentum = _collision(build, (mesh, mesh), seed, restitution, friction)
+    solution, momentum = collision(build, (mesh, mesh), seed, restitution, friction)
     assert solution.counters.impacts > 0
     np.testing.assert_allclose(momentum[1], momentum[0], rtol=0, atol=1e-12)
     assert solution.energy.residual < 1e-9
@@ -193,7 +193,7 @@ def test_round_bodies_collide_with_a_part(build: Any, part: Any, shape: Shape) -
     points, triangles = part()
     mesh = TriangleMesh(Triangles(points - np.mean(points, axis=0), triangles))
     for seed in range(3):
-        solution, momentum = _collision(build, (mesh, shape), seed)
+        solution, momentum = collision(build, (mesh, shape), seed)
         assert solution.counters.impacts > 0
         np.testing.assert_allclose(momentum[1], momentum[0], rtol=0, atol=1e-12)
         assert solution.energy.residual < 1e-9
