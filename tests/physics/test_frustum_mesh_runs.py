@@ -62,7 +62,7 @@ def _deepest(mesh: TriangleMesh, shape: Frustum, q: Array) -> float:
     along = local @ axes[:, 2]
     away = np.linalg.norm(local - along[:, None] * axes[:, 2], axis=1)
     heights = [nearest_part(numbers, float(a), float(r))[0] for a, r in zip(along, away, strict=True)]
-    return max(deepest, -min(heights))
+    return float(max(deepest, -min(heights)))
 
 
 @pytest.mark.parametrize("part", PARTS)
