@@ -272,14 +272,11 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     ends = 2 * S.n_contacts + S.n_own_guards
     if S.trigger >= ends:
         contact = S.trigger - ends
-        changed = w[S.geometry + GEOMETRY * contact + PAST_END] == 0.0
+        changed = w[S.geometry + GEOMETRY * contact + PAST_END] <= S.gap_tolerance
         _commit(S, w, k, h)
         if changed:
             S.feature_t = S.t
-            remember(S, w, k)
-            record_event(S, w, k, FEATURE_CHANGE, contact, 0)
-            return RUNNING
-        return _settle_event(S, w, k, FEATURE_END, contact)
+        return _settle_event(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, contact)
     if S.trigger >= 2 * S.n_contacts:
         _commit(S, w, k, h)
         return _own_event(S, w, k, S.trigger - 2 * S.n_contacts)
