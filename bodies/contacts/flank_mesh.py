@@ -9,6 +9,7 @@ from typing import ClassVar, final
 from bodies.contacts.flank_edge import FlankEdge, evaluate_flank_edge
 from bodies.contacts.mesh_crossing import edges_of, judge_overlap
 from bodies.contacts.surface_tables import Numbers
+from bodies.meshes.features import Features
 from bodies.shapes.frustum import SIDE, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
@@ -44,14 +45,18 @@ class FlankMesh(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[FlankMesh, ...]:
-        """Return the contacts of all convex edges; a disc has no side."""
+        """Return the contacts of all convex edges."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
-        if first.frustum[SIDE] == 0.0:
+        return cls.of_edges(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
+
+    @classmethod
+    def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[FlankMesh, ...]:
+        """Return the same; a disc has no side."""
+        if first[SIDE] == 0.0:
             return ()
         return tuple(
-            cls(FlankEdge(first.frustum, row, 0.0, (), size, name), surface)
-            for row, surface, size, name in edges_of(first, second)
+            cls(FlankEdge(first, row, 0.0, (), size, name), surface) for row, surface, name in edges_of(second)
         )
 
     def parameters(self) -> dict[str, Value]:

@@ -25,6 +25,7 @@ from bodies.contacts.surface_tables import Numbers, star_of, surface_numbers
 from bodies.contacts.surface_vertex import ASTRAY
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import DEEP, REACH
+from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
@@ -151,12 +152,15 @@ class FrustumCorner(ContactKinematics):
         """Return the contacts of all corners."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
-        own = second.features
-        surface, size = surface_numbers(own, patches_for_body(own, 0.0)), max(own.size, 2.0 * first.extent)
-        places = own.vertices[list(own.corners)].tolist()
+        return cls.of_corners(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
+
+    @classmethod
+    def of_corners(cls, first: Numbers, second: Features, size: float) -> tuple[FrustumCorner, ...]:
+        """Return the same."""
+        surface = surface_numbers(second, patches_for_body(second, 0.0))
+        places = second.vertices[list(second.corners)].tolist()
         return tuple(
-            cls(first.frustum, (x, y, z), tuple(star_of(own, i)), surface, size, i)
-            for i, (x, y, z) in enumerate(places)
+            cls(first, (x, y, z), tuple(star_of(second, i)), surface, size, i) for i, (x, y, z) in enumerate(places)
         )
 
     def parameters(self) -> dict[str, Value]:

@@ -26,7 +26,7 @@ from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.cylinder import Cylinder
-from bodies.shapes.frustum import AXIS, COS, SIN, SWEEP, Frustum, Point
+from bodies.shapes.frustum import AXIS, CENTER, COS, SIN, SWEEP, Frustum, Point, frustum_numbers
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -134,22 +134,23 @@ class FrustumMesh(ContactKinematics):
                 f"rounded by {first.frustum[SWEEP]:g} m",
                 "Leave the rounding out, or give the mesh a decomposition into convex pieces.",
             )
-        own = second.features
-        rims = tuple(itertools.chain(*(cls._of_rim(first, i, own) for i in range(len(first.standing_rims)))))
-        others = *rims, *PointMesh.of_vertices(_tips(first), own), *FrustumCorner.between(first, second)
-        crossings = *FlankMesh.between(first, second), *RimMesh.between(first, second)
+        own, numbers = second.features, _set_back(first)
+        rims = tuple(itertools.chain(*(cls._of_rim(first, numbers, i, own) for i in range(len(first.standing_rims)))))
+        size = max(own.size, 2.0 * first.extent)
+        others = *rims, *PointMesh.of_vertices(_tips(first), own), *FrustumCorner.of_corners(numbers, own, size)
+        crossings = *FlankMesh.of_edges(numbers, own, size), *RimMesh.of_edges(numbers, own, size)
         surfaces = [rim.surface for rim in rims]
         check_numbers(len(crossings), surfaces, (len(own.triangles), 0))
         return *others, *crossings
 
     @classmethod
-    def _of_rim(cls, first: Frustum, number: int, second: Features) -> Iterator[FrustumMesh]:
+    def _of_rim(cls, first: Frustum, numbers: Numbers, number: int, second: Features) -> Iterator[FrustumMesh]:
         radius, center = first.standing_rims[number]
         if radius > 0.0:
             patches = patches_for_body(second, 2.0 * radius)
             surface = surface_numbers(second, patches)
             for patch in range(patches.count):
-                yield cls(first.frustum, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
+                yield cls(numbers, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both."""
@@ -175,6 +176,19 @@ class FrustumMesh(ContactKinematics):
         """The faces."""
         rim = "rim" if self.up < 0.0 else "upper rim"
         return tuple(f"{rim} and face {i}" for i in range(self.n_faces))
+
+
+def _set_back(first: Frustum) -> Numbers:
+    """Return the numbers of the body within its rims as they are set back, out of which only the feet stand.
+
+    So a rim that rolls over the edge of a face goes on at the same height.
+    """
+    own = first.frustum
+    center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
+    rims = first.standing_rims if len(first.standing_rims) > 1 else 2 * first.standing_rims
+    heights = [float((np.array(place) - center) @ axis) for _, place in rims]
+    x, y, z = center.tolist()
+    return frustum_numbers([radius for radius, _ in rims], heights, (x, y, z), (axis[0], axis[1], axis[2]), 0.0)
 
 
 def _tips(first: Frustum) -> Iterator[tuple[Point, Numbers, str]]:

@@ -11,9 +11,8 @@ from bodies.contacts.frustum import axis_in_world, center_in_world, nearest_part
 from bodies.contacts.surface_search import depth_inside
 from bodies.contacts.surface_tables import Numbers, edge_row, surface_numbers
 from bodies.contacts.vertex_face import DEEP
+from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
-from bodies.shapes.frustum import Frustum
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -42,9 +41,8 @@ def judge_overlap(a: Floats, b: Floats, out: Floats, frustum: Floats, surface: F
         out[10 + i] = out[7 + i] - apart * out[1 + i]
 
 
-def edges_of(first: Frustum, second: TriangleMesh) -> Iterator[tuple[Numbers, Numbers, float, str]]:
-    """Yield row, surface, size of the larger body [m] and name of the convex edges of a mesh."""
-    own = second.features
-    surface, size = surface_numbers(own, patches_for_body(own, 0.0)), max(own.size, 2.0 * first.extent)
-    for i in range(len(own.edges)):
-        yield edge_row(own, i), surface, size, f"edge {i}"
+def edges_of(second: Features) -> Iterator[tuple[Numbers, Numbers, str]]:
+    """Yield row, surface and name of the convex edges of a mesh."""
+    surface = surface_numbers(second, patches_for_body(second, 0.0))
+    for i in range(len(second.edges)):
+        yield edge_row(second, i), surface, f"edge {i}"

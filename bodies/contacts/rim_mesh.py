@@ -9,6 +9,7 @@ from typing import ClassVar, final
 from bodies.contacts.mesh_crossing import edges_of, judge_overlap
 from bodies.contacts.rim_edge import RimEdge, evaluate_rim_edge
 from bodies.contacts.surface_tables import Numbers
+from bodies.meshes.features import Features
 from bodies.shapes.frustum import Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
@@ -57,10 +58,15 @@ class RimMesh(ContactKinematics):
         """Return the contacts of all rims and convex edges."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
+        return cls.of_edges(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
+
+    @classmethod
+    def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[RimMesh, ...]:
+        """Return the same."""
         return tuple(
             cls(crossing, surface)
-            for row, surface, size, name in edges_of(first, second)
-            for crossing in RimEdge.of_rims(first.frustum, row, 0.0, (), size, name)
+            for row, surface, name in edges_of(second)
+            for crossing in RimEdge.of_rims(first, row, 0.0, (), size, name)
         )
 
     def parameters(self) -> dict[str, Value]:
