@@ -267,7 +267,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if h < 0.0:
         if S.h < _NO_STEP * S.time_tolerance:
             return STEP_TOO_SMALL
-        S.h_closed = 0.25 * S.h
+        if S.n_grouped > 0:
+            S.h_closed = 0.25 * S.h
+        else:
+            S.h_free = 0.25 * S.h
         return RUNNING
     ends = 2 * S.n_contacts + S.n_own_guards
     if S.trigger >= ends:

@@ -377,13 +377,13 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
                 guards_within(S, w, k, h, theta, closed)
     i = S.trigger
     step = theta * h
-    if S.guard_slope == -math.inf:
-        return _behind_jump(S, w, k, step)
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = 1 if i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and is_gap(S, w, k, i) == 0 else 0
     if S.step_error <= _NEGLIGIBLE or jumps == 1:
         dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
         return step
+    if S.guard_slope == -math.inf:
+        return _behind_jump(S, w, k, step)
     for _iteration in range(10):
         S.h = step
         if not try_step(S, w, k, step) <= _TRUSTED:
