@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.flank_edge import FlankEdge, evaluate_flank_edge
-from bodies.contacts.mesh_crossing import edges_of, judge_overlap
+from bodies.contacts.mesh_crossing import edges_of, judge_crossing
 from bodies.contacts.surface_tables import Numbers
 from bodies.meshes.features import Features
 from bodies.shapes.frustum import SIDE, Frustum
@@ -22,7 +22,7 @@ _cross = compiled(evaluate_flank_edge)
 
 def _evaluate(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
     _cross(a, b, out, frustum, edge, 0.0, 0.0, edge, size)
-    judge_overlap(a, b, out, frustum, surface, size)
+    judge_crossing(a, b, out, frustum, edge, surface, size)
 
 
 @final

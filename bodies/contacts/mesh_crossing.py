@@ -16,13 +16,27 @@ from bodies.meshes.patches import patches_for_body
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+_ASTRAY = 1e-6
+"""Sine of the angle by which the normal of a closed crossing may leave those of the edge: beyond, a face is nearer."""
+
 
 @compiled
-def judge_overlap(a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats, size: float) -> None:
-    """Open a crossing, whose block is written, that overlaps where neither of its points is inside of the other body.
+def judge_crossing(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
+) -> None:
+    """Open a crossing, whose block is written, where a face is nearer, or where the bodies do not overlap as it seems.
 
-    Seen from the crossing alone the bodies may as well lie on the far sides of each other.
+    A rim that rolls over an edge changes from the face to the edge where its normal becomes one of the edge's.  And
+    where neither point of what overlaps is inside of the other body, they lie on the far sides of each other.
     """
+    x, y, z = vector_in_body(b, out[1], out[2], out[3])
+    astray = max(-x * edge[7] - y * edge[8] - z * edge[9], -x * edge[10] - y * edge[11] - z * edge[12])
+    beyond = size * (astray - _ASTRAY)
+    if out[30] <= 0.0 < beyond and out[0] >= -DEEP * size:
+        apart = math.sqrt(out[0] * out[0] + beyond * beyond)
+        out[0], out[30] = apart, beyond
+        for i in range(3):
+            out[10 + i] = out[7 + i] + apart * out[1 + i]
     gap, past = out[0], out[30]
     if past > 0.0 or gap >= -DEEP * size:
         return

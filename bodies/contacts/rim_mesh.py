@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.mesh_crossing import edges_of, judge_overlap
+from bodies.contacts.mesh_crossing import edges_of, judge_crossing
 from bodies.contacts.rim_edge import RimEdge, evaluate_rim_edge
 from bodies.contacts.surface_tables import Numbers
 from bodies.meshes.features import Features
@@ -32,7 +32,7 @@ def _evaluate(
     size: float,
 ) -> None:
     _cross(a, b, out, frustum, rim, half, edge, 0.0, 0.0, edge, size)
-    judge_overlap(a, b, out, frustum, surface, size)
+    judge_crossing(a, b, out, frustum, edge, surface, size)
 
 
 @final
