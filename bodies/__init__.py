@@ -10,15 +10,16 @@ from bodies.contacts.capsule_capsule import CapsuleCapsule
 from bodies.contacts.capsule_smooth import CapsuleSmooth
 from bodies.contacts.capsule_sphere import CapsuleSphere
 from bodies.contacts.frustum_frustum import FrustumFrustum
+from bodies.contacts.frustum_mesh import FrustumMesh
 from bodies.contacts.frustum_polyhedron import FrustumPolyhedron
 from bodies.contacts.frustum_smooth import FrustumSmooth
 from bodies.contacts.frustum_sphere import FrustumSphere
 from bodies.contacts.frustum_swept import FrustumSwept
-from bodies.contacts.mesh_capsule import MeshCapsule
-from bodies.contacts.mesh_mesh import MeshMesh, MeshPolyhedron
+from bodies.contacts.mesh_mesh import MeshMesh
 from bodies.contacts.mesh_point import MeshPoint
 from bodies.contacts.mesh_smooth import MeshSmooth
 from bodies.contacts.mesh_sphere import MeshSphere
+from bodies.contacts.mesh_swept import MeshSwept
 from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
@@ -117,6 +118,7 @@ __all__ = [
     "FreeBody",
     "Frustum",
     "FrustumFrustum",
+    "FrustumMesh",
     "FrustumPolyhedron",
     "FrustumSmooth",
     "FrustumSphere",
@@ -131,13 +133,12 @@ __all__ = [
     "HullBody",
     "LineBody",
     "MeshBody",
-    "MeshCapsule",
     "MeshFile",
     "MeshMesh",
     "MeshPoint",
-    "MeshPolyhedron",
     "MeshSmooth",
     "MeshSphere",
+    "MeshSwept",
     "Part",
     "PlanarBody",
     "Plane",

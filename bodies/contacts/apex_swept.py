@@ -52,7 +52,7 @@ def _evaluate(
     found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(b, found[2], found[3], found[4])
     past = past_apex(first, found[1], -nx * ax - ny * ay - nz * az, size)
-    write_vertex_over(a, b, out, (px, py, pz), first[SWEEP], found, past, n_faces, n_edges, edges, sweep, size)
+    write_vertex_over(a, b, out, 1.0, (px, py, pz), first[SWEEP], found, past, n_faces, n_edges, edges, sweep, size)
 
 
 @final

@@ -26,7 +26,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 
-def _evaluate(
+def evaluate_flank_edge(
     a: Floats,
     b: Floats,
     out: Floats,
@@ -37,6 +37,7 @@ def _evaluate(
     faces: Floats,
     size: float,
 ) -> None:
+    """Write the geometry block of an edge, with a radius about it, across the side."""
     axes = axes_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
@@ -136,7 +137,7 @@ class FlankEdge(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
-        return _evaluate
+        return evaluate_flank_edge
 
     @property
     def features(self) -> tuple[str, ...]:

@@ -1,21 +1,18 @@
-"""Two bodies with flat faces, one or both of them not convex: edges across edges, vertices over faces."""
+"""Two surfaces that need not be convex: edges across edges, vertices over faces."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar, final
-
-import numpy as np
 
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from bodies.contacts.surface_edges import evaluate_edges
 from bodies.contacts.surface_tables import NODE, TRIANGLE, Numbers, edge_row, surface_numbers
 from bodies.contacts.swept_swept import MOST_CONTACTS
-from bodies.meshes.features import Features, features_of
+from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
-from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -23,7 +20,7 @@ from nonsmooth.parameters import Value
 
 MOST_NUMBERS = 20_000_000
 """Every contact keeps the surfaces that it needs; more numbers in all are refused."""
-_DEPARTURES = MappingProxyType(
+DEPARTURES = MappingProxyType(
     dict.fromkeys(
         ("gap rate", "second-order terms"),
         "two given edges face each other in hardly any random pose; the tests make poses from edges that cross",
@@ -32,8 +29,8 @@ _DEPARTURES = MappingProxyType(
 
 
 @dataclass(frozen=True)
-class _Edges:
-    """A convex edge of either body, and their surfaces.
+class MeshEdges:
+    """A convex edge of either body, the second with a radius about it, and their surfaces.
 
     Attributes
     ----------
@@ -41,29 +38,52 @@ class _Edges:
         The edges (:func:`bodies.contacts.surface_tables.edge_row`).
     surfaces : tuple
         The surfaces (:mod:`bodies.contacts.surface_tables`).
-    numbers : tuple of int
-        Numbers of the edges.
+    radius : float
+        Radius about the second edge [m].
     size : float
         Size of the larger body [m].
+    names : tuple of str
+        What the edges are called.
     """
 
     edges: tuple[Numbers, Numbers]
     surfaces: tuple[Numbers, Numbers]
-    numbers: tuple[int, int]
+    radius: float
     size: float
+    names: tuple[str, str]
+
+    @classmethod
+    def crossings(
+        cls,
+        first: Features,
+        rows: Sequence[Numbers],
+        names: Sequence[str],
+        surface: Numbers,
+        radius: float,
+        size: float,
+    ) -> Iterator[MeshEdges]:
+        """Return all pairs of a convex edge of a mesh and an edge of another body."""
+        own = surface_numbers(first, patches_for_body(first, 0.0))
+        for i in range(len(first.edges)):
+            row = edge_row(first, i)
+            for other, name in zip(rows, names, strict=True):
+                yield cls((row, other), (own, surface), radius, size, (f"edge {i}", name))
 
     def values(self) -> dict[str, Value]:
+        """Return the parameters of the evaluator."""
         return {
             "edge_a": self.edges[0],
             "edge_b": self.edges[1],
             "surface_a": self.surfaces[0],
             "surface_b": self.surfaces[1],
+            "radius": self.radius,
             "size": self.size,
         }
 
     @property
     def features(self) -> tuple[str, ...]:
-        return (f"edge {self.numbers[0]} and edge {self.numbers[1]}",)
+        """The only pair."""
+        return (f"{self.names[0]} and {self.names[1]}",)
 
 
 @final
@@ -76,67 +96,26 @@ class MeshMesh(ContactKinematics):
 
     Attributes
     ----------
-    edges : _Edges
+    edges : MeshEdges
         The edges.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, TriangleMesh)
-    departures: ClassVar[Mapping[str, str]] = _DEPARTURES
-    edges: _Edges
-
-    def parameters(self) -> dict[str, Value]:
-        """Return edges, surfaces and size."""
-        return self.edges.values()
+    departures: ClassVar[Mapping[str, str]] = DEPARTURES
+    edges: MeshEdges
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
         """Return the pairs of edges, then the corners of the second body, then those of the first."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, TriangleMesh)
-        one, two = first.features, second.features
-        vertices = _vertices(one, two)
-        return *(cls(edges) for edges in _crossings(one, two)), *vertices
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return evaluate_edges
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """The only pair."""
-        return self.edges.features
-
-
-@final
-@dataclass(frozen=True)
-class MeshPolyhedron(ContactKinematics):
-    """Where a convex edge of a mesh crosses an edge of a polyhedron; for the rest as :class:`MeshMesh`.
-
-    Attributes
-    ----------
-    edges : _Edges
-        The edges.
-    """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Polyhedron)
-    departures: ClassVar[Mapping[str, str]] = _DEPARTURES
-    edges: _Edges
+        edges, vertices = sharp_contacts(first.features, second.features)
+        return *(cls(pair) for pair in edges), *vertices
 
     def parameters(self) -> dict[str, Value]:
         """Return edges, surfaces and size."""
         return self.edges.values()
 
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the pairs of edges, then the vertices of the second body, then those of the first."""
-        assert isinstance(first, TriangleMesh)
-        assert isinstance(second, Polyhedron)
-        own = second.polytope
-        one, two = first.features, features_of(np.array(own.vertices), np.array(own.triangles))
-        vertices = _vertices(one, two)
-        return *(cls(edges) for edges in _crossings(one, two)), *vertices
-
     @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
@@ -148,21 +127,46 @@ class MeshPolyhedron(ContactKinematics):
         return self.edges.features
 
 
-def _vertices(one: Features, two: Features) -> tuple[MeshPoint | PointMesh, ...]:
-    """Return the contacts of vertices, if there are not too many contacts in all."""
+def sharp_contacts(one: Features, two: Features) -> tuple[Iterator[MeshEdges], tuple[MeshPoint | PointMesh, ...]]:
+    """Return the contacts of two surfaces: of edges, and of the corners of the second, then the first.
+
+    Raises
+    ------
+    InvalidInput
+        If there are too many.
+    """
+    check_crossings(len(one.edges), len(two.edges))
+    vertices: tuple[MeshPoint | PointMesh, ...] = *MeshPoint.of_corners(one, two), *PointMesh.of_corners(one, two)
     crossings = len(one.edges) * len(two.edges)
-    if crossings > MOST_CONTACTS:
-        raise _too_many(f"{len(one.edges)} convex edges against {len(two.edges)}")
-    vertices: tuple[MeshPoint | PointMesh, ...] = (
-        *MeshPoint.of_corners(one, two),
-        *PointMesh.of_corners(one, two),
-    )
-    if crossings + len(vertices) > MOST_CONTACTS:
-        raise _too_many(f"{crossings} pairs of convex edges and {len(vertices)} of corners and patches")
-    numbers = sum(len(vertex.vertex.surface) for vertex in vertices)
-    if numbers + crossings * (TRIANGLE + NODE) * (len(one.triangles) + len(two.triangles)) > MOST_NUMBERS:
-        raise _too_many(f"{len(one.triangles)} triangles against {len(two.triangles)}")
-    return vertices
+    check_numbers(crossings, [vertex.vertex.surface for vertex in vertices], (len(one.triangles), len(two.triangles)))
+    rows = [edge_row(two, j) for j in range(len(two.edges))]
+    names = [f"edge {j}" for j in range(len(two.edges))]
+    surface = surface_numbers(two, patches_for_body(two, 0.0))
+    return MeshEdges.crossings(one, rows, names, surface, 0.0, max(one.size, two.size)), vertices
+
+
+def check_crossings(first: int, second: int) -> None:
+    """Raise InvalidInput if so many convex edges make too many pairs."""
+    if first * second > MOST_CONTACTS:
+        raise _too_many(f"{first} convex edges against {second}")
+
+
+def check_numbers(crossings: int, others: Sequence[Numbers], triangles: tuple[int, int]) -> None:
+    """Raise InvalidInput if there are too many contacts, or numbers in them.
+
+    Parameters
+    ----------
+    crossings : int
+        Pairs of convex edges.
+    others : sequence of tuple of float
+        The surface that every other contact keeps.
+    triangles : tuple of int
+        Numbers of those of both bodies.
+    """
+    if crossings + len(others) > MOST_CONTACTS:
+        raise _too_many(f"{crossings} pairs of convex edges and {len(others)} of corners and patches")
+    if sum(len(surface) for surface in others) + crossings * (TRIANGLE + NODE) * sum(triangles) > MOST_NUMBERS:
+        raise _too_many(f"{triangles[0]} triangles against {triangles[1]}")
 
 
 def _too_many(figure: str) -> InvalidInput:
@@ -172,15 +176,3 @@ def _too_many(figure: str) -> InvalidInput:
         figure,
         "Take coarser meshes, or a smooth shape for a rounded body, or a decomposition of the body into convex pieces.",
     )
-
-
-def _crossings(one: Features, two: Features) -> Iterator[_Edges]:
-    surfaces = (
-        surface_numbers(one, patches_for_body(one, 0.0)),
-        surface_numbers(two, patches_for_body(two, 0.0)),
-    )
-    rows = [edge_row(two, j) for j in range(len(two.edges))]
-    for i in range(len(one.edges)):
-        row = edge_row(one, i)
-        for j, other in enumerate(rows):
-            yield _Edges((row, other), surfaces, (i, j), max(one.size, two.size))

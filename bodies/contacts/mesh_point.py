@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar, final
 
@@ -18,6 +18,9 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+Corner = tuple[tuple[float, float, float], Numbers, str]
+"""Place of a vertex, unit vectors along its edges, one after the other, and what it is called."""
 
 
 def _evaluate(
@@ -145,7 +148,7 @@ class MeshPoint(ContactKinematics):
     @classmethod
     def of_corners(cls, first: Features, second: Features) -> tuple[MeshPoint, ...]:
         """Return the contacts of all corners of the second surface with the patches of the first."""
-        return tuple(cls(vertex) for vertex in _all(first, second))
+        return tuple(cls(vertex) for vertex in _all(first, _corners(second)))
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -184,7 +187,12 @@ class PointMesh(ContactKinematics):
     @classmethod
     def of_corners(cls, first: Features, second: Features) -> tuple[PointMesh, ...]:
         """Return the contacts of all corners of the first surface with the patches of the second."""
-        return tuple(cls(vertex) for vertex in _all(second, first))
+        return cls.of_vertices(_corners(first), second)
+
+    @classmethod
+    def of_vertices(cls, vertices: Iterable[Corner], second: Features) -> tuple[PointMesh, ...]:
+        """Return the contacts of vertices of the first body with the patches of the second."""
+        return tuple(cls(vertex) for vertex in _all(second, vertices))
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -197,12 +205,14 @@ class PointMesh(ContactKinematics):
         return self.vertex.features
 
 
-def _all(surface: Features, other: Features) -> list[_Vertex]:
+def _corners(features: Features) -> Iterator[Corner]:
+    for i, (x, y, z) in enumerate(features.vertices[list(features.corners)].tolist()):
+        yield (x, y, z), tuple(star_of(features, i)), f"vertex {i}"
+
+
+def _all(surface: Features, vertices: Iterable[Corner]) -> Iterator[_Vertex]:
     patches = patches_for_body(surface, 0.0)
     numbers, n_faces = surface_numbers(surface, patches), len(surface.planes)
-    places = other.vertices[list(other.corners)].tolist()
-    return [
-        _Vertex(numbers, n_faces, patch, (x, y, z), tuple(star_of(other, i)), f"vertex {i}")
-        for i, (x, y, z) in enumerate(places)
-        for patch in range(patches.count)
-    ]
+    for place, star, name in vertices:
+        for patch in range(patches.count):
+            yield _Vertex(numbers, n_faces, patch, place, star, name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
@@ -22,6 +22,8 @@ from bodies.contacts.surface_tables import (
     Numbers,
     surface_numbers,
 )
+from bodies.contacts.swept_vertex import END, NEAR, past_star
+from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.triangle_mesh import TriangleMesh
@@ -40,6 +42,9 @@ def _evaluate(
     x_b: float,
     y_b: float,
     z_b: float,
+    n_star: float,
+    star: Floats,
+    size: float,
 ) -> None:
     center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
@@ -51,7 +56,11 @@ def _evaluate(
         nx, ny, nz = surface[f], surface[f + 1], surface[f + 2]
     else:
         nx, ny, nz = (x - px) / distance, (y - py) / distance, (z - pz) / distance
-    out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
+    nx, ny, nz = vector_in_world(a, nx, ny, nz)
+    if n_star > 0.0:
+        beyond = past_star(b, star, n_star, distance, nx, ny, nz, size)
+        past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
+    out[1], out[2], out[3] = nx, ny, nz
     if past > 0.0:
         apart = max(distance - radius, 0.0)
         distance = math.sqrt(apart * apart + past * past) + radius
@@ -88,8 +97,14 @@ class MeshSphere(ContactKinematics):
         Centre of the sphere in its body frame [m].
     radius : float
         Its radius [m].
+    star : tuple of float
+        Unit vectors along the edges that leave its centre, if that is a vertex of a body with a radius about it.
+    size : float
+        Size of the larger body [m].
     counts : tuple of int
         Numbers of faces, convex edges and corners.
+    name : str
+        What the sphere is called.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
@@ -97,7 +112,10 @@ class MeshSphere(ContactKinematics):
     patch: int
     center: tuple[float, float, float]
     radius: float
+    star: Numbers
+    size: float
     counts: tuple[int, int, int]
+    name: str
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[MeshSphere, ...]:
@@ -105,11 +123,25 @@ class MeshSphere(ContactKinematics):
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, Sphere)
         own = first.features
-        patches = patches_for_ball(own, second.radius)
-        surface = surface_numbers(own, patches)
-        counts = len(own.planes), len(own.edges), len(own.corners)
-        center = second.x, second.y, second.z
-        return tuple(cls(surface, patch, center, second.radius, counts) for patch in range(patches.count))
+        return cls.of_balls(own, [((second.x, second.y, second.z), (), "sphere")], second.radius, own.size)
+
+    @classmethod
+    def of_balls(
+        cls,
+        first: Features,
+        vertices: Iterable[tuple[tuple[float, float, float], Numbers, str]],
+        radius: float,
+        size: float,
+    ) -> tuple[MeshSphere, ...]:
+        """Return the contacts of balls of one radius [m], each a place, a star and a name, with all patches."""
+        patches = patches_for_ball(first, radius)
+        surface = surface_numbers(first, patches)
+        counts = len(first.planes), len(first.edges), len(first.corners)
+        return tuple(
+            cls(surface, patch, place, radius, star, size, counts, name)
+            for place, star, name in vertices
+            for patch in range(patches.count)
+        )
 
     def parameters(self) -> dict[str, Value]:
         """Return the surface, the patch and the sphere."""
@@ -121,6 +153,9 @@ class MeshSphere(ContactKinematics):
             "x_b": x,
             "y_b": y,
             "z_b": z,
+            "n_star": float(len(self.star) // 3),
+            "star": self.star,
+            "size": self.size,
         }
 
     @property
@@ -132,4 +167,4 @@ class MeshSphere(ContactKinematics):
     def features(self) -> tuple[str, ...]:
         """The faces, convex edges and corners by number."""
         kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
-        return tuple(f"{name} {i} and sphere" for name, n in kinds for i in range(n))
+        return tuple(f"{part} {i} and {self.name}" for part, n in kinds for i in range(n))

@@ -76,7 +76,7 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
     return (c if x >= 0.0 else -c), s, none
 
 
-def _evaluate(
+def evaluate_rim_edge(
     a: Floats,
     b: Floats,
     out: Floats,
@@ -89,6 +89,7 @@ def _evaluate(
     faces: Floats,
     size: float,
 ) -> None:
+    """Write the geometry block of an edge, with a radius about it, across one half of a rim."""
     axes = axes_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
@@ -204,14 +205,19 @@ class RimEdge(ContactKinematics):
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
         numbers, faces, size = first.frustum, face_table(second.core), size_of_both(first, second)
-        # a disc has one rim, and an apex is none
-        rims = [LOW_RIM, HIGH_RIM] if numbers[SIDE] > 0.0 and numbers[1] > 0.0 else [LOW_RIM]
         return tuple(
-            cls(numbers, rim, half, row, second.sweep, faces, size, f"edge {i}")
+            contact
             for i, row in enumerate(edge_rows(second.core))
-            for rim in rims
-            for half in (1.0, -1.0)
+            for contact in cls.of_rims(numbers, row, second.sweep, faces, size, f"edge {i}")
         )
+
+    @classmethod
+    def of_rims(
+        cls, frustum: Numbers, edge: Numbers, radius: float, faces: Numbers, size: float, name: str
+    ) -> tuple[RimEdge, ...]:
+        """Return the contacts of all rims with one edge; a disc has one rim, and an apex is none."""
+        rims = [LOW_RIM, HIGH_RIM] if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else [LOW_RIM]
+        return tuple(cls(frustum, rim, half, edge, radius, faces, size, name) for rim in rims for half in (1.0, -1.0))
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both."""
@@ -229,7 +235,7 @@ class RimEdge(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """Newton's method for one angle, between bounds."""
-        return _evaluate
+        return evaluate_rim_edge
 
     @property
     def features(self) -> tuple[str, ...]:

@@ -15,6 +15,8 @@ from nonsmooth.types import Floats
 
 _PARALLEL = 0.01
 """Sine of the angle between two edges below which they do not cross; then the vertices hold all the same."""
+_PARALLEL_ROUNDED = 1e-5
+"""The same of edges with a radius, whose distance counts, not their normal; what vertices hold is nearer by less."""
 _NEAR_ENDS = 4.0
 """Where no point is found inside, edges overlap only where they cross so many depths away from their ends."""
 
@@ -41,9 +43,10 @@ def evaluate_edges(
     edge_b: Floats,
     surface_a: Floats,
     surface_b: Floats,
+    radius: float,
     size: float,
 ) -> None:
-    """Write the geometry block where the lines of two edges are nearest.
+    """Write the geometry block where the lines of two edges, the second with a radius about it, are nearest.
 
     The normal is the one of the two across both edges that is nearer to the normals that the edges have.  Where it
     leaves them, or the lines are nearest past an end, the contact is open, with a positive gap unless one of the
@@ -57,14 +60,15 @@ def evaluate_edges(
     nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
     sine = math.sqrt(nx * nx + ny * ny + nz * nz)
     margin = REACH * size
-    s, t, over, past = 0.0, 0.0, 0.0, size * _PARALLEL
-    if sine > 1e-3 * _PARALLEL:
+    parallel = _PARALLEL if radius == 0.0 else _PARALLEL_ROUNDED
+    s, t, over, past = 0.0, 0.0, 0.0, size * parallel
+    if sine > 1e-3 * parallel:
         nx, ny, nz = nx / sine, ny / sine, nz / sine
         # (w x f) . n / sine along the first, (w x e) . n / sine along the second
         s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
         t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
         over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6]))
-        past = max(over - margin, size * (_PARALLEL - sine))
+        past = max(over - margin, size * (parallel - sine))
     else:
         along = wx * ex + wy * ey + wz * ez
         nx, ny, nz = wx - along * ex, wy - along * ey, wz - along * ez
@@ -87,7 +91,10 @@ def evaluate_edges(
         past = max(past, over - _NEAR_ENDS * gap - margin)
     if past > 0.0:
         # what is inside and no contact of these edges is a sign that another one was passed
-        gap = -depth if depth > DEEP * size else math.sqrt(gap * gap + past * past)
+        apart = abs(gap) - radius
+        gap = -depth - radius if depth > DEEP * size else math.sqrt(apart * apart + past * past)
+    else:
+        gap -= radius
     out[0], out[29], out[30] = gap, 0.0, past
     out[1], out[2], out[3] = nx, ny, nz
     out[7], out[8], out[9] = ax + s * ex, ay + s * ey, az + s * ez
@@ -95,4 +102,4 @@ def evaluate_edges(
         out[10 + i] = out[7 + i] + gap * out[1 + i]
     write_tangent(a, out)
     write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
-    write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)
+    write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, radius)

@@ -22,7 +22,7 @@ from bodies.contacts.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from bodies.contacts.vertex_face import DEEP, REACH
+from bodies.contacts.vertex_face import REACH
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -215,7 +215,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
                 best, distance, past, kind, number = key, square**0.5, beyond, what, which
                 qx, qy, qz = px, py, pz
         node += 1
-    if under_face >= 0 and under * under < best and depth_inside(surface, x, y, z) > DEEP * surface[SIZE]:
+    if under_face >= 0 and under * under < best and depth_inside(surface, x, y, z) > 0.0:
         f = int(surface[FACES]) + FACE * under_face
         px, py, pz = x + under * surface[f], y + under * surface[f + 1], z + under * surface[f + 2]
         return -under, under_past, ON_FACE, under_face, px, py, pz

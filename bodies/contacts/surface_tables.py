@@ -29,6 +29,8 @@ NODE, FACE, TRIANGLE, EDGE, CORNER = 9, 5, 43, 14, 6
 - an edge: first end, direction, length, in either face the direction from the edge into it, patch;
 - a corner: place, patch, where its star of unit vectors along its edges begins, and their number.
 """
+NOTHING: Numbers = (0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(3 * [0.0]))
+"""The surface of a body without volume: no point is inside of it."""
 _LEAF = 4
 """Members of a leaf, at most."""
 

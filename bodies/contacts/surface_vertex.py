@@ -38,6 +38,71 @@ def _leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: f
 
 
 @compiled
+def over_face(
+    surface: Floats, triangle: int, height: float, lean: float, margin: float, x: float, y: float, z: float
+) -> tuple[float, float, float, float]:
+    """Return how far a point is past a triangle, past its face, past what it may touch of it, and its square distance.
+
+    ``lean`` is how far the normal is past those of the point's body.  The third is in the plane of the face for points
+    above it, so that faces about the same corner differ.
+    """
+    over, ends = over_ends(surface, triangle, x, y, z)
+    over, ends = max(over - margin, lean), max(ends - margin, lean)
+    past, square = ends, height * height
+    if over > 0.0 or height < 0.0:
+        qx, qy, qz, _ = in_triangle(surface, triangle, x, y, z)
+        square = (x - qx) * (x - qx) + (y - qy) * (y - qy) + (z - qz) * (z - qz)
+        out = square - height * height if height > 0.0 else square
+        past = max(math.sqrt(max(out, 0.0)) - margin, over)
+    return over, ends, past, square
+
+
+@compiled
+def touched_face(
+    surface: Floats,
+    found: int,
+    key: float,
+    height: float,
+    apart: float,
+    past: float,
+    inner: int,
+    under: float,
+    inner_past: float,
+    x: float,
+    y: float,
+    z: float,
+) -> tuple[int, float, float]:
+    """Return face, gap and way past the end, of the nearest face and the one that a point is least deep under.
+
+    Parameters
+    ----------
+    surface : Floats
+        The surface.
+    found, key, height, apart, past : int and float
+        The nearest face, the square of its distance and way past its end together, height over it, distance from it,
+        and way past its end [m].
+    inner, under, inner_past : int and float
+        The face that the point is under, -1 for none, how deep, and the way past its end [m].
+    x, y, z : float
+        The point [m].
+    """
+    size = surface[SIZE]
+    margin = REACH * size
+    if inner >= 0 and under * under < key and under <= DEEP * size:
+        return inner, -under, inner_past
+    if past <= 0.0 and under * under >= key:
+        return found, height, past
+    depth = depth_inside(surface, x, y, z)
+    if depth > DEEP * size:
+        if under <= (1.0 + REACH) * depth:
+            return inner, -under, inner_past
+        return found, -depth, max(past, margin)
+    if past <= 0.0:
+        return found, height, past
+    return found, math.sqrt(apart * apart + past * past), past
+
+
+@compiled
 def face_under(
     frame: Floats,
     other: Floats,
@@ -77,31 +142,15 @@ def face_under(
             height = face_height(surface, f, x, y, z)
             if surface[f + 4] != patch or height * height > best:
                 continue
-            over, ends = over_ends(surface, t, x, y, z)
             lean = size * (_leaning(frame, other, surface, f, n_star, star) - ASTRAY)
-            over, ends = max(over - margin, lean), max(ends - margin, lean)
-            square = height * height
+            over, inside, ends, square = over_face(surface, t, height, lean, margin, x, y, z)
             if over <= 0.0 and height < 0.0 and -height < under:
-                under, under_past, under_face = -height, ends, face
-            if over > 0.0 or height < 0.0:
-                qx, qy, qz, _ = in_triangle(surface, t, x, y, z)
-                square = (x - qx) * (x - qx) + (y - qy) * (y - qy) + (z - qz) * (z - qz)
-                # in the plane, so that faces about the same corner differ
-                out = square - height * height if height > 0.0 else square
-                ends = max(math.sqrt(max(out, 0.0)) - margin, over)
+                under, under_past, under_face = -height, inside, face
             key = square + max(ends, 0.0) * max(ends, 0.0)
             if key < best:
                 best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
         node += 1
-    if under_face >= 0 and under * under < best and under <= DEEP * size:
-        return under_face, -under, under_past
-    if past <= 0.0 and under * under >= best:
-        return found, height_best, past
-    depth = depth_inside(surface, x, y, z)
-    if depth > DEEP * size:
-        if under <= (1.0 + REACH) * depth:
-            return under_face, -under, under_past
-        return found, -depth, max(past, margin)
-    if past <= 0.0:
-        return found, height_best, past
-    return found, math.sqrt(apart * apart + past * past), past
+    face, gap, past = touched_face(
+        surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
+    )
+    return face, gap, past

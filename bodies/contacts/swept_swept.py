@@ -10,7 +10,7 @@ from typing import ClassVar, final
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
-from bodies.contacts.swept_vertex import END, SweptVertex, VertexSwept, size_of
+from bodies.contacts.swept_vertex import END, SweptVertex, size_of
 from bodies.contacts.tangents import tangent_of, write_tangent
 from bodies.contacts.vertex_face import height_over
 from bodies.shapes.swept import SweptPolytope
@@ -169,7 +169,7 @@ class SweptSwept(ContactKinematics):
             for i, row_a in enumerate(edge_rows(one))
             for j, row_b in enumerate(edge_rows(two))
         )
-        return *crossings, *SweptVertex.between(first, second), *VertexSwept.between(first, second)
+        return *crossings, *SweptVertex.between(first, second)
 
     @property
     def evaluator(self) -> Callable[..., None]:

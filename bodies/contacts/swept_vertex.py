@@ -1,10 +1,10 @@
-"""A vertex of a polyhedron or segment as a sphere against another swept polyhedron or segment."""
+"""A vertex as a sphere, or without a radius, against a swept polyhedron or segment of another body."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
@@ -36,11 +36,11 @@ def past_star(
 ) -> float:
     """Return how far the nearest point of the other core, along -n from the vertex, is past it along one of its edges.
 
-    Then that edge is nearer than the vertex.
+    Then that edge is nearer than the vertex, unless the vertex is inside of the other core.
     """
     x, y, z = vector_in_body(frame, nx, ny, nz)
     past = -size
-    for i in range(int(n_star)):
+    for i in range(int(n_star) if distance > 0.0 else 0):
         along = x * star[3 * i] + y * star[3 * i + 1] + z * star[3 * i + 2]
         past = max(past, -distance * along)
     return past - 2.0 * END * size
@@ -56,45 +56,12 @@ def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
     return gap, past
 
 
-def _evaluate(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    n_faces: float,
-    faces: Floats,
-    n_edges: float,
-    edges: Floats,
-    ends: Floats,
-    sweep: float,
-    x_v: float,
-    y_v: float,
-    z_v: float,
-    n_star: float,
-    star: Floats,
-    radius: float,
-    size: float,
-) -> None:
-    center_x, center_y, center_z = point_in_world(b, x_v, y_v, z_v)
-    x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
-    number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    nx, ny, nz = vector_in_world(a, nx, ny, nz)
-    past = past_star(b, star, n_star, distance, nx, ny, nz, size)
-    gap, past = ended_gap(distance - sweep - radius, past, size)
-    out[0], out[29], out[30] = gap, number, past
-    out[1], out[2], out[3] = nx, ny, nz
-    out[10], out[11], out[12] = center_x - radius * nx, center_y - radius * ny, center_z - radius * nz
-    for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
-    write_tangent(a, out)
-    write_swept(a, out, SIDE_A, number, n_faces, n_edges, edges, sweep)
-    write_round(out, SIDE_B, radius)
-
-
 @compiled
 def write_vertex_over(
     a: Floats,
     b: Floats,
     out: Floats,
+    swap: float,
     center: Point,
     radius: float,
     found: Nearest,
@@ -105,31 +72,35 @@ def write_vertex_over(
     sweep: float,
     size: float,
 ) -> None:
-    """Write the geometry block of a vertex of the first body, with its radius, and what is nearest of the second.
+    """Write the geometry block of a vertex, with its radius, and what is nearest of the other body.
 
-    Where that is a vertex, the contact is the second body's; ``past`` is how far it is past the end otherwise.
+    The vertex is the first body's if ``swap`` is 1, else the second's, whose contact two vertices are; ``past`` is how
+    far it is past the end otherwise.
     """
+    other = b if swap == 1.0 else a
     number, distance, nx, ny, nz, within = found
-    nx, ny, nz = vector_in_world(b, nx, ny, nz)
-    shared = END * size - within
+    nx, ny, nz = vector_in_world(other, nx, ny, nz)
+    shared = END * size - within if swap == 1.0 else -1e300
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
         # so small a way past the end is written large, that nobody takes the open contact for one that touches
         gap, past = math.hypot(distance - sweep - radius, _OPEN * shared), max(past, shared)
+    sign = 1.0 - 2.0 * swap
+    near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
     out[0], out[29], out[30] = gap, number, past
-    out[1], out[2], out[3] = -nx, -ny, -nz
-    out[7], out[8], out[9] = center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz
-    for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+    out[1], out[2], out[3] = sign * nx, sign * ny, sign * nz
+    out[near], out[near + 1], out[near + 2] = center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz
+    out[far], out[far + 1], out[far + 2] = out[near] - gap * nx, out[near + 1] - gap * ny, out[near + 2] - gap * nz
     write_tangent(a, out)
-    write_round(out, SIDE_A, radius)
-    write_swept(b, out, SIDE_B, number, n_faces, n_edges, edges, sweep)
+    write_swept(other, out, SIDE_B if swap == 1.0 else SIDE_A, number, n_faces, n_edges, edges, sweep)
+    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
 
 
-def _evaluate_reversed(
+def _evaluate(
     a: Floats,
     b: Floats,
     out: Floats,
+    swap: float,
     n_faces: float,
     faces: Floats,
     n_edges: float,
@@ -144,31 +115,98 @@ def _evaluate_reversed(
     radius: float,
     size: float,
 ) -> None:
-    px, py, pz = point_in_world(a, x_v, y_v, z_v)
-    x, y, z = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
+    own, other = (a, b) if swap == 1.0 else (b, a)
+    px, py, pz = point_in_world(own, x_v, y_v, z_v)
+    x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
     found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    nx, ny, nz = vector_in_world(b, found[2], found[3], found[4])
-    past = past_star(a, star, n_star, found[1], nx, ny, nz, size)
-    write_vertex_over(a, b, out, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
+    nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
+    past = past_star(own, star, n_star, found[1], nx, ny, nz, size)
+    write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
 
 
+def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
+    """Return the size of the larger of two shapes [m]."""
+    return max(shape.core.size + 2.0 * shape.sweep for shape in (first, second))
+
+
+@final
 @dataclass(frozen=True)
-class _Tables:
-    """The numbers of a core with its radius, and of a vertex of the other with its own."""
+class SweptVertex(ContactKinematics):
+    """A vertex, with its radius, against the nearest face, edge or vertex of a swept core of the other body.
 
+    Two vertices are the contact of the second body's: in that of the first body's they are never closed.
+
+    Attributes
+    ----------
+    swap : bool
+        Whether the vertex belongs to the first body.
+    faces, edges : tuple of float
+        All faces and edges of the core (:mod:`bodies.contacts.polytope_tables`).
+    ends : tuple of float
+        Numbers of the two vertices of every edge.
+    sweep : float
+        Radius about the core [m].
+    place : tuple of float
+        The vertex in its body frame [m].
+    star : tuple of float
+        Unit vectors along the edges that leave it.
+    radius : float
+        Radius about it [m].
+    size : float
+        Size of the larger body [m].
+    name : str
+        What the vertex is called.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
+    swap: bool
     faces: Numbers
     edges: Numbers
     ends: Numbers
     sweep: float
-    vertex: int
     place: tuple[float, float, float]
     star: Numbers
     radius: float
     size: float
+    name: str
 
-    def values(self) -> dict[str, Value]:
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[SweptVertex, ...]:
+        """Return the contacts of all vertices of the second, then those of the first."""
+        assert isinstance(first, SweptPolytope)
+        assert isinstance(second, SweptPolytope)
+        size = size_of(first, second)
+        return tuple(
+            contact
+            for swap, own, other in ((False, second, first), (True, first, second))
+            for contact in cls.over(
+                other,
+                [(place, star_of(own.core, i), f"vertex {i}") for i, place in enumerate(own.core.vertices)],
+                own.sweep,
+                size,
+                swap,
+            )
+        )
+
+    @classmethod
+    def over(
+        cls,
+        other: SweptPolytope,
+        vertices: Iterable[tuple[tuple[float, float, float], Numbers, str]],
+        radius: float,
+        size: float,
+        swap: bool,
+    ) -> tuple[SweptVertex, ...]:
+        """Return the contacts of vertices of one body, each a place, a star and a name, with the core of the other."""
+        core = other.core
+        tables = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)
+        return tuple(cls(swap, *tables, other.sweep, place, star, radius, size, name) for place, star, name in vertices)
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the tables."""
         x, y, z = self.place
         return {
+            "swap": float(self.swap),
             "n_faces": float(len(self.faces) // FACE),
             "faces": self.faces,
             "n_edges": float(len(self.edges) // EDGE),
@@ -185,92 +223,14 @@ class _Tables:
         }
 
     @property
-    def features(self) -> tuple[str, ...]:
-        counts = ("face", len(self.faces) // FACE), ("edge", len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
-        return tuple(f"{name} {i} and vertex {self.vertex}" for name, n in counts for i in range(n))
-
-
-def _all_tables(first: SweptPolytope, second: SweptPolytope, size: float) -> list[_Tables]:
-    core, other = first.core, second.core
-    faces, edges, ends = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)
-    return [
-        _Tables(faces, edges, ends, first.sweep, i, place, star_of(other, i), second.sweep, size)
-        for i, place in enumerate(other.vertices)
-    ]
-
-
-def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
-    """Return the size of the larger of two shapes [m]."""
-    return max(shape.core.size + 2.0 * shape.sweep for shape in (first, second))
-
-
-@final
-@dataclass(frozen=True)
-class SweptVertex(ContactKinematics):
-    """A vertex of the second shape, with its radius, against the nearest face, edge or vertex of the first.
-
-    Attributes
-    ----------
-    tables : _Tables
-        The first shape, and the vertex.
-    """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
-    tables: _Tables
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the tables."""
-        return self.tables.values()
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[SweptVertex, ...]:
-        """Return the contacts of all vertices of the second."""
-        assert isinstance(first, SweptPolytope)
-        assert isinstance(second, SweptPolytope)
-        return tuple(cls(tables) for tables in _all_tables(first, second, size_of(first, second)))
-
-    @property
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
         return _evaluate
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Faces, edges and vertices of the first."""
-        return self.tables.features
-
-
-@final
-@dataclass(frozen=True)
-class VertexSwept(ContactKinematics):
-    """A vertex of the first shape, with its radius, against the nearest face or edge of the second.
-
-    Attributes
-    ----------
-    tables : _Tables
-        The second shape, and the vertex.
-    """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
-    tables: _Tables
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the tables."""
-        return self.tables.values()
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[VertexSwept, ...]:
-        """Return the contacts of all vertices of the first."""
-        assert isinstance(first, SweptPolytope)
-        assert isinstance(second, SweptPolytope)
-        return tuple(cls(tables) for tables in _all_tables(second, first, size_of(first, second)))
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate_reversed
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Faces, edges and vertices of the second; the last never closed."""
-        return self.tables.features
+        """Faces, edges and vertices of the core; the edge of a segment is its side."""
+        edge = "edge" if self.faces else "side"
+        counts = ("face", len(self.faces) // FACE), (edge, len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
+        parts = [f"{kind} {i}" for kind, n in counts for i in range(n)]
+        return tuple(f"{self.name} and {part}" if self.swap else f"{part} and {self.name}" for part in parts)

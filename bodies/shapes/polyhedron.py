@@ -39,7 +39,7 @@ class Polyhedron(SweptPolytope):
                 f"{type(self).__name__}.rounding",
                 "must be 0 here, where only sharp edges are known",
                 self.rounding,
-                "Leave the rounding out, or let it touch planes, spheres, smooth shapes, capsules and polyhedra.",
+                "Leave the rounding out, or let it touch anything but cylinders, cones and discs.",
             )
         return self.core
 

@@ -94,8 +94,8 @@ class TriangleMesh(Shape):
             )
         return (
             f"The mesh {mesh.name} has {mesh.volume_ratio:.1%} of the volume of its convex hull, and surfaces that are "
-            "not convex touch planes, smooth shapes, capsules, polyhedra and meshes only: give its body a "
-            "decomposition into convex pieces, MeshBody(..., decomposition=Decomposition())."
+            "not convex do not touch this shape: give its body a decomposition into convex pieces, "
+            "MeshBody(..., decomposition=Decomposition())."
         )
 
     def support(self, direction: Vector) -> Vector:

@@ -14,12 +14,16 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Ellipsoid, Sphere, Superellipsoid, TriangleMesh, Triangles
+from bodies import Box, Ellipsoid, FrustumMesh, Sphere, Superellipsoid, SweptPolytope, TriangleMesh, Triangles
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
 from nonsmooth.interfaces import Shape
+from nonsmooth.testing.rig import Rig
+from tests.benchmarks.swept_pairs import capsule, rounded_box, rounded_hull
 from tests.bodies.meshes.parts import bracket
+from tests.bodies.rounds import PosedRound, tangent, touch_round
 from tests.bodies.surfaces import distances, is_inside
+from tests.bodies.swept_poses import feature
 
 Array = NDArray[np.float64]
 Known = tuple[tuple[Shape, Shape], Any, float, Array, Array, int]
@@ -147,25 +151,104 @@ def _with_box(part: str, other_part: str) -> Callable[[float, Generator], Known]
         known = _known(rng, (mesh, box), gap, (point, n), (touching, m), contact)
         if part != "edge":
             return known
-        turns = [Rotation.from_quat(np.roll(q, -1)) for _, q in known[1]]
-        ways = [
-            turn.apply(np.subtract(*f.vertices[list(f.edges[i][:2])]))
-            for turn, f, i in zip(turns, (one, two), (number, other), strict=True)
-        ]
-        crossed = np.linalg.norm(np.cross(*ways)) > 0.1 * np.linalg.norm(ways[0]) * np.linalg.norm(ways[1])
-        return known if crossed else draw(gap, rng)
+        ways = one.vertices[list(one.edges[number][:2])], two.vertices[list(two.edges[other][:2])]
+        return known if _cross(known, *ways) else draw(gap, rng)
 
     return draw
 
 
+def _cross(known: Known, first: Array, second: Array) -> bool:
+    """Return whether edges of the two shapes are at more than 0.1 rad to each other."""
+    turns = [Rotation.from_quat(np.roll(q, -1)) for _, q in known[1]]
+    ways = [turn.apply(ends[1] - ends[0]) for turn, ends in zip(turns, (first, second), strict=True)]
+    across = np.linalg.norm(np.cross(*ways))
+    return bool(across > 0.1 * np.linalg.norm(ways[0]) * np.linalg.norm(ways[1]))
+
+
+def _with_swept(shape: Callable[[Generator], SweptPolytope], part: str, other_part: str) -> Callable[..., Known]:
+    def draw(gap: float, rng: Generator) -> Known:
+        mesh, second = _mesh(rng), shape(rng)
+        own, core = mesh.features, second.core
+        number, point, n = _feature(rng, own, part, True)
+        touching, m, other = feature(rng, second, other_part)
+        patches, crossings = patches_for_ball(own, second.sweep), len(own.edges) * len(core.edges)
+        if other_part == "vertex":
+            contact = crossings + other * patches.count + _patch(patches, part, number)
+        elif part == "vertex":
+            contact = crossings + len(core.vertices) * patches.count + number
+        else:
+            contact = number * len(core.edges) + other
+        known = _known(rng, (mesh, second), gap, (point, n), (touching + second.sweep * m, m), contact)
+        if part != "edge" or other_part != "edge":
+            return known
+        ends = np.array(core.vertices)[list(core.edges[other][:2])]
+        return known if _cross(known, own.vertices[list(own.edges[number][:2])], ends) else draw(gap, rng)
+
+    return draw
+
+
+def _with_frustum(name: str, part: str, other: str) -> Callable[[float, Generator], Known]:
+    def draw(gap: float, rng: Generator) -> Known:
+        mesh, first = _mesh(rng), touch_round(rng, name, part)
+        number, point, n = _feature(rng, mesh.features, other, True)
+        along = None
+        if other == "edge":
+            along = np.subtract(*mesh.features.vertices[list(mesh.features.edges[number][:2])])
+            along /= np.linalg.norm(along)
+        posed = PosedRound(rng, first, (mesh, point, n), (tangent(first[0], part, first[2]), along), gap)
+        shapes = first[0], mesh
+        # which half of a rim it is, only the contacts know
+        for contact, one in enumerate(FrustumMesh.between(*shapes)):
+            if _are_of(one.features, part, f"{other if other != 'vertex' else 'corner'} {number}"):
+                rig = Rig(one, shapes)
+                rig.put(posed.poses, np.zeros(12))
+                if posed.found_in(rig.geometry[None]):
+                    return shapes, posed.poses, gap, posed.normal, np.array(posed.witness), contact
+        raise LookupError(f"no contact of {part} and {other} at {posed.poses}")
+
+    return draw
+
+
+def _are_of(features: tuple[str, ...], part: str, other: str) -> bool:
+    kinds = {"cap": ("cap", "base", "face"), "side": ("side",), "apex": ("apex",), "rim": ("rim", "upper rim")}[part]
+    named = [one.split(" and ") for one in features]
+    return any(other in names and any(name != other and name.startswith(kinds) for name in names) for names in named)
+
+
+PARTS = "face", "edge", "vertex"
+_OVER_EDGES = (("edge", "edge"), ("vertex", "edge"))
 MESHES: dict[str, Callable[[float, Generator], Known]] = {
     **{
         f"mesh-{kind}, {part}": _with_round(kind, part)
         for kind in ("sphere", "ellipsoid", "superellipsoid")
-        for part in ("face", "edge", "vertex")
+        for part in PARTS
     },
     "mesh-box, face and vertex": _with_box("face", "vertex"),
     "mesh-box, edges": _with_box("edge", "edge"),
     "mesh-box, vertex and face": _with_box("vertex", "face"),
+    **{
+        f"mesh-{name}, {part} and {other}": _with_swept(shape, part, other)
+        for name, shape, kinds in (
+            ("rounded box", rounded_box, [*((part, "vertex") for part in PARTS), ("vertex", "face"), *_OVER_EDGES]),
+            ("rounded hull", rounded_hull, [("edge", "edge")]),
+            ("capsule", capsule, _OVER_EDGES),
+        )
+        for part, other in kinds
+    },
+    **{
+        f"{name}-mesh, {part} and {other}": _with_frustum(name, part, other)
+        for name, part, other in (
+            ("cylinder", "rim", "face"),
+            ("cylinder", "cap", "vertex"),
+            ("cylinder", "side", "vertex"),
+            ("cylinder", "side", "edge"),
+            ("cylinder", "rim", "edge"),
+            ("cone", "apex", "face"),
+            ("cone", "side", "vertex"),
+            ("cone", "side", "edge"),
+            ("disc", "rim", "face"),
+            ("disc", "rim", "edge"),
+        )
+    },
 }
 """By name, how to draw a pose for a gap."""

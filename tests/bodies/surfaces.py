@@ -40,3 +40,24 @@ def distances(points: Array, corners: Array) -> Array:
         off = points[:, None] - start - np.clip(along, 0.0, 1.0)[:, :, None] * way
         nearest = np.minimum(nearest, np.linalg.norm(off, axis=2))
     return np.asarray(np.min(np.where(within, np.abs(heights), nearest), axis=1))
+
+
+def segment_distance(first: Array, second: Array) -> float:
+    """Return the least distance of segments, shapes [n, 2, 3] and [m, 2, 3]: from ends, or across both."""
+    starts, ways = [x[:, 0] for x in (first, second)], [x[:, 1] - x[:, 0] for x in (first, second)]
+    apart = starts[0][:, None] - starts[1][None]
+    one, two = (np.broadcast_to(way, apart.shape) for way in (ways[0][:, None], ways[1][None]))
+    normal = np.cross(one, two)
+    square = np.einsum("nmi,nmi->nm", normal, normal)
+    square[square < 1e-20 * np.max(square)] = np.nan
+    s = np.einsum("nmi,nmi->nm", np.cross(two, apart), normal) / square
+    t = np.einsum("nmi,nmi->nm", np.cross(one, apart), normal) / square
+    crossed = (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
+    least = np.abs(np.einsum("nmi,nmi->nm", apart, normal)) / np.sqrt(square)
+    found = float(np.min(least[crossed], initial=np.inf))
+    for ends, segments in ((first, second), (second, first)):
+        points, way = ends.reshape(-1, 3), segments[:, 1] - segments[:, 0]
+        off = points[:, None] - segments[None, :, 0]
+        along = np.clip(np.einsum("nmi,mi->nm", off, way) / np.einsum("mi,mi->m", way, way), 0.0, 1.0)
+        found = min(found, float(np.min(np.linalg.norm(off - along[:, :, None] * way, axis=2))))
+    return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,7 @@ from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, bracket, torus
 from tests.bodies.polytopes import random_shapes
-from tests.bodies.surfaces import distances, is_inside
+from tests.bodies.surfaces import distances, is_inside, segment_distance
 
 Array = NDArray[Any]
 BRACKET = TriangleMesh(Triangles(*bracket(), "bracket"), 2e-3, -1e-3, 3e-3, 0.8, 0.36, -0.48)
@@ -192,6 +193,56 @@ def test_a_capsule_has_the_distance_of_its_axis(build: Any) -> None:
         assert -1e-6 < rig.geometry[nearest, 0] - (distance - capsule.radius) < 1e-15
         compared.add(rig.contacts[nearest].kinematics.features[int(rig.geometry[nearest, 29])].split()[0])
     assert compared == {"face", "edge", "corner"}
+
+
+def test_a_rounded_box_has_the_distance_of_its_core(build: Any) -> None:
+    """At random places: the nearest of what faces each other; cores that overlap do so by more than the radius."""
+    box, rng = Box(6e-3, 4e-3, 5e-3, 1e-3, 0.0, 0.0, 0.8, 0.36, -0.48, rounding=1.5e-3), np.random.default_rng(3)
+    rig, core = Rig((BRACKET, box), build.laws()), box.core
+    corners = BRACKET.features.vertices[BRACKET.features.triangles]
+    edges = BRACKET.features.vertices[BRACKET.features.triangles[:, [0, 1, 1, 2, 2, 0]]].reshape(-1, 2, 3)
+    part = np.linspace(0.0, 1.0, 21)[:, None, None]
+    low, high = BRACKET.bounds
+    compared, deep = set[str](), 0
+    for place in rng.uniform(low - 12e-3, high + 12e-3, (200, 3)):
+        turn = Rotation.random(random_state=rng)
+        points = turn.apply(core.vertices) + place
+        faces, ways = points[list(core.triangles)], points[[edge[:2] for edge in core.edges]]
+        rig.put([(np.zeros(3), UNIT), (place, np.roll(turn.as_quat(), 1))], np.zeros(12))
+        along = [((1.0 - part) * one[:, 0] + part * one[:, 1]).reshape(-1, 3) for one in (ways, edges)]
+        if np.any(is_inside(along[0], corners)) or np.any(is_inside(along[1], faces)):
+            deep += 1
+            assert np.min(rig.geometry[:, 0]) < -box.rounding
+            continue
+        distance = min(segment_distance(ways, edges), float(np.min(distances(points, corners))))
+        distance = min(distance, float(np.min(distances(BRACKET.features.vertices, faces))))
+        facing = np.flatnonzero(rig.geometry[:, 30] <= 0.0)
+        nearest = facing[np.argmin(rig.geometry[facing, 0])]
+        assert rig.geometry[nearest, 0] == pytest.approx(distance - box.rounding, abs=1e-15)
+        names = rig.contacts[nearest].kinematics.features[int(rig.geometry[nearest, 29])].split()
+        compared.add(f"{names[0]} {names[3]}")
+    assert compared == {f"{part} vertex" for part in ("face", "edge", "corner")} | {
+        "edge edge",
+        "corner face",
+        "corner edge",
+    }
+    assert deep > 10
+
+
+def test_what_is_inside_by_more_than_the_radius_overlaps(build: Any) -> None:
+    """However small the radius: a vertex in a face, and a corner of the mesh in a face of the box."""
+    mesh, box = TriangleMesh(Triangles(*bracket(), "bracket")), Box(3e-3, 3e-3, 3e-3, rounding=1e-6)
+    rig, turn = Rig((mesh, box), build.laws()), Rotation.align_vectors([[0.0, -1.0, 0.0]], [[1.0, 1.0, 1.0]])[0]
+    for depth in (1e-8, 1e-6, 2e-6, 1e-4):
+        reach = math.sqrt(3.0) * (3e-3 - 1e-6) + 1e-6 - depth
+        rig.put(
+            [(np.zeros(3), UNIT), (np.array([0.02, 0.01 + reach, 0.007]), np.roll(turn.as_quat(), 1))], np.zeros(12)
+        )
+        assert np.min(rig.geometry[:, 0]) == pytest.approx(-depth, abs=1e-15)
+        tip = np.array([0.03, 0.0, 0.0]) + (3e-3 - depth) * np.array([1.0, -1.0, -1.0]) / math.sqrt(3.0)
+        facing = Rotation.align_vectors([[-1.0, 1.0, 1.0]], [[1.0, 0.0, 0.0]])[0]
+        rig.put([(np.zeros(3), UNIT), (tip, np.roll(facing.as_quat(), 1))], np.zeros(12))
+        assert np.min(rig.geometry[:, 0]) == pytest.approx(-depth, abs=1e-15)
 
 
 def test_rates_of_the_side_of_a_capsule_are_derivatives(build: Any) -> None:

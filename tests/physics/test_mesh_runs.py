@@ -16,6 +16,7 @@ from bodies import (
     Ball,
     Box,
     Capsule,
+    ConvexHull,
     DrivenBody,
     Ellipsoid,
     Plate,
@@ -29,7 +30,7 @@ from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import CAUSES
 from nonsmooth.interfaces import Body, Shape
 from tests.bodies.carriers import Carrier
-from tests.bodies.meshes.parts import box, bracket
+from tests.bodies.meshes.parts import box, bracket, channel
 from tests.bodies.meshes.test_features import finer
 from tests.bodies.surfaces import distances, is_inside
 
@@ -37,6 +38,9 @@ Array = NDArray[Any]
 Outline = Sequence[tuple[float, float]]
 pytestmark = pytest.mark.skipif(PLAIN, reason="compiled runs take seconds, plain ones minutes")
 
+TETRAHEDRON = ConvexHull(
+    ((0.0, 0.0, 0.01), (8e-3, 0.0, -4e-3), (-6e-3, 8e-3, -4e-3), (-6e-3, -8e-3, -4e-3)), rounding=2e-3
+)
 GROOVE = ((-0.05, -0.01), (0.05, -0.01), (0.05, 0.03), (0.0, 0.0), (-0.05, 0.02))
 STEP = ((0.0, 0.0), (0.1, 0.0), (0.1, 0.02), (0.02, 0.02), (0.02, 0.08), (0.0, 0.08))
 CAPS = {GROOVE: ((0, 1, 3), (1, 2, 3), (0, 3, 4)), STEP: ((0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5))}
@@ -108,7 +112,7 @@ def test_a_ball_rolls_over_the_edge_of_a_step(build: Any, velocity: Any, cause: 
     assert solution.energy.residual < 1e-8
 
 
-def _collision(
+def collision(
     build: Any, shapes: Any, seed: int, restitution: float = 1.0, friction: float = 0.0
 ) -> tuple[ns.Solution, Array]:
     """Return a run of two bodies that fly at each other, and their total momentum before and after."""
@@ -141,10 +145,10 @@ def test_meshes_of_boxes_collide_like_boxes(build: Any, seed: int) -> None:
     halves = (0.1, 0.08, 0.12), (0.07, 0.1, 0.09)
     boxes = [Box(*half) for half in halves]
     meshes = [TriangleMesh(Triangles(*box(*(2.0 * np.array(half))))) for half in halves]
-    plain, _ = _collision(build, boxes, seed)
+    plain, _ = collision(build, boxes, seed)
     assert plain.counters.impacts > 0
-    _as_one(_collision(build, meshes, seed)[0], plain, 1e-9)
-    _as_one(_collision(build, (meshes[0], boxes[1]), seed)[0], plain, 1e-9)
+    _as_one(collision(build, meshes, seed)[0], plain, 1e-9)
+    _as_one(collision(build, (meshes[0], boxes[1]), seed)[0], plain, 1e-9)
 
 
 @pytest.mark.parametrize(("restitution", "friction"), [(1.0, 0.0), (0.5, 0.3)])
@@ -155,7 +159,7 @@ def test_brackets_collide_without_passing_into_each_other(
     """Momentum and energy are kept, and no vertex of one, nor point of its edges, is ever inside of the other."""
     points, triangles = bracket()
     mesh = TriangleMesh(Triangles(points - [0.01, 0.006, 0.0075], triangles))
-    solution, momentum = _collision(build, (mesh, mesh), seed, restitution, friction)
+    solution, momentum = collision(build, (mesh, mesh), seed, restitution, friction)
     assert solution.counters.impacts > 0
     np.testing.assert_allclose(momentum[1], momentum[0], rtol=0, atol=1e-12)
     assert solution.energy.residual < 1e-9
@@ -172,15 +176,24 @@ def test_brackets_collide_without_passing_into_each_other(
 
 @pytest.mark.parametrize(
     "shape",
-    [Sphere(8e-3), Ellipsoid(6e-3, 4e-3, 9e-3), Superellipsoid(6e-3, 4e-3, 9e-3, 1.5, 1.2), Capsule(3e-3, 8e-3)],
+    [
+        Sphere(8e-3),
+        Ellipsoid(6e-3, 4e-3, 9e-3),
+        Superellipsoid(6e-3, 4e-3, 9e-3, 1.5, 1.2),
+        Capsule(3e-3, 8e-3),
+        Box(6e-3, 4e-3, 9e-3, rounding=1e-3),
+        Box(6e-3, 4e-3, 9e-3, rounding=1e-6),
+        TETRAHEDRON,
+    ],
     ids=lambda shape: type(shape).__name__,
 )
-def test_round_bodies_collide_with_a_bracket(build: Any, shape: Shape) -> None:
+@pytest.mark.parametrize("part", [bracket, channel], ids=["L", "U"])
+def test_round_bodies_collide_with_a_part(build: Any, part: Any, shape: Shape) -> None:
     """Momentum and energy are kept."""
-    points, triangles = bracket()
-    mesh = TriangleMesh(Triangles(points - [0.01, 0.006, 0.0075], triangles))
+    points, triangles = part()
+    mesh = TriangleMesh(Triangles(points - np.mean(points, axis=0), triangles))
     for seed in range(3):
-        solution, momentum = _collision(build, (mesh, shape), seed)
+        solution, momentum = collision(build, (mesh, shape), seed)
         assert solution.counters.impacts > 0
         np.testing.assert_allclose(momentum[1], momentum[0], rtol=0, atol=1e-12)
         assert solution.energy.residual < 1e-9
@@ -203,14 +216,19 @@ def test_an_ellipsoid_and_a_capsule_move_over_triangles_as_over_a_plane(build: A
         np.testing.assert_allclose(ends[0].q_end, ends[1].q_end, rtol=0, atol=1e-9)
 
 
-def test_a_block_falls_into_an_inner_corner_and_rests_on_both_walls(build: Any) -> None:
+@pytest.mark.parametrize(
+    "shape",
+    [TriangleMesh(Triangles(*box(4e-3, 4e-3, 4e-3))), Box(2e-3, 2e-3, 2e-3, rounding=5e-4)],
+    ids=["mesh", "box"],
+)
+def test_a_block_falls_into_an_inner_corner_and_rests_on_both_walls(build: Any, shape: Shape) -> None:
     """On a slope it slides down until it leans on the wall."""
     points, triangles = bracket()
     # the corner is 1 cm high and wide; turned so that z points up and x down the slope
     turned = points[:, [1, 2, 0]]
     ground = DrivenBody(Rest(-0.4), (TriangleMesh(Triangles(turned, triangles)),))
     half = 2e-3
-    block = Carrier((TriangleMesh(Triangles(*box(2 * half, 2 * half, 2 * half))),), 0.1, (3e-7, 3e-7, 3e-7))
+    block = Carrier((shape,), 0.1, (3e-7, 3e-7, 3e-7))
     system = ns.System([ground, block], gravity=9.81)
     system.contact(ground, block, **build.laws(friction=0.1))
     turn = Rotation.from_euler("y", -0.4)

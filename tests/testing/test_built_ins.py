@@ -110,7 +110,7 @@ from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.tippe_top.friction import SpinningCoulomb
 from tests.bodies.meshes import parts
 from tests.bodies.planar_functions import PART, planar
-from tests.bodies.test_contact_pairs import PAIRS
+from tests.bodies.test_contact_pairs import AXIS, PAIRS
 from tests.bodies.test_joints import JOINTS
 
 WEDGE = ((0.0, 0.0, 0.0), (0.03, 0.0, 0.0), (0.0, 0.04, 0.0), (0.01, 0.0, 0.05), (0.02, 0.03, 0.04))
@@ -201,7 +201,9 @@ SHAPES: list[tuple[Shape, Shape]] = [
     (CUBOID, Ellipsoid(0.2, 0.35, 0.5)),
     (CUBOID, Capsule(0.15, 0.4, axis_y=-0.6, axis_z=0.8)),
     (CUBOID, Point(0.1, -0.05, 0.07)),
+    (Cylinder(0.1, 0.15, **AXIS), CUBOID),
     (TETRAHEDRON, ConvexHull(WEDGE)),
+    (TETRAHEDRON, ConvexHull(WEDGE, rounding=0.01)),
     (TETRAHEDRON, TETRAHEDRON),
     (Plane(0.1), ConvexHull(WEDGE)),
     (Box(0.3, 0.4, 0.5), Point(0.1, -0.05, 0.07)),

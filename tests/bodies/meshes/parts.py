@@ -15,6 +15,17 @@ Mesh = tuple[Array, Array]
 
 BRACKET_OUTLINE = ((0.0, 0.0), (0.03, 0.0), (0.03, 0.01), (0.01, 0.01), (0.01, 0.02), (0.0, 0.02))
 """An L [m]: its area is 4e-4 m^2."""
+CHANNEL_OUTLINE = (
+    (0.0, 0.0),
+    (0.04, 0.0),
+    (0.04, 0.03),
+    (0.03, 0.03),
+    (0.03, 0.01),
+    (0.01, 0.01),
+    (0.01, 0.03),
+    (0.0, 0.03),
+)
+"""A U, 2 cm wide and deep inside [m]."""
 
 
 def box(x: float = 0.02, y: float = 0.03, z: float = 0.05, at: Any = (0.0, 0.0, 0.0)) -> Mesh:
@@ -27,9 +38,17 @@ def box(x: float = 0.02, y: float = 0.03, z: float = 0.05, at: Any = (0.0, 0.0, 
 
 def bracket(depth: float = 0.015) -> Mesh:
     """Return an L of this depth along z [m]."""
-    n = len(BRACKET_OUTLINE)
-    points = np.array([(x, y, z) for z in (0.0, depth) for x, y in BRACKET_OUTLINE])
-    triangles = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5))
+    return _prism(BRACKET_OUTLINE, ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)), depth)
+
+
+def channel(depth: float = 0.02) -> Mesh:
+    """Return a U of this depth along z [m]."""
+    return _prism(CHANNEL_OUTLINE, ((0, 1, 4), (1, 2, 3), (1, 3, 4), (0, 4, 5), (0, 5, 6), (0, 6, 7)), depth)
+
+
+def _prism(outline: Any, triangles: Any, depth: float) -> Mesh:
+    n = len(outline)
+    points = np.array([(x, y, z) for z in (0.0, depth) for x, y in outline])
     bottom = [(a, c, b) for a, b, c in triangles]
     top = [(a + n, b + n, c + n) for a, b, c in triangles]
     sides = [t for i in range(n) for j in [(i + 1) % n] for t in ((i, j, j + n), (i, j + n, i + n))]

@@ -18,7 +18,6 @@ from bodies import (
     BoxBody,
     Compound,
     ConvexHull,
-    CylinderBody,
     Decomposition,
     Dumbbell,
     MeshBody,
@@ -33,11 +32,12 @@ from bodies import (
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.errors import MissingPackagesError
-from nonsmooth.interfaces import Body
+from nonsmooth.interfaces import Body, Shape
 from nonsmooth.model.assembly import assemble
 from nonsmooth.parameters import UnusualValue
 from scenarios.dumbbell.scenario import DumbbellScenario
 from scenarios.rocking_block.spatial import RockingBlock3D
+from tests.bodies.carriers import Carrier
 from tests.bodies.meshes import parts
 
 BOX, BRACKET = Triangles(*parts.box(), "box"), Triangles(*parts.bracket(), "bracket")
@@ -152,10 +152,16 @@ def test_a_mesh_that_is_not_convex_meets_a_plane_with_its_hull(build: Any) -> No
 
 def test_a_mesh_that_is_not_convex_refuses_other_pairs(build: Any) -> None:
     """With its volume over that of the hull, and what to do."""
-    roller, body = CylinderBody(0.01, 0.02, 7800.0), MeshBody(BRACKET)
-    system = ns.System([roller, body])
+
+    class Unknown(Shape):
+        @property
+        def length(self) -> float:
+            return 1.0
+
+    stranger, body = Carrier((Unknown(),)), MeshBody(BRACKET)
+    system = ns.System([stranger, body])
     with pytest.raises(ns.InvalidInput, match=r"bracket has 80\.0% of the volume of its convex hull.*decomposition="):
-        system.contact(roller, body, **build.laws())
+        system.contact(stranger, body, **build.laws())
 
 
 def test_shape() -> None:

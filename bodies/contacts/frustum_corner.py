@@ -1,0 +1,188 @@
+"""A corner of a mesh over the caps and the side of a cylinder, a cone or a disc."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.across import across
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.frames import point_in_world, vector_in_body
+from bodies.contacts.frustum import (
+    FLANK,
+    HIGH_CAP,
+    LOW_CAP,
+    axis_in_world,
+    center_in_world,
+    part_names,
+    part_number,
+    write_part,
+)
+from bodies.contacts.surface_search import depth_inside
+from bodies.contacts.surface_tables import Numbers, star_of, surface_numbers
+from bodies.contacts.surface_vertex import ASTRAY
+from bodies.contacts.tangents import write_tangent
+from bodies.contacts.vertex_face import DEEP, REACH
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_body
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+@compiled
+def _over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
+    """Return height over the plane or cone of a part, way past its ends, and its normal across and along the axis."""
+    if part == LOW_CAP:
+        return frustum[LOW] - along, away - frustum[0], 0.0, -1.0
+    if part == HIGH_CAP:
+        return along - frustum[HIGH], away - frustum[1], 0.0, 1.0
+    cosine, sine = frustum[COS], frustum[SIN]
+    dr, dz = away - frustum[0], along - frustum[LOW]
+    up = cosine * dz - sine * dr
+    return cosine * dr + sine * dz, max(-up, up - frustum[SIDE]), cosine, sine
+
+
+@compiled
+def _leaning(b: Floats, n_star: float, star: Floats, nx: float, ny: float, nz: float) -> float:
+    """Return the sine of the angle by which the steepest edge of a corner points down against a normal."""
+    nx, ny, nz = vector_in_body(b, nx, ny, nz)
+    down = -1.0
+    for i in range(int(n_star)):
+        down = max(down, -(nx * star[3 * i] + ny * star[3 * i + 1] + nz * star[3 * i + 2]))
+    return down
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    corner_x: float,
+    corner_y: float,
+    corner_z: float,
+    n_star: float,
+    star: Floats,
+    surface: Floats,
+    size: float,
+) -> None:
+    ax, ay, az = axis_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    px, py, pz = point_in_world(b, corner_x, corner_y, corner_z)
+    along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
+    flat, margin = frustum[SIDE] == 0.0, REACH * size
+    deepest, inner = -1e300, LOW_CAP
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        height, _, _, _ = _over_part(frustum, part, along, away)
+        if not ((part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0)) and height > deepest:
+            deepest, inner = height, part
+    best, found, gap, past = 1e300, inner, deepest, 1e300
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
+            continue
+        height, beyond, radial, axial = _over_part(frustum, part, along, away)
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        if height < 0.0 and not flat:
+            # behind a part only what lies inside of the body can touch it
+            beyond = max(beyond, deepest)
+        beyond = max(beyond - margin, size * (_leaning(b, n_star, star, nx, ny, nz) - ASTRAY))
+        if flat and height < -DEEP * size and beyond <= 0.0:
+            # and behind a disc what has the disc inside of it
+            x, y, z = px - height * nx - b[0], py - height * ny - b[1], pz - height * nz - b[2]
+            x, y, z = vector_in_body(b, x, y, z)
+            if depth_inside(surface, x, y, z) == 0.0:
+                beyond = -height
+        key = height * height + max(beyond, 0.0) * max(beyond, 0.0)
+        if key < best:
+            best, found, gap, past = key, part, height, beyond
+    if past > 0.0:
+        if deepest < -DEEP * size and not flat:
+            # it is inside and no contact of its own, which is a sign that another one was passed
+            found, gap = inner, deepest
+        else:
+            gap = math.sqrt(gap * gap + past * past)
+    _, _, radial, axial = _over_part(frustum, found, along, away)
+    out[0], out[29], out[30] = gap, part_number(frustum, found), past
+    out[1], out[2], out[3] = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+    out[10], out[11], out[12] = px, py, pz
+    for i in range(3):
+        out[7 + i] = out[10 + i] - gap * out[1 + i]
+    write_tangent(a, out)
+    write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
+    write_round(out, SIDE_B, 0.0)
+
+
+@final
+@dataclass(frozen=True)
+class FrustumCorner(ContactKinematics):
+    """A corner of the second body over the nearest part of the first, cap or side, that none of its edges points into.
+
+    Attributes
+    ----------
+    frustum : tuple of float
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    place : tuple of float
+        The corner in its body frame [m].
+    star : tuple of float
+        Unit vectors along its edges.
+    surface : tuple of float
+        The surface (:mod:`bodies.contacts.surface_tables`).
+    size : float
+        Size of the larger body [m].
+    corner : int
+        Its number.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
+
+    frustum: Numbers
+    place: tuple[float, float, float]
+    star: Numbers
+    surface: Numbers
+    size: float
+    corner: int
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FrustumCorner, ...]:
+        """Return the contacts of all corners."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, TriangleMesh)
+        return cls.of_corners(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
+
+    @classmethod
+    def of_corners(cls, first: Numbers, second: Features, size: float) -> tuple[FrustumCorner, ...]:
+        """Return the same."""
+        surface = surface_numbers(second, patches_for_body(second, 0.0))
+        places = second.vertices[list(second.corners)].tolist()
+        return tuple(
+            cls(first, (x, y, z), tuple(star_of(second, i)), surface, size, i) for i, (x, y, z) in enumerate(places)
+        )
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        x, y, z = self.place
+        return {
+            "frustum": self.frustum,
+            "corner_x": x,
+            "corner_y": y,
+            "corner_z": z,
+            "n_star": float(len(self.star) // 3),
+            "star": self.star,
+            "surface": self.surface,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The parts, rims among them, which this contact never has."""
+        return tuple(f"{part} and corner {self.corner}" for part in part_names(self.frustum))

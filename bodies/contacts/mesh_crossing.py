@@ -1,0 +1,62 @@
+"""What the contacts of a frustum with the edges of a mesh share: whether what seems to overlap does."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from bodies.contacts.across import across
+from bodies.contacts.frames import vector_in_body
+from bodies.contacts.frustum import axis_in_world, center_in_world, nearest_part
+from bodies.contacts.surface_search import depth_inside
+from bodies.contacts.surface_tables import Numbers, edge_row, surface_numbers
+from bodies.contacts.vertex_face import DEEP
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_body
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_ASTRAY = 1e-6
+"""Sine of the angle by which the normal of a closed crossing may leave those of the edge: beyond, a face is nearer."""
+
+
+@compiled
+def judge_crossing(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
+) -> None:
+    """Open a crossing, whose block is written, where a face is nearer, or where the bodies do not overlap as it seems.
+
+    A rim that rolls over an edge changes from the face to the edge where its normal becomes one of the edge's.  And
+    where neither point of what overlaps is inside of the other body, they lie on the far sides of each other.
+    """
+    x, y, z = vector_in_body(b, out[1], out[2], out[3])
+    astray = max(-x * edge[7] - y * edge[8] - z * edge[9], -x * edge[10] - y * edge[11] - z * edge[12])
+    beyond = size * (astray - _ASTRAY)
+    if out[30] <= 0.0 < beyond and out[0] >= -DEEP * size:
+        apart = math.sqrt(out[0] * out[0] + beyond * beyond)
+        out[0], out[30] = apart, beyond
+        for i in range(3):
+            out[10 + i] = out[7 + i] + apart * out[1 + i]
+    gap, past = out[0], out[30]
+    if past > 0.0 or gap >= -DEEP * size:
+        return
+    x, y, z = vector_in_body(b, out[7] - b[0], out[8] - b[1], out[9] - b[2])
+    if depth_inside(surface, x, y, z) > 0.0:
+        return
+    ax, ay, az = axis_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    along, away, _, _, _ = across(out[10] - cx, out[11] - cy, out[12] - cz, ax, ay, az)
+    outside, _, _, _ = nearest_part(frustum, along, away)
+    if outside < 0.0:
+        return
+    apart = math.sqrt(2.0) * gap
+    out[0], out[30] = -apart, -gap
+    for i in range(3):
+        out[10 + i] = out[7 + i] - apart * out[1 + i]
+
+
+def edges_of(second: Features) -> Iterator[tuple[Numbers, Numbers, str]]:
+    """Yield row, surface and name of the convex edges of a mesh."""
+    surface = surface_numbers(second, patches_for_body(second, 0.0))
+    for i in range(len(second.edges)):
+        yield edge_row(second, i), surface, f"edge {i}"

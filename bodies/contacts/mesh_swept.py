@@ -1,0 +1,91 @@
+"""A polyhedron, sharp or rounded, or a capsule against a triangle mesh, convex or not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+import numpy as np
+
+from bodies.contacts.mesh_mesh import DEPARTURES, MeshEdges, check_crossings, check_numbers, sharp_contacts
+from bodies.contacts.mesh_sphere import MeshSphere
+from bodies.contacts.polytope_tables import edge_rows
+from bodies.contacts.polytope_tables import star_of as star_of_vertex
+from bodies.contacts.surface_edges import evaluate_edges
+from bodies.contacts.surface_tables import NOTHING, star_of, surface_numbers
+from bodies.contacts.swept_vertex import SweptVertex
+from bodies.meshes.features import Features, features_of
+from bodies.meshes.patches import patches_for_body
+from bodies.shapes.polytope import Polytope
+from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+
+
+@final
+@dataclass(frozen=True)
+class MeshSwept(ContactKinematics):
+    """Where a convex edge of a mesh crosses an edge of a polyhedron, with its radius, or the side of a capsule.
+
+    The others are the vertices of the second body, as spheres over each patch of the mesh, and the corners of the mesh
+    over faces, edges and vertices of the second body; of a sharp one, as of two meshes (:class:`bodies.MeshMesh`).
+
+    Attributes
+    ----------
+    edges : MeshEdges
+        The edges.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SweptPolytope)
+    departures: ClassVar[Mapping[str, str]] = DEPARTURES
+    edges: MeshEdges
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the pairs of edges, then the vertices of the second body, then the corners of the first."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, SweptPolytope)
+        own, core = first.features, second.core
+        if second.sweep == 0.0:
+            edges, vertices = sharp_contacts(own, _features(core))
+            return *(cls(pair) for pair in edges), *vertices
+        check_crossings(len(own.edges), len(core.edges))
+        size = max(own.size, core.size + 2.0 * second.sweep)
+        own_star = [(place, star_of_vertex(core, i), f"vertex {i}") for i, place in enumerate(core.vertices)]
+        balls = MeshSphere.of_balls(own, own_star, second.sweep, size)
+        tips = own.vertices[list(own.corners)].tolist()
+        stars = [((x, y, z), tuple(star_of(own, i)), f"corner {i}") for i, (x, y, z) in enumerate(tips)]
+        corners = SweptVertex.over(second, stars, 0.0, size, True)
+        surfaces = [ball.surface for ball in balls] + [corner.faces + corner.edges for corner in corners]
+        check_numbers(len(own.edges) * len(core.edges), surfaces, (len(own.triangles), len(core.triangles)))
+        names = [f"edge {j}" for j in range(len(core.edges))] if core.faces else ["side"]
+        crossings = MeshEdges.crossings(own, edge_rows(core), names, _surface(core), second.sweep, size)
+        return *(cls(pair) for pair in crossings), *balls, *corners
+
+    def parameters(self) -> dict[str, Value]:
+        """Return edges, surfaces, radius and size."""
+        return self.edges.values()
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return evaluate_edges
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return self.edges.features
+
+
+def _features(core: Polytope) -> Features:
+    return features_of(np.array(core.vertices), np.array(core.triangles))
+
+
+def _surface(core: Polytope) -> tuple[float, ...]:
+    """Return the surface of a core; a segment has none."""
+    if not core.faces:
+        return NOTHING
+    features = _features(core)
+    return surface_numbers(features, patches_for_body(features, 0.0))
