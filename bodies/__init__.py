@@ -142,7 +142,6 @@ __all__ = [
     "Part",
     "PlanarBody",
     "Plane",
-    "PlaneBox",
     "PlaneCapsule",
     "PlaneEllipsoid",
     "PlaneFrustum",
