@@ -1,8 +1,9 @@
 """A boxy body and a straight line, the continuation of an edge: one angle, and no second derivative.
 
-The normal n goes round the line.  With p the body's farthest point against it, the derivative of the gap g(n) is that
-of the normal times p; between two directions where it has opposite signs a search halves what is left until the
-directions are the same to round-off, however flat the body is.
+The normal n goes round the line, at a right angle or, about the axis of a cone, at another.  With p the body's
+farthest point against it, the derivative of the gap g(n) is that of the normal times p; between two directions where it
+has opposite signs a search halves what is left until the directions are the same to round-off, however flat the body
+is.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ _PATIENCE = 3
 """Steps that leave more than half of the angle, one after the other."""
 _REFINEMENTS = 4
 """Steps of Newton's method from a point that is right to some digits."""
+_ASTRAY = 0.1
+"""Step that is no refinement, in units of the body."""
 
 
 @compiled
@@ -42,10 +45,13 @@ def across_line(
     nx: float,
     ny: float,
     nz: float,
+    cosine: float,
+    sine: float,
 ) -> Answer:
     """Return the largest gap of a line through the origin and a boxy core, the core's point and the line's normal.
 
-    All in the axes of the line's body; the gap is nan where none was found.
+    All in the axes of the line's body; the gap is nan where none was found.  With a sine it is the gap of the cone
+    about the line with the tip in the origin whose normals lean so much along the line.
 
     Parameters
     ----------
@@ -59,13 +65,14 @@ def across_line(
         Direction of the line, a unit vector.
     nx, ny, nz : float
         A unit vector across it, in whose half the normal is sought.
+    cosine, sine : float
+        Part of the normal across the line, 1 but for a cone, and along it, 0 but for a cone.
     """
-    ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
     best, at, last, rising, falling = -math.inf, 0, math.nan, math.nan, math.nan
     spread = math.pi / _LOOKS
-    found = _look(core, turn, x, y, z, nx, ny, nz, ux, uy, uz, 0.0)
+    found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, 0.0)
     for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
-        look = found if i == 0 else _look(core, turn, x, y, z, nx, ny, nz, ux, uy, uz, i * spread)
+        look = found if i == 0 else _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, i * spread)
         if look[0] > best and abs(i) <= _LOOKS // 2:
             best, at, rising = look[0], i, last
         elif at == i - 1:
@@ -82,7 +89,7 @@ def across_line(
         middle = (low * falling - high * rising) / (falling - rising)
         if slow >= _PATIENCE or not (low < middle < high):
             middle, slow = 0.5 * (low + high), 0
-        found = _look(core, turn, x, y, z, nx, ny, nz, ux, uy, uz, middle)
+        found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, middle)
         if abs(found[7]) <= none or width <= _CLOSED or middle == low or middle == high:
             return found[0], found[1], found[2], found[3], found[4], found[5], found[6]
         if found[7] > 0.0:
@@ -104,17 +111,20 @@ def _look(
     x: float,
     y: float,
     z: float,
+    ex: float,
+    ey: float,
+    ez: float,
     nx: float,
     ny: float,
     nz: float,
-    ux: float,
-    uy: float,
-    uz: float,
+    cosine: float,
+    sine: float,
     angle: float,
 ) -> tuple[float, float, float, float, float, float, float, float]:
     """Return gap, point, normal and the gap's derivative at an angle."""
-    c, s = math.cos(angle), math.sin(angle)
-    ax, ay, az = c * nx + s * ux, c * ny + s * uy, c * nz + s * uz
+    ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
+    c, s = cosine * math.cos(angle), cosine * math.sin(angle)
+    ax, ay, az = c * nx + s * ux + sine * ex, c * ny + s * uy + sine * ey, c * nz + s * uz + sine * ez
     mx, my, mz = back(turn, -ax, -ay, -az)
     f = support_of(core, mx, my, mz)
     px, py, pz = forth(turn, f[1], f[2], f[3])
@@ -125,12 +135,22 @@ def _look(
 
 @compiled
 def nearest_to_line(
-    core: Floats, turn: Axes, x: float, y: float, z: float, foot: Point, ex: float, ey: float, ez: float, point: Point
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    foot: Point,
+    ex: float,
+    ey: float,
+    ez: float,
+    sine: float,
+    point: Point,
 ) -> Point:
     """Return the point of a boxy core that a line sees, from the one that its normal gives.
 
-    Along a flat place the normal says little of the point; with the normal across the line, it has to lie over it.
-    All in the axes of the line's body, ``foot`` on the line.
+    Along a flat place the normal says little of the point; with the lean of the normal along the line, it has to lie
+    over it.  All in the axes of the line's body, ``foot`` on the line.
     """
     px, py, pz = back(turn, point[0] - x, point[1] - y, point[2] - z)
     lx, ly, lz = back(turn, ex, ey, ez)
@@ -140,15 +160,23 @@ def nearest_to_line(
         px, py, pz = s[0], s[1], s[2]
         # across the line and the normal
         ax, ay, az = ly * s[5] - lz * s[4], lz * s[3] - lx * s[5], lx * s[4] - ly * s[3]
-        off = ax * (px - fx) + ay * (py - fy) + az * (pz - fz)
-        tilt = s[3] * lx + s[4] * ly + s[5] * lz
+        wx, wy, wz = px - fx, py - fy, pz - fz
+        off = ax * wx + ay * wy + az * wz
+        lean = s[3] * lx + s[4] * ly + s[5] * lz
         a1, a2 = ax * s[6] + ay * s[7] + az * s[8], ax * s[9] + ay * s[10] + az * s[11]
         l1, l2 = lx * s[6] + ly * s[7] + lz * s[8], lx * s[9] + ly * s[10] + lz * s[11]
         k1, k2 = s[12] * l1 + s[13] * l2, s[13] * l1 + s[14] * l2
-        determinant = a1 * k2 - a2 * k1
+        # as the normal turns, the line goes by at its distance along the normal
+        g = wx * s[3] + wy * s[4] + wz * s[5] - lean * (wx * lx + wy * ly + wz * lz)
+        g /= max(1.0 - lean * lean, _ROUND_OFF)
+        b1, b2 = a1 - g * (s[12] * a1 + s[13] * a2), a2 - g * (s[13] * a1 + s[14] * a2)
+        determinant = b1 * k2 - b2 * k1
         if determinant == 0.0:
             break
-        i, j = (a2 * tilt - k2 * off) / determinant, (k1 * off - a1 * tilt) / determinant
+        tilt = lean + sine
+        i, j = (b2 * tilt - k2 * off) / determinant, (k1 * off - b1 * tilt) / determinant
+        if abs(i) + abs(j) > _ASTRAY * max(core[0], core[1], core[2]):
+            break
         px, py, pz = px + i * s[6] + j * s[9], py + i * s[7] + j * s[10], pz + i * s[8] + j * s[11]
     s = place_on(core, px, py, pz)
     px, py, pz = forth(turn, s[0], s[1], s[2])

@@ -287,7 +287,7 @@ def _over(
         return vx + g * n[0], vy + g * n[1], vz + g * n[2]
     foot = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * number]))
     ex, ey, ez, _ = _edge(hull, number)
-    px, py, pz = nearest_to_line(core, turn, x, y, z, foot, ex, ey, ez, near)
+    px, py, pz = nearest_to_line(core, turn, x, y, z, foot, ex, ey, ez, 0.0, near)
     s = (px - foot[0]) * ex + (py - foot[1]) * ey + (pz - foot[2]) * ez
     return foot[0] + s * ex + g * n[0], foot[1] + s * ey + g * n[1], foot[2] + s * ez + g * n[2]
 

@@ -105,6 +105,15 @@ def _from_start(
             other = second[0], second[1], second[2], second[3], second[4]
             g, px, py, pz, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
         return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
+    found: Answer = widest_of_round(first, second, turn, x, y, z, sx, sy, sz)
+    return found
+
+
+@compiled
+def widest_of_round(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same where the first core is not boxy; it may be a point, or flat, if the second is not."""
     if is_boxy(second):
         other = first[0], first[1], first[2], first[3], first[4]
         ax, ay, az = back(turn, -x, -y, -z)
@@ -196,7 +205,7 @@ def widest_from(
     if length == 0.0:
         return math.nan, start_x, start_y, start_z
     nx, ny, nz = nx / length, ny / length, nz / length
-    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz)
+    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz, 1.0, 0.0)
     return g, nx, ny, nz
 
 

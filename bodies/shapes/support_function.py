@@ -77,6 +77,9 @@ def norm_of(a: float, b: float, c: float, p: float, q: float, x: float, y: float
     if p == 2.0 and q == 2.0:
         aa, bb, cc = a * a, b * b, c * c
         h = math.sqrt(aa * x * x + bb * y * y + cc * z * z)
+        if h == 0.0:
+            # a circle along its axis: of all its points the middle of them
+            return h, h, h, h, h, h, h, h, h, h
         px, py, pz = aa * x / h, bb * y / h, cc * z / h
         return (
             h,

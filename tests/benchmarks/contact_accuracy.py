@@ -273,7 +273,6 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
         f"{kind}-{name}, {part}": (on_round(touched, part), draw)
         for kind, (touched, parts) in ROUND.items()
         for name, draw in SMOOTH.items()
-        if name != "boxy"
         for part in parts
     },
     **{f"rounded box-{name}, {part}": (on(rounded(box), part), SMOOTH[name]) for name in SMOOTH for part in PARTS},
