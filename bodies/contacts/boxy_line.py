@@ -47,11 +47,12 @@ def across_line(
     nz: float,
     cosine: float,
     sine: float,
+    reach: float,
 ) -> Answer:
     """Return the largest gap of a line through the origin and a boxy core, the core's point and the line's normal.
 
-    All in the axes of the line's body; the gap is nan where none was found.  With a sine it is the gap of the cone
-    about the line with the tip in the origin whose normals lean so much along the line.
+    All in the axes of the line's body; the gap is nan where none was found.  With a reach it is the gap of the cylinder
+    about the line, with a sine as well that of the cone whose normals lean so much along the line.
 
     Parameters
     ----------
@@ -67,18 +68,31 @@ def across_line(
         A unit vector across it, in whose half the normal is sought.
     cosine, sine : float
         Part of the normal across the line, 1 but for a cone, and along it, 0 but for a cone.
+    reach : float
+        Height of the surface about the line over the origin along its normals [m], 0 of the line itself.
     """
-    best, at, last, rising, falling = -math.inf, 0, math.nan, math.nan, math.nan
     spread = math.pi / _LOOKS
     found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, 0.0)
-    for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
-        look = found if i == 0 else _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, i * spread)
-        if look[0] > best and abs(i) <= _LOOKS // 2:
-            best, at, rising = look[0], i, last
-        elif at == i - 1:
-            falling = look[7]
-        last = look[7]
-    low, high = (at - 1) * spread, (at + 1) * spread
+    # uphill from the given direction, and from the best of all where the surface is not outside of the body there
+    at, low, high, rising, falling, most = 0, 0.0, 0.0, found[7], found[7], found[0]
+    way = 1 if found[7] > 0.0 else -1
+    for i in range(1, _LOOKS // 2 + 2):
+        look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, way * i * spread)
+        most = max(most, look[0])
+        low, high = (high, i * spread) if way > 0 else (-i * spread, low)
+        rising, falling = (falling, look[7]) if way > 0 else (look[7], rising)
+        if rising > 0.0 > falling:
+            break
+    if most <= reach:
+        best, last = -math.inf, math.nan
+        for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
+            look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, i * spread)
+            if look[0] > best and abs(i) <= _LOOKS // 2:
+                best, at, rising = look[0], i, last
+            elif at == i - 1:
+                falling = look[7]
+            last = look[7]
+        low, high = (at - 1) * spread, (at + 1) * spread
     if not (rising > 0.0 > falling):
         return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
     none = _ROUND_OFF * (abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]))
@@ -91,7 +105,7 @@ def across_line(
             middle, slow = 0.5 * (low + high), 0
         found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, middle)
         if abs(found[7]) <= none or width <= _CLOSED or middle == low or middle == high:
-            return found[0], found[1], found[2], found[3], found[4], found[5], found[6]
+            return found[0] - reach, found[1], found[2], found[3], found[4], found[5], found[6]
         if found[7] > 0.0:
             low, rising = middle, found[7]
             falling = 0.5 * falling if side == 1 else falling

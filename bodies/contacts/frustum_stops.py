@@ -69,10 +69,9 @@ def on_flank(
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
     if is_boxy(core):
-        g, px, py, pz, nx, ny, nz = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine)
+        g, px, py, pz, nx, ny, nz = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
         axis, near_by = (0.0, 0.0, 0.0), (px, py, pz)
         px, py, pz = nearest_to_line(core, turn, x, y, z, axis, 0.0, 0.0, 1.0, sine, near_by)
-        g -= reach
     else:
         g, px, py, pz, nx, ny, nz = _on_round_flank(frustum, core, turn, x, y, z, ex, ey, near)
     if not _before_flank(frustum, near, (g, px, py, pz, nx, ny, nz)):

@@ -205,7 +205,7 @@ def widest_from(
     if length == 0.0:
         return math.nan, start_x, start_y, start_z
     nx, ny, nz = nx / length, ny / length, nz / length
-    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz, 1.0, 0.0)
+    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz, 1.0, 0.0, 0.0)
     return g, nx, ny, nz
 
 

@@ -58,12 +58,17 @@ def support_point(core: tuple[float, ...], direction: Vector) -> Vector:
 
 
 def farthest(core: tuple[float, ...]) -> float:
-    """Return the distance of the farthest point from the origin of the body frame [m], a bound if it is not known.
+    """Return the distance of the farthest point from the origin of the body frame [m], a bound if it is not known."""
+    return math.hypot(*core[6:9]) + extent(core)
 
-    Of a shape about the origin it is an axis's, powers of 2 and more, as the core lies in the ellipsoid.  In the
-    squares of the coordinates a boxy core is one of the same kind, and their sum the support function of that.
+
+def extent(core: tuple[float, ...]) -> float:
+    """Return the distance of the farthest point from the centre of the core [m].
+
+    It is an axis's, powers of 2 and more, as the core lies in the ellipsoid.  In the squares of the coordinates a boxy
+    core is one of the same kind, and their sum the support function of that.
     """
-    return math.hypot(*core[6:9]) + (_corner(core) if core[3] < 2.0 else max(core[:3])) + core[5]
+    return (_corner(core) if core[3] < 2.0 else max(core[:3])) + core[5]
 
 
 def _corner(core: tuple[float, ...]) -> float:

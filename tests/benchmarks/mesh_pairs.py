@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from bodies import Box, Ellipsoid, Sphere, Superellipsoid, TriangleMesh, Triangles
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
+from bodies.shapes.smooth import extent
 from nonsmooth.interfaces import Shape
 from tests.bodies.meshes.parts import bracket
 from tests.bodies.surfaces import distances, is_inside
@@ -87,7 +88,7 @@ def _round(rng: Generator, kind: str) -> Round:
         return Sphere(float(rng.uniform(5e-4, 4e-3)), *rng.uniform(-2e-3, 2e-3, 3).tolist())
     if kind == "ellipsoid":
         return Ellipsoid(*sizes)
-    return Superellipsoid(*sizes, *rng.uniform(1.1, 1.5, 2).tolist())
+    return Superellipsoid(*sizes, *rng.uniform(*((0.2, 0.9) if kind == "boxy" else (1.1, 1.5)), 2).tolist())
 
 
 def _least_radius(shape: Round, n: Array) -> float:
@@ -111,7 +112,7 @@ def _with_round(kind: str, part: str) -> Callable[[float, Generator], Known]:
             if isinstance(second, Sphere):
                 patches = patches_for_ball(features, second.radius)
             else:
-                patches = patches_for_body(features, 2.0 * (max(second.core[:3]) + second.core[5]))
+                patches = patches_for_body(features, 2.0 * extent(second.core))
             # not where a slight overlap is more than the body is round
             number, point, n = _feature(rng, features, part, kind != "sphere" or gap > 1e-2)
             m = rng.normal(size=3)
@@ -161,7 +162,7 @@ def _with_box(part: str, other_part: str) -> Callable[[float, Generator], Known]
 MESHES: dict[str, Callable[[float, Generator], Known]] = {
     **{
         f"mesh-{kind}, {part}": _with_round(kind, part)
-        for kind in ("sphere", "ellipsoid", "superellipsoid")
+        for kind in ("sphere", "ellipsoid", "superellipsoid", "boxy")
         for part in ("face", "edge", "vertex")
     },
     "mesh-box, face and vertex": _with_box("face", "vertex"),

@@ -13,14 +13,14 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import BoxBody, Cylinder, EllipsoidBody, MeshBody, Plate, Superellipsoid, SuperellipsoidBody, Triangles
+from bodies import BoxBody, Cylinder, EllipsoidBody, Plate, Superellipsoid, SuperellipsoidBody, TriangleMesh, Triangles
 from bodies.contacts.boxy_newton import place_on
 from bodies.contacts.smooth_newton import widest
 from bodies.inertia import tensor_of
 from bodies.shapes.support_function import boxy_gauge_of, support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.kernel import PLAIN
-from tests.bodies.carriers import Stand
+from tests.bodies.carriers import Rig, Stand
 from tests.bodies.meshes import parts
 
 Array = NDArray[np.float64]
@@ -125,13 +125,16 @@ def test_a_body_on_its_face_is_found_at_its_middle() -> None:
     np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.011, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
 
 
-def test_a_mesh_that_is_not_convex_takes_none() -> None:
-    """Its features are found by radii of curvature."""
-    mesh = MeshBody(Triangles(*parts.bracket()))
-    boxy = SuperellipsoidBody(0.01, 0.01, 0.01, 0.5, 0.5)
-    system = ns.System([mesh, boxy])
-    with pytest.raises(ns.InvalidInput, match="contact of a mesh must be with a body whose radii of curvature"):
-        system.contact(mesh, boxy, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.5))
+def test_it_finds_a_surface_that_is_not_convex(build: Any) -> None:
+    """In the inner corner of a bracket it has a contact with either wall, in the middle of a face."""
+    mesh, boxy = TriangleMesh(Triangles(*parts.bracket(), "bracket")), Superellipsoid(3e-3, 2e-3, 4e-3, 0.3, 0.5)
+    rig = Rig((mesh, boxy), build.laws())
+    upright = np.array([1.0, 0.0, 0.0, 0.0])
+    rig.put([(np.zeros(3), upright), (np.array([0.013, 0.012, 0.007]), upright)], np.zeros(12))
+    touching = rig.geometry[(np.abs(rig.geometry[:, 0]) < 1e-15) & (rig.geometry[:, 30] <= 0.0)]
+    np.testing.assert_allclose(sorted(touching[:, 1:4].tolist()), [[0, 1, 0], [1, 0, 0]], atol=1e-15)
+    points = sorted(touching[:, 7:10].tolist())
+    np.testing.assert_allclose(points, [[0.01, 0.012, 0.007], [0.013, 0.01, 0.007]], atol=1e-15)
 
 
 def _fall(body: Any, friction: Any, restitution: float, t_end: float, **start: Any) -> ns.Solution:
