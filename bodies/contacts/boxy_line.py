@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.boxy_newton import Answer, Point, place_on
+from bodies.contacts.boxy_newton import Answer, Point
+from bodies.contacts.chart import chart_of, start_of
 from bodies.contacts.smooth_core import Axes, back, forth
 from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
@@ -159,39 +160,45 @@ def nearest_to_line(
     ey: float,
     ez: float,
     sine: float,
-    point: Point,
+    normal: Point,
 ) -> Point:
-    """Return the point of a boxy core that a line sees, from the one that its normal gives.
+    """Return the point of a core that is not round that a line sees, from the outward normal of the line's body there.
 
     Along a flat place the normal says little of the point; with the lean of the normal along the line, it has to lie
     over it.  All in the axes of the line's body, ``foot`` on the line.
     """
-    px, py, pz = back(turn, point[0] - x, point[1] - y, point[2] - z)
+    norm, length = (core[0], core[1], core[2], core[3], core[4]), max(core[0], core[1], core[2])
     lx, ly, lz = back(turn, ex, ey, ez)
     fx, fy, fz = back(turn, foot[0] - x, foot[1] - y, foot[2] - z)
+    nx, ny, nz = back(turn, -normal[0], -normal[1], -normal[2])
+    w = start_of(norm, nx, ny, nz)
     for _ in range(_REFINEMENTS):
-        s = place_on(core, px, py, pz)
-        px, py, pz = s[0], s[1], s[2]
+        p, n, t, u, slide, way, w, along, beside = chart_of(norm, length, w[0], w[1], w[2])
         # across the line and the normal
-        ax, ay, az = ly * s[5] - lz * s[4], lz * s[3] - lx * s[5], lx * s[4] - ly * s[3]
-        wx, wy, wz = px - fx, py - fy, pz - fz
+        ax, ay, az = ly * n[2] - lz * n[1], lz * n[0] - lx * n[2], lx * n[1] - ly * n[0]
+        wx, wy, wz = p[0] - fx, p[1] - fy, p[2] - fz
         off = ax * wx + ay * wy + az * wz
-        lean = s[3] * lx + s[4] * ly + s[5] * lz
-        a1, a2 = ax * s[6] + ay * s[7] + az * s[8], ax * s[9] + ay * s[10] + az * s[11]
-        l1, l2 = lx * s[6] + ly * s[7] + lz * s[8], lx * s[9] + ly * s[10] + lz * s[11]
-        k1, k2 = s[12] * l1 + s[13] * l2, s[13] * l1 + s[14] * l2
+        lean = n[0] * lx + n[1] * ly + n[2] * lz
+        a1, a2 = ax * t[0] + ay * t[1] + az * t[2], ax * u[0] + ay * u[1] + az * u[2]
+        l1, l2 = lx * t[0] + ly * t[1] + lz * t[2], lx * u[0] + ly * u[1] + lz * u[2]
+        k1, k2 = slide[0] * l1 + slide[1] * l2, slide[1] * l1 + slide[2] * l2
         # as the normal turns, the line goes by at its distance along the normal
-        g = wx * s[3] + wy * s[4] + wz * s[5] - lean * (wx * lx + wy * ly + wz * lz)
+        g = wx * n[0] + wy * n[1] + wz * n[2] - lean * (wx * lx + wy * ly + wz * lz)
         g /= max(1.0 - lean * lean, _ROUND_OFF)
-        b1, b2 = a1 - g * (s[12] * a1 + s[13] * a2), a2 - g * (s[13] * a1 + s[14] * a2)
+        b1 = (way[0] - g * slide[0]) * a1 + (way[1] - g * slide[1]) * a2
+        b2 = (way[1] - g * slide[1]) * a1 + (way[2] - g * slide[2]) * a2
         determinant = b1 * k2 - b2 * k1
         if determinant == 0.0:
             break
         tilt = lean + sine
         i, j = (b2 * tilt - k2 * off) / determinant, (k1 * off - b1 * tilt) / determinant
-        if abs(i) + abs(j) > _ASTRAY * max(core[0], core[1], core[2]):
+        if abs(i) + abs(j) > _ASTRAY * length:
             break
-        px, py, pz = px + i * s[6] + j * s[9], py + i * s[7] + j * s[10], pz + i * s[8] + j * s[11]
-    s = place_on(core, px, py, pz)
-    px, py, pz = forth(turn, s[0], s[1], s[2])
+        w = (
+            w[0] + i * along[0] + j * beside[0],
+            w[1] + i * along[1] + j * beside[1],
+            w[2] + i * along[2] + j * beside[2],
+        )
+    p, _, _, _, _, _, _, _, _ = chart_of(norm, length, w[0], w[1], w[2])
+    px, py, pz = forth(turn, p[0], p[1], p[2])
     return x + px, y + py, z + pz

@@ -15,7 +15,7 @@ from bodies.contacts.frustum import HIGH_CAP, HIGH_RIM
 from bodies.contacts.smooth_core import Axes, back, bend, forth
 from bodies.contacts.smooth_newton import widest_of_round
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN
-from bodies.shapes.support_function import is_boxy, support_of
+from bodies.shapes.support_function import is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -68,10 +68,10 @@ def on_flank(
     reach = cosine * frustum[0] + sine * frustum[LOW]
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
-    if is_boxy(core):
+    if not is_round(core):
         g, px, py, pz, nx, ny, nz = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
-        axis, near_by = (0.0, 0.0, 0.0), (px, py, pz)
-        px, py, pz = nearest_to_line(core, turn, x, y, z, axis, 0.0, 0.0, 1.0, sine, near_by)
+        axis, normal = (0.0, 0.0, 0.0), (nx, ny, nz)
+        px, py, pz = nearest_to_line(core, turn, x, y, z, axis, 0.0, 0.0, 1.0, sine, normal)
     else:
         g, px, py, pz, nx, ny, nz = _on_round_flank(frustum, core, turn, x, y, z, ex, ey, near)
     if not _before_flank(frustum, near, (g, px, py, pz, nx, ny, nz)):

@@ -50,7 +50,7 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import REACH
-from bodies.shapes.support_function import is_boxy, support_of
+from bodies.shapes.support_function import is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -62,10 +62,10 @@ Aim: TypeAlias = tuple[float, float, float, float]
 
 @compiled
 def _extent(core: Floats) -> float:
-    """Return a bound of the distance of the farthest point from the centre, of a boxy core the corner of a box."""
-    if is_boxy(core):
-        return math.sqrt(core[0] * core[0] + core[1] * core[1] + core[2] * core[2])
-    return float(max(core[0], core[1], core[2]) + core[RADIUS])
+    """Return a bound of the distance of the farthest point from the centre, with flat places the corner of a box."""
+    if is_round(core):
+        return float(max(core[0], core[1], core[2]) + core[RADIUS])
+    return math.sqrt(core[0] * core[0] + core[1] * core[1] + core[2] * core[2])
 
 
 @compiled
@@ -287,11 +287,11 @@ def evaluate_surface_smooth(
             # it is farther inside than any contact, which is a sign that one was passed
             gap = -depth - _extent(second)
     px, py, pz = _point_against(second, turn, (x, y, z), (nx, ny, nz))
-    if kind == ON_EDGE and is_boxy(second):
+    if kind == ON_EDGE and not is_round(second):
         e = int(surface[EDGES]) + EDGE * number
         ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
         foot = (surface[e], surface[e + 1], surface[e + 2])
-        px, py, pz = nearest_to_line(second, turn, x, y, z, foot, ex, ey, ez, 0.0, (px, py, pz))
+        px, py, pz = nearest_to_line(second, turn, x, y, z, foot, ex, ey, ez, 0.0, (nx, ny, nz))
     # the patch of a surface that has one only does not end
     out[0], out[30] = gap, past if surface[N_PATCHES] > 1.0 or depth > 0.0 else 0.0
     out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)

@@ -117,6 +117,13 @@ def boxy(rng: Generator) -> ConvexShape:
     return Superellipsoid(*_sizes(rng), *rng.uniform(0.2, 0.9, 2).tolist(), **_place(rng))
 
 
+def mixed(rng: Generator) -> ConvexShape:
+    """Return a superellipsoid with flat places along its third axis and sharp ones across, or the other way round."""
+    exponents = [float(rng.uniform(0.2, 0.9)), float(rng.uniform(1.1, 1.5))]
+    along, across = exponents if rng.uniform() < 0.5 else exponents[::-1]
+    return Superellipsoid(*_sizes(rng), along, across, **_place(rng))
+
+
 def sphere(rng: Generator) -> ConvexShape:
     """Return a sphere."""
     return Sphere(float(rng.uniform(_SMALL, _LARGE)), *rng.uniform(-2e-3, 2e-3, 3).tolist())
@@ -263,10 +270,20 @@ PAIRS: dict[str, tuple[Callable[[Generator], Touch], Callable[[Generator], Conve
     "superellipsoid-ellipsoid": (anywhere(superellipsoid), ellipsoid),
     "superellipsoid-superellipsoid": (anywhere(superellipsoid), superellipsoid),
     "plane-boxy": (on_plane, boxy),
+    "plane-mixed": (on_plane, mixed),
     "boxy-sphere": (anywhere(boxy), sphere),
     "boxy-ellipsoid": (anywhere(boxy), ellipsoid),
     "boxy-superellipsoid": (anywhere(boxy), superellipsoid),
     "boxy-boxy": (anywhere(boxy), boxy),
+    **{f"mixed-{name}": (anywhere(mixed), draw) for name, draw in SMOOTH.items()},
+    "mixed-mixed": (anywhere(mixed), mixed),
+    **{f"box-mixed, {part}": (on(box, part), mixed) for part in PARTS},
+    **{
+        f"{kind}-mixed, {part}": (on_round(touched, part), mixed)
+        for kind, (touched, parts) in ROUND.items()
+        for part in parts
+    },
+    "capsule-mixed": (on_capsule, mixed),
     **{f"box-{name}, {part}": (on(box, part), draw) for name, draw in SMOOTH.items() for part in PARTS},
     **{f"hull-{name}, {part}": (on(hull, part), draw) for name, draw in SMOOTH.items() for part in PARTS},
     **{

@@ -88,7 +88,9 @@ def _round(rng: Generator, kind: str) -> Round:
         return Sphere(float(rng.uniform(5e-4, 4e-3)), *rng.uniform(-2e-3, 2e-3, 3).tolist())
     if kind == "ellipsoid":
         return Ellipsoid(*sizes)
-    return Superellipsoid(*sizes, *rng.uniform(*((0.2, 0.9) if kind == "boxy" else (1.1, 1.5)), 2).tolist())
+    low, high = rng.uniform(0.2, 0.9, 2).tolist(), rng.uniform(1.1, 1.5, 2).tolist()
+    exponents = {"superellipsoid": high, "boxy": low, "mixed": [low[0], high[0]]}[kind]
+    return Superellipsoid(*sizes, *exponents)
 
 
 def _least_radius(shape: Round, n: Array) -> float:
@@ -162,7 +164,7 @@ def _with_box(part: str, other_part: str) -> Callable[[float, Generator], Known]
 MESHES: dict[str, Callable[[float, Generator], Known]] = {
     **{
         f"mesh-{kind}, {part}": _with_round(kind, part)
-        for kind in ("sphere", "ellipsoid", "superellipsoid", "boxy")
+        for kind in ("sphere", "ellipsoid", "superellipsoid", "boxy", "mixed")
         for part in ("face", "edge", "vertex")
     },
     "mesh-box, face and vertex": _with_box("face", "vertex"),

@@ -37,6 +37,8 @@ SHAPES: dict[str, ConvexShape] = {
     "ellipsoid": Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES),
     "superellipsoid": Superellipsoid(0.2, 0.35, 0.5, 1.5, 1.2, **PLACE, **AXES),
     "boxy superellipsoid": Superellipsoid(0.2, 0.35, 0.5, 0.6, 0.8, **PLACE, **AXES),
+    "mixed superellipsoid": Superellipsoid(0.2, 0.35, 0.5, 0.6, 1.3, **PLACE, **AXES),
+    "superellipsoid mixed the other way": Superellipsoid(0.2, 0.35, 0.5, 1.3, 0.6, **PLACE, **AXES),
     "rounded superellipsoid": Superellipsoid(0.2, 0.35, 0.3, 1.4, 1.3, 0.1, **PLACE, **AXES),
     "rounded ellipsoid": Superellipsoid(0.2, 0.35, 0.3, rounding=0.1, **PLACE, **AXES),
 }

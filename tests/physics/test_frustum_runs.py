@@ -118,6 +118,7 @@ COLLIDING: dict[str, tuple[FreeBody, FreeBody]] = {
     "disc and ellipsoid": (DiscBody(0.05), EllipsoidBody(0.02, 0.02, 0.03)),
     "cylinder and boxy superellipsoid": (CylinderBody(0.03, 0.05), SuperellipsoidBody(0.03, 0.04, 0.05, 0.5, 0.7)),
     "cone and boxy superellipsoid": (ConeBody(0.04, 0.07), SuperellipsoidBody(0.03, 0.04, 0.05, 0.3, 0.6)),
+    "cylinder and mixed superellipsoid": (CylinderBody(0.03, 0.05), SuperellipsoidBody(0.03, 0.04, 0.05, 0.5, 1.3)),
     "disc and boxy superellipsoid": (DiscBody(0.05), SuperellipsoidBody(0.02, 0.02, 0.03, 0.4, 0.4)),
 }
 

@@ -177,9 +177,10 @@ def test_brackets_collide_without_passing_into_each_other(
         Ellipsoid(6e-3, 4e-3, 9e-3),
         Superellipsoid(6e-3, 4e-3, 9e-3, 1.5, 1.2),
         Superellipsoid(6e-3, 4e-3, 7e-3, 0.4, 0.6),
+        Superellipsoid(6e-3, 4e-3, 7e-3, 1.3, 0.6),
         Capsule(3e-3, 8e-3),
     ],
-    ids=["Sphere", "Ellipsoid", "Superellipsoid", "boxy", "Capsule"],
+    ids=["Sphere", "Ellipsoid", "Superellipsoid", "boxy", "mixed", "Capsule"],
 )
 def test_round_bodies_collide_with_a_bracket(build: Any, shape: Shape) -> None:
     """Momentum and energy are kept."""
