@@ -120,8 +120,8 @@ def boxy(rng: Generator) -> ConvexShape:
 def mixed(rng: Generator) -> ConvexShape:
     """Return a superellipsoid with flat places along its third axis and sharp ones across, or the other way round."""
     exponents = [float(rng.uniform(0.2, 0.9)), float(rng.uniform(1.1, 1.5))]
-    along, across = exponents if rng.uniform() < 0.5 else exponents[::-1]
-    return Superellipsoid(*_sizes(rng), along, across, **_place(rng))
+    (a, b, c), (along, across) = _sizes(rng), exponents if rng.uniform() < 0.5 else exponents[::-1]
+    return Superellipsoid(a, b, c, along, across, **_place(rng))
 
 
 def sphere(rng: Generator) -> ConvexShape:
