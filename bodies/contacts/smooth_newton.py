@@ -21,8 +21,8 @@ _DEEP = 1e-2
 _TOUCHING = 1e-12
 """Overlap, in units of the distance of the centres, that is not asked for a proof."""
 
-_PARTS, _MORE_PARTS = 4, 24
-"""Steps of the powers on the way from ellipsoids where the direct way fails, and where these do."""
+_PARTS = 24
+"""Steps of the powers on the way from ellipsoids where all direct ways fail."""
 _SAMPLES = 8
 """Parts of the way between the points of an answer at whose ends a point of both is looked for."""
 _NOWHERE = 1e-300
@@ -49,8 +49,6 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
         The second core's centre from the first's [m].
     """
     best: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
-    if best[0] != best[0] and (is_mixed(first) or is_mixed(second)):
-        best = _in_charts(first, second, turn, x, y, z, x, y, z, _MORE_PARTS)
     overlap = _share_a_point(first, second, turn, x, y, z, best)
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
         return best
@@ -65,6 +63,13 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
             if best[0] >= 0.0:
                 return best
         overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
+    if (best[0] != best[0] or not overlap) and (is_mixed(first) or is_mixed(second)):
+        last: Answer = _in_charts(first, second, turn, x, y, z, x, y, z, _PARTS)
+        overlap = overlap or _share_a_point(first, second, turn, x, y, z, last)
+        if last[0] == last[0] and not best[0] >= last[0]:
+            best = last
+            if best[0] >= 0.0:
+                return best
     if not overlap:
         return math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
     return best
@@ -105,7 +110,7 @@ def _from_start(
 ) -> Answer:
     """Return the same from one direction to begin with."""
     if is_mixed(first) or is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, _PARTS)
+        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, 0)
         return mixed
     if is_boxy(first):
         if is_boxy(second):
@@ -140,7 +145,7 @@ def widest_of_round(
 ) -> Answer:
     """Return the same where the first core is not boxy; it may be a point, or flat, if the second is not."""
     if is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, _PARTS)
+        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, 0)
         return mixed
     if is_boxy(second):
         other = first[0], first[1], first[2], first[3], first[4]
@@ -224,7 +229,7 @@ def widest_from(
         point = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)
         g, _, _, _, nx, ny, nz = widest_of_round(point, core, turn, x, y, z, start_x, start_y, start_z)
         if g != g and is_mixed(core):
-            g, _, _, _, nx, ny, nz = _in_charts(point, core, turn, x, y, z, start_x, start_y, start_z, _MORE_PARTS)
+            g, _, _, _, nx, ny, nz = _in_charts(point, core, turn, x, y, z, start_x, start_y, start_z, _PARTS)
         return g, nx, ny, nz
     along = start_x * along_x + start_y * along_y + start_z * along_z
     nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z
