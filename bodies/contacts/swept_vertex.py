@@ -20,7 +20,7 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-END = 1e-8
+END = 3e-10
 """So far before its end, in units of the size of the bodies, an edge gives its contact to the vertex, and the vertex
 gives it back after twice that way: neither none of them is closed nor both of them for long."""
 NEAR = 1e-6

@@ -7,7 +7,7 @@ Every contact has two guards, positive while its mode is valid:
   bound, sliding, the slip velocity along its direction at the start of the step.
 
 Behind them stand the scenario's own, whatever the modes, and one more of every contact: closed, the way left to the end
-of its features, or, where they do not end, whether they are still the same.
+of its features, negative if they are not the same any more.
 
 An event lies in the half-open interval t0 < t* <= t1 of a step.  Of a guard that starts from zero (a gap
 just after an impact, a slip just begun) the growth from there is taken, divided by the elapsed time, so that its
@@ -33,11 +33,12 @@ _LATE = 2.0
 
 @kernel("f8(S, F, I, i8)")
 def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
-    """Return the way left to the end of the features of a closed contact, -1 if it has other ones than at the start."""
+    """Return the way left to the end of the features of a closed contact, negative if it has other ones than before."""
     block = S.geometry + GEOMETRY * c
-    if w[block + PAST_END] != 0.0:
-        return float(_LATE * S.gap_tolerance - w[block + PAST_END])
-    return 1.0 if k[S.feature + c] < 0 or int(w[block + FEATURE]) == k[S.feature + c] else -1.0
+    left = _LATE * S.gap_tolerance - w[block + PAST_END] if w[block + PAST_END] != 0.0 else 1.0
+    if left < 0.0 or k[S.feature + c] < 0 or int(w[block + FEATURE]) == k[S.feature + c]:
+        return float(left)
+    return float(-left)
 
 
 @kernel("void(S, F, I)")

@@ -267,19 +267,19 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if h < 0.0:
         if S.h < _NO_STEP * S.time_tolerance:
             return STEP_TOO_SMALL
-        S.h_closed = 0.25 * S.h
+        if S.n_grouped > 0:
+            S.h_closed = 0.25 * S.h
+        else:
+            S.h_free = 0.25 * S.h
         return RUNNING
     ends = 2 * S.n_contacts + S.n_own_guards
     if S.trigger >= ends:
         contact = S.trigger - ends
-        changed = w[S.geometry + GEOMETRY * contact + PAST_END] == 0.0
+        changed = w[S.geometry + GEOMETRY * contact + PAST_END] <= S.gap_tolerance
         _commit(S, w, k, h)
         if changed:
             S.feature_t = S.t
-            remember(S, w, k)
-            record_event(S, w, k, FEATURE_CHANGE, contact, 0)
-            return RUNNING
-        return _settle_event(S, w, k, FEATURE_END, contact)
+        return _settle_event(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, contact)
     if S.trigger >= 2 * S.n_contacts:
         _commit(S, w, k, h)
         return _own_event(S, w, k, S.trigger - 2 * S.n_contacts)

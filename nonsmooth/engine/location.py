@@ -32,6 +32,12 @@ _FEW_ROOTS = 4
 """After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
 _SAMPLES = 8
 """Parts of half a step, or of the way to an event, at whose ends it is asked whether features face each other."""
+_JUMP = 1e-3
+"""A guard of which this part of the start value is left next to its root jumps."""
+_WAYS = 14
+"""So often the way behind a jump is doubled, from a part of the time tolerance on, until the jump is passed."""
+_FINE = 0.01
+"""Part of the time tolerance to which roots are found."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -262,9 +268,9 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
 
     Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.  The guards are left
-    evaluated there, the slope of guard ``i`` in ``guard_slope``.
+    evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where the guard jumps.
     """
-    fine = 0.01 * S.time_tolerance
+    fine = _FINE * S.time_tolerance
     low, g_low = 0.0, w[S.guard_first + i]
     g_high = w[S.guard + i]
     S.guard_slope = 0.0
@@ -279,6 +285,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             high, g_high = low, g_low
             low, g_low = 0.0, w[S.guard_first + i]
             break
+    left = g_first = abs(g_low)
     theta = high - g_high * (high - low) / (g_high - g_low)
     theta_before, g_before = high, g_high
     for _iteration in range(100):
@@ -291,7 +298,14 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             if k[S.guard_deflated + i] == 1:
                 S.guard_slope = (S.guard_slope - g) / (theta * h)
         if g == 0.0 or (high - low) * h <= fine or abs(g) <= -fine * S.guard_slope:
-            return theta
+            left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
+            if left <= _JUMP * g_first or span * h > S.time_tolerance or is_gap(S, w, k, i) == 1:
+                return theta
+            S.guard_slope = -math.inf
+            if g <= 0.0:
+                return theta
+            guards_within(S, w, k, h, high, forces)
+            return high
         if g < 0.0:
             ratio = 1.0 - g / g_high
             g_low *= ratio if ratio > 0.0 else 0.5
@@ -300,6 +314,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             ratio = 1.0 - g / g_low
             g_high *= ratio if ratio > 0.0 else 0.5
             low, g_low = theta, g
+            left = g
         following = high - g_high * (high - low) / (g_high - g_low)
         if is_gap(S, w, k, i) == 1 and S.guard_slope < 0.0:
             newton = theta - g / (S.guard_slope * h)
@@ -307,6 +322,25 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
                 following = newton
         theta = following
     return theta
+
+
+@kernel("f8(S, F, I, f8)")
+def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
+    """Step to right behind the jump of the guard ``trigger`` that the interpolant has at ``step``; return the step."""
+    S.h = step
+    if not try_step(S, w, k, step) <= _TRUSTED:
+        return -1.0
+    way = _FINE * S.time_tolerance
+    for _doubling in range(_WAYS):
+        evaluate_guards(S, w, k, S.t + step, S.y_new, step, 1)
+        if w[S.guard + S.trigger] < 0.0:
+            return step
+        # so short a way is straight
+        for j in range(S.n_y):
+            w[S.y_new + j] += way * w[S.slopes + 6 * S.n_y + j]
+        step += way
+        way *= 2.0
+    return -1.0
 
 
 @room("f8(S, F, I, f8, f8)")
@@ -328,8 +362,12 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         if closed == 1 and roots > _FEW_ROOTS and w[S.guard_first + first] < 0.0:
             return -1.0
         roots += 1
+        later = theta
+        theta = _root(S, w, k, h, later, first, closed)
+        if roots > 1 and S.guard_slope == -math.inf and (later - theta) * h <= S.time_tolerance:
+            # it jumps where the one before does
+            break
         S.trigger = first
-        theta = _root(S, w, k, h, theta, first, closed)
         first = first_fired(S, w, k, closed, S.trigger)
         if first < 0 and _may_face(S, w, k, h) == 1:
             earlier = _sampled(S, w, k, h, 0.0, theta)
@@ -344,6 +382,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     if S.step_error <= _NEGLIGIBLE or jumps == 1:
         dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
         return step
+    if S.guard_slope == -math.inf:
+        return _behind_jump(S, w, k, step)
     for _iteration in range(10):
         S.h = step
         if not try_step(S, w, k, step) <= _TRUSTED:

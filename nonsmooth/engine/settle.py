@@ -24,6 +24,7 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates, row
 from nonsmooth.engine.modes import (
     CLOSING,
+    FEATURE_CHANGE,
     IMPACT,
     IMPACT_ENDLESS,
     JAM,
@@ -48,6 +49,9 @@ from nonsmooth.model.layout import GEOMETRY, PAST_END
 
 _ATTEMPTS = 200
 _PAINLEVE_ATTEMPTS = 5
+_PROJECTIONS = 2
+_SLOW = 100.0
+"""A slip of so many velocity tolerances may be turned by a projection."""
 _FACINGS = 20
 """So often friction may be found to oppose the other way."""
 
@@ -305,6 +309,20 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("i8(S, F, I)")
+def _join(S: Scalars, w: Floats, k: Integers) -> int:
+    """Close the contacts at rest that closing others makes approach, which is no collision; return how many."""
+    touch(S, w, k)
+    joining = 0
+    for c in range(S.n_contacts):
+        rigid = k[S.normal_function + c] == 0
+        if rigid and k[S.touching + c] == 1 and k[S.member + c] == 0 and w[S.rate + 3 * c] < -S.velocity_tolerance:
+            joining += 1
+            k[S.member + c] = 1
+            k[S.mode + c] = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
+    return joining
+
+
+@kernel("i8(S, F, I)")
 def _close(S: Scalars, w: Floats, k: Integers) -> int:
     """Close the contacts whose bounces have become shorter than their contact time, Eq. (33); return how many."""
     closing = 0
@@ -329,23 +347,38 @@ def _close(S: Scalars, w: Floats, k: Integers) -> int:
     # contacts that close here and those of their island that rest take the step together, the others are left alone
     for c in range(S.n_contacts):
         k[S.member + c] = 1 if k[S.touching + c] == 1 and k[S.mode + c] != OPEN else 0
-    group_members(S, w, k)
     before = S.driven_work
     w[S.event_head + 4] = 0.0
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        w[S.event_head + 4] += project_rates(S, w, k, 1)
+    for _round in range(S.n_contacts):
+        group_members(S, w, k)
+        for group in range(S.n_groups):
+            activate_group(S, w, k, group)
+            w[S.event_head + 4] += project_rates(S, w, k, 1)
+        if _join(S, w, k) == 0:
+            break
     w[S.event_head + 1] = S.driven_work - before
     S.closing_loss += w[S.event_head + 4]
     record_event(S, w, k, CLOSING, contact, 0)
     return closing
 
 
+@kernel("i8(S, F, I)")
+def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if one of several closed contacts slips so slowly that projecting the others may turn its slip."""
+    closed = creeping = 0
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN and k[S.normal_function + c] == 0:
+            closed += 1
+            if k[S.mode + c] == SLIDE and _speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
+                creeping += 1
+    return 1 if closed > 1 and creeping > 0 else 0
+
+
 @room("i8(S, F, I, i8, i8)")
 def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     """Carry the system through an instant that ``contact`` makes one by ``cause``; return the status."""
     S.recorded = 0
-    resting = 0
+    resting = projected = 0
     approaching = touch(S, w, k)
     if cause == JAM:
         if S.policy == REFUSE:
@@ -382,8 +415,12 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
             continue
         _adopt(S, w, k)
         if _close(S, w, k) == 0:
-            _finish(S, w, k, cause, contact)
-            return RUNNING
+            if _creeps(S, w, k) == 0 or projected == _PROJECTIONS:
+                _finish(S, w, k, cause, contact)
+                return RUNNING
+            # what brings others to rest may turn so slow a slip, and modes follow from its direction
+            projected += 1
+            S.closing_loss += project_closed(S, w, k, 1)
         approaching = touch(S, w, k)
     return SETTLE_ENDLESS
 
@@ -411,5 +448,5 @@ def _finish(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
     for c in range(S.n_contacts):
         if code(S, w, k, c) != k[S.code_before + c]:
             changed = 1
-    if changed == 1 or cause == 0:
+    if changed == 1 or cause == 0 or cause == FEATURE_CHANGE:
         record_event(S, w, k, cause, contact, 0)

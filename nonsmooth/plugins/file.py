@@ -74,7 +74,10 @@ def load(thing: str, bases: tuple[type, ...], word: str, folder: Path | None = N
     ]
     if name not in vars(module):
         raise UnknownName(f"{thing}: class of {path.name}", name, known)
-    return registry.check_class(f"{thing}: {name} of {path}", vars(module)[name], bases)
+    found = registry.fault(vars(module)[name], bases)
+    if found is not None:
+        raise PluginError(f"{thing}: {name} of {path} {found}")
+    return vars(module)[name]
 
 
 def _fits(owner: type, bases: tuple[type, ...]) -> bool:

@@ -7,7 +7,7 @@ import functools
 import importlib.util
 import inspect
 import warnings
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import Distribution, EntryPoint, entry_points
 from pathlib import Path
 from typing import Any
 
@@ -76,12 +76,18 @@ def _points(group: str) -> dict[str, EntryPoint]:
     return dict(sorted(found.items()))
 
 
+@functools.cache
+def _name_and_version(distribution: Distribution) -> tuple[str, str]:
+    # either of them reads and parses a file
+    return distribution.name, distribution.version
+
+
 def _is_ours(point: EntryPoint) -> bool:
-    return point.dist is not None and point.dist.name == "nonsmooth"
+    return point.dist is not None and _name_and_version(point.dist)[0] == "nonsmooth"
 
 
 def _distribution(point: EntryPoint) -> str:
-    return f"{point.dist.name} {point.dist.version}" if point.dist else "unknown distribution"
+    return " ".join(_name_and_version(point.dist)) if point.dist else "unknown distribution"
 
 
 def _origin(point: EntryPoint) -> str:
@@ -129,26 +135,24 @@ def load(group: str, name: str) -> Any:
     except Exception as error:
         reason = f"{type(error).__name__}: {error}"
         raise PluginError(" ".join([f"{_title(group, name)} cannot be loaded: {reason}.", *_hidden()])) from error
-    return check_class(_title(group, name), loaded, GROUPS[group])
+    # the title reads the files of the distribution, for which there is no time at every contact
+    found = fault(loaded, GROUPS[group])
+    if found is not None:
+        raise PluginError(f"{_title(group, name)} {found}")
+    return loaded
 
 
-def check_class(title: str, loaded: Any, bases: tuple[type, ...]) -> Any:
-    """Return what a plug-in gives, if it is a class that can be used.
-
-    Raises
-    ------
-    PluginError
-        If it is not a subclass of one of the bases, lacks a part of its interface, or is no dataclass.
-    """
+def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:
+    """Return why what a plug-in gives cannot be used: None if it is a dataclass that implements one of the bases."""
     if not (isinstance(loaded, type) and issubclass(loaded, bases)):
         wanted = " or ".join(base.__name__ for base in bases)
-        raise PluginError(f"{title} must be a subclass of {wanted}, not {loaded!r}.")
+        return f"must be a subclass of {wanted}, not {loaded!r}."
     if inspect.isabstract(loaded):
         missing = ", ".join(sorted(vars(loaded)["__abstractmethods__"]))
-        raise PluginError(f"{title} must define {missing}.")
+        return f"must define {missing}."
     if "__dataclass_fields__" not in vars(loaded):
-        raise PluginError(f"{title} must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}.")
-    return loaded
+        return f"must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}."
+    return None
 
 
 def _title(group: str, name: str) -> str:

@@ -88,7 +88,7 @@ def _stopped_by_springs(friction: float, stiffness: float) -> tuple[float, float
     y, z = arm(TILT)
     sunk = GRAVITY / (1.0 / mass + y * (y - friction * z) / inertia) / stiffness
     start = [-z - sunk, TILT, -1.0, 0.0, 0.0]
-    done = solve_ivp(slope, (0.0, 1e-3), start, method="DOP853", events=slip, rtol=1e-10, atol=1e-14)
+    done = solve_ivp(slope, (0.0, 1e-3), start, method="DOP853", events=slip, rtol=1e-8, atol=1e-14)
     assert len(done.t_events[0]) == 1
     return float(done.y[2, -1]), float(done.y[3, -1])
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -52,6 +53,17 @@ def test_every_built_in_loads(group: str) -> None:
         loaded = registry.load_all(group)
     assert tuple(loaded) == registry.names(group)
     assert all(issubclass(owner, registry.GROUPS[group]) for owner in loaded.values())
+
+
+def test_what_is_known_is_loaded_without_reading_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every contact of a system asks for all kinematics: to parse a distribution each time would take most of it."""
+    known = registry.load_all("kinematics")
+
+    def read(*_: object) -> None:
+        raise AssertionError("the metadata of a distribution is read again")
+
+    monkeypatch.setattr(importlib.metadata.Distribution, "metadata", property(read))
+    assert registry.load_all("kinematics") == known
 
 
 def test_a_plug_in_is_found_with_its_source(install: Install) -> None:
