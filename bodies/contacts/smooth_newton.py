@@ -134,8 +134,14 @@ def _in_charts(
     g, px, py, pz, nx, ny, nz = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
     if g == g:
         g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, nx, ny, nz, 0)
-    if g != g:
-        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, sx, sy, sz, parts)
+    for last in range(2):
+        if g >= -_DEEP * _thickness(first, second):
+            break
+        # none, or perhaps a way out that is longer than another
+        wx, wy, wz = (x, y, z) if last == 1 and x * x + y * y + z * z > 0.0 else (sx, sy, sz)
+        more, ax, ay, az, bx, by, bz = meet_in_charts(norm, other, turn, x, y, z, wx, wy, wz, last * parts)
+        if more == more and not g >= more:
+            g, px, py, pz, nx, ny, nz = more, ax, ay, az, bx, by, bz
     return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
 
 
@@ -145,7 +151,7 @@ def widest_of_round(
 ) -> Answer:
     """Return the same where the first core is not boxy; it may be a point, or flat, if the second is not."""
     if is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, 0)
+        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, _PARTS)
         return mixed
     if is_boxy(second):
         other = first[0], first[1], first[2], first[3], first[4]
@@ -228,8 +234,6 @@ def widest_from(
     if along_x == 0.0 and along_y == 0.0 and along_z == 0.0:
         point = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)
         g, _, _, _, nx, ny, nz = widest_of_round(point, core, turn, x, y, z, start_x, start_y, start_z)
-        if g != g and is_mixed(core):
-            g, _, _, _, nx, ny, nz = _in_charts(point, core, turn, x, y, z, start_x, start_y, start_z, _PARTS)
         return g, nx, ny, nz
     along = start_x * along_x + start_y * along_y + start_z * along_z
     nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z
