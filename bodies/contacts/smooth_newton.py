@@ -135,13 +135,10 @@ def _in_charts(
     if g == g:
         g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, nx, ny, nz, 0)
     for last in range(2):
-        if g >= -_DEEP * _thickness(first, second):
+        if g == g:
             break
-        # none, or perhaps a way out that is longer than another
         wx, wy, wz = (x, y, z) if last == 1 and x * x + y * y + z * z > 0.0 else (sx, sy, sz)
-        more, ax, ay, az, bx, by, bz = meet_in_charts(norm, other, turn, x, y, z, wx, wy, wz, last * parts)
-        if more == more and not g >= more:
-            g, px, py, pz, nx, ny, nz = more, ax, ay, az, bx, by, bz
+        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, wx, wy, wz, parts if last == 1 else 4)
     return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
 
 
