@@ -20,7 +20,6 @@ from bodies.contacts.mesh_point import MeshPoint
 from bodies.contacts.mesh_smooth import MeshSmooth
 from bodies.contacts.mesh_sphere import MeshSphere
 from bodies.contacts.mesh_swept import MeshSwept
-from bodies.contacts.plane_box import PlaneBox
 from bodies.contacts.plane_capsule import PlaneCapsule
 from bodies.contacts.plane_ellipsoid import PlaneEllipsoid
 from bodies.contacts.plane_frustum import PlaneFrustum

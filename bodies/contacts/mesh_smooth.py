@@ -9,9 +9,9 @@ from typing import ClassVar, final
 from bodies.contacts.surface_smooth import evaluate_surface_smooth
 from bodies.contacts.surface_tables import Numbers, surface_numbers
 from bodies.meshes.patches import patches_for_body
+from bodies.shapes.smooth import extent
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 
@@ -44,24 +44,11 @@ class MeshSmooth(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[MeshSmooth, ...]:
-        """Return one contact for each patch.
-
-        Raises
-        ------
-        InvalidInput
-            If the smooth body is boxy.
-        """
+        """Return one contact for each patch."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, SmoothShape)
-        if second.boxy:
-            raise InvalidInput(
-                "contact of a mesh",
-                "must be with a body whose radii of curvature are finite",
-                type(second).__name__,
-                "Give the superellipsoid exponents from 1, or cut the mesh into convex pieces.",
-            )
         own = first.features
-        patches = patches_for_body(own, 2.0 * (max(second.core[:3]) + second.core[5]))
+        patches = patches_for_body(own, 2.0 * extent(second.core))
         surface = surface_numbers(own, patches)
         counts = len(own.planes), len(own.edges), len(own.corners)
         return tuple(cls(surface, patch, second, counts) for patch in range(patches.count))

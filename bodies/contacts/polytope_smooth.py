@@ -18,7 +18,7 @@ from bodies.contacts.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LO
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest_from, write_surface
 from bodies.contacts.tangents import write_tangent
-from bodies.shapes.support_function import gauge_of, is_boxy, support_of
+from bodies.shapes.support_function import gauge_of, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -278,16 +278,16 @@ def _feature(hull: Floats, kind: int, number: int) -> int:
 
 @compiled
 def _over(
-    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, number: int, g: float, n: Point, near: Point
+    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, number: int, g: float, n: Point
 ) -> Point:
-    """Return the point of a boxy body over an edge or a vertex, edges first, which the normal may not tell well."""
+    """Return the point of a flat body over an edge or a vertex, edges first, which the normal may not tell well."""
     n_edges = int(hull[COUNTS + 1])
     if number >= n_edges:
         vx, vy, vz = _vertex(hull, number - n_edges)
         return vx + g * n[0], vy + g * n[1], vz + g * n[2]
     foot = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * number]))
     ex, ey, ez, _ = _edge(hull, number)
-    px, py, pz = nearest_to_line(core, turn, x, y, z, foot, ex, ey, ez, near)
+    px, py, pz = nearest_to_line(core, turn, x, y, z, foot, ex, ey, ez, 0.0, n)
     s = (px - foot[0]) * ex + (py - foot[1]) * ey + (pz - foot[2]) * ez
     return foot[0] + s * ex + g * n[0], foot[1] + s * ey + g * n[1], foot[2] + s * ez + g * n[2]
 
@@ -304,8 +304,8 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     g, nx, ny, nz, feature = _nearest(first, second, turn, x, y, z)
     px, py, pz = _point_along(second, turn, x, y, z, nx, ny, nz)
     n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
-    if is_boxy(second) and feature >= n_faces:
-        px, py, pz = _over(first, second, turn, x, y, z, feature - n_faces, g, (nx, ny, nz), (px, py, pz))
+    if feature >= n_faces and not is_round(second):
+        px, py, pz = _over(first, second, turn, x, y, z, feature - n_faces, g, (nx, ny, nz))
     out[0] = g - first[RADIUS] - second[RADIUS]
     out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
     out[10], out[11], out[12] = point_in_world(a, px, py, pz)

@@ -7,9 +7,11 @@ import math
 from bodies.contacts.boxy_line import across_line
 from bodies.contacts.boxy_newton import Answer, climb_boxy, write_boxy
 from bodies.contacts.boxy_pair import meet
+from bodies.contacts.chart import write_chart
+from bodies.contacts.chart_newton import meet_in_charts
 from bodies.contacts.dual_newton import climb
 from bodies.contacts.smooth_core import Axes, back, forth, write_core
-from bodies.shapes.support_function import gauge_of, is_boxy, support_of
+from bodies.shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -19,6 +21,8 @@ _DEEP = 1e-2
 _TOUCHING = 1e-12
 """Overlap, in units of the distance of the centres, that is not asked for a proof."""
 
+_PARTS = 24
+"""Steps of the powers on the way from ellipsoids where all direct ways fail."""
 _SAMPLES = 8
 """Parts of the way between the points of an answer at whose ends a point of both is looked for."""
 _NOWHERE = 1e-300
@@ -59,6 +63,13 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
             if best[0] >= 0.0:
                 return best
         overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
+    if (best[0] != best[0] or not overlap) and (is_mixed(first) or is_mixed(second)):
+        last: Answer = _in_charts(first, second, turn, x, y, z, x, y, z, _PARTS)
+        overlap = overlap or _share_a_point(first, second, turn, x, y, z, last)
+        if last[0] == last[0] and not best[0] >= last[0]:
+            best = last
+            if best[0] >= 0.0:
+                return best
     if not overlap:
         return math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
     return best
@@ -98,6 +109,9 @@ def _from_start(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
     """Return the same from one direction to begin with."""
+    if is_mixed(first) or is_mixed(second):
+        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, 0)
+        return mixed
     if is_boxy(first):
         if is_boxy(second):
             g, px, py, pz, nx, ny, nz = _both(first, second, turn, x, y, z, sx, sy, sz)
@@ -105,6 +119,37 @@ def _from_start(
             other = second[0], second[1], second[2], second[3], second[4]
             g, px, py, pz, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
         return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
+    found: Answer = widest_of_round(first, second, turn, x, y, z, sx, sy, sz)
+    return found
+
+
+@compiled
+def _in_charts(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float, parts: int
+) -> Answer:
+    """Return the same where one is flat one way and sharp another; beginning where both are ellipsoids."""
+    ax, ay, az, bx, by, bz = first[0], first[1], first[2], second[0], second[1], second[2]
+    one, two = (ax, ay, az, 2.0, 2.0), (bx, by, bz, 2.0, 2.0)
+    norm, other = (ax, ay, az, first[3], first[4]), (bx, by, bz, second[3], second[4])
+    g, px, py, pz, nx, ny, nz = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
+    if g == g:
+        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, nx, ny, nz, 0)
+    for last in range(2):
+        if g == g:
+            break
+        wx, wy, wz = (x, y, z) if last == 1 and x * x + y * y + z * z > 0.0 else (sx, sy, sz)
+        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, wx, wy, wz, parts if last == 1 else 4)
+    return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
+
+
+@compiled
+def widest_of_round(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same where the first core is not boxy; it may be a point, or flat, if the second is not."""
+    if is_mixed(second):
+        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, _PARTS)
+        return mixed
     if is_boxy(second):
         other = first[0], first[1], first[2], first[3], first[4]
         ax, ay, az = back(turn, -x, -y, -z)
@@ -180,15 +225,12 @@ def widest_from(
     start_z: float,
 ) -> tuple[float, float, float, float]:
     """Return what :func:`bodies.contacts.dual_newton.climb` does for a point or a line, and a core of any kind."""
-    if not is_boxy(core):
+    if is_round(core):
         g, nx, ny, nz = climb(hull, core, turn, x, y, z, along_x, along_y, along_z, start_x, start_y, start_z)
         return g, nx, ny, nz
     if along_x == 0.0 and along_y == 0.0 and along_z == 0.0:
-        point = (0.0, 0.0, 0.0, 2.0, 2.0)
-        ax, ay, az = back(turn, -x, -y, -z)
-        sx, sy, sz = back(turn, -start_x, -start_y, -start_z)
-        g, _, _, _, nx, ny, nz = climb_boxy(core, point, opposite(turn), ax, ay, az, sx, sy, sz)
-        nx, ny, nz = forth(turn, -nx, -ny, -nz)
+        point = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)
+        g, _, _, _, nx, ny, nz = widest_of_round(point, core, turn, x, y, z, start_x, start_y, start_z)
         return g, nx, ny, nz
     along = start_x * along_x + start_y * along_y + start_z * along_z
     nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z
@@ -196,7 +238,7 @@ def widest_from(
     if length == 0.0:
         return math.nan, start_x, start_y, start_z
     nx, ny, nz = nx / length, ny / length, nz / length
-    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz)
+    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz, 1.0, 0.0, 0.0)
     return g, nx, ny, nz
 
 
@@ -214,7 +256,9 @@ def write_surface(
     pz: float,
 ) -> None:
     """Write slide and turn of a core of any kind at its point p with the outward normal n, both in its own axes."""
-    if is_boxy(core):
+    if is_mixed(core):
+        write_chart(out, side, core, axes, nx, ny, nz)
+    elif is_boxy(core):
         write_boxy(out, side, core, axes, px, py, pz)
     else:
         write_core(out, side, core, axes, nx, ny, nz)

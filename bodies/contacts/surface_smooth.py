@@ -8,11 +8,13 @@ elsewhere.  It belongs to a contact where the point is on the feature and the no
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
 
+from bodies.contacts.boxy_line import nearest_to_line
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
-from bodies.contacts.dual_newton import climb
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth, write_core
+from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
+from bodies.contacts.smooth_newton import widest_from, write_surface
 from bodies.contacts.surface_search import (
     ON_CORNER,
     ON_EDGE,
@@ -48,9 +50,22 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import REACH
-from bodies.shapes.support_function import support_of
+from bodies.shapes.support_function import is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+_SAME = 1e-15
+"""Difference of distances that is round-off, in units of the size."""
+Aim: TypeAlias = tuple[float, float, float, float]
+"""A unit normal, and the least height along it over the origin of a point of the body."""
+
+
+@compiled
+def _extent(core: Floats) -> float:
+    """Return a bound of the distance of the farthest point from the centre, with flat places the corner of a box."""
+    if is_round(core):
+        return float(max(core[0], core[1], core[2]) + core[RADIUS])
+    return math.sqrt(core[0] * core[0] + core[1] * core[1] + core[2] * core[2])
 
 
 @compiled
@@ -99,7 +114,7 @@ def _on_edge(
     """Return the same of the line of an edge; the distance is nan where none was found."""
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
     ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
-    g, nx, ny, nz = climb(point, core, turn, wx, wy, wz, ex, ey, ez, wx, wy, wz)
+    g, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, ex, ey, ez, wx, wy, wz)
     px, py, pz = _point_against(core, turn, (wx, wy, wz), (nx, ny, nz))
     s = px * ex + py * ey + pz * ez
     past = max(-s, s - surface[e + 6])
@@ -114,7 +129,7 @@ def _on_corner(
 ) -> tuple[float, float, float, float, float]:
     """Return the same of a corner."""
     wx, wy, wz = center[0] - surface[c], center[1] - surface[c + 1], center[2] - surface[c + 2]
-    g, nx, ny, nz = climb(point, core, turn, wx, wy, wz, 0.0, 0.0, 0.0, wx, wy, wz)
+    g, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, 0.0, 0.0, 0.0, wx, wy, wz)
     past, star = -(nx * wx + ny * wy + nz * wz), int(surface[STARS]) + int(surface[c + 4])
     for _ in range(int(surface[c + 5])):
         past = max(past, size * (nx * surface[star] + ny * surface[star + 1] + nz * surface[star + 2]))
@@ -123,8 +138,31 @@ def _on_corner(
 
 
 @compiled
+def _above(surface: Floats, at: int, aim: Aim) -> float:
+    """Return a distance that the body keeps at least from a point of the surface, by a plane that it is over."""
+    return float(aim[3] - aim[0] * surface[at] - aim[1] * surface[at + 1] - aim[2] * surface[at + 2])
+
+
+@compiled
+def _above_box(surface: Floats, at: int, aim: Aim) -> float:
+    """Return the same of all that is in the box of a node."""
+    x = surface[at + 3] if aim[0] > 0.0 else surface[at]
+    y = surface[at + 4] if aim[1] > 0.0 else surface[at + 1]
+    z = surface[at + 5] if aim[2] > 0.0 else surface[at + 2]
+    return float(aim[3] - aim[0] * x - aim[1] * y - aim[2] * z)
+
+
+@compiled
 def _look_at(
-    surface: Floats, patch: float, member: int, core: Floats, point: Floats, turn: Axes, center: Point, best: float
+    surface: Floats,
+    patch: float,
+    member: int,
+    core: Floats,
+    point: Floats,
+    turn: Axes,
+    center: Point,
+    best: float,
+    aim: Aim,
 ) -> tuple[float, float, float, float, float, float]:
     """Return distance of the core, way past the end and normal of a member of the tree, and the least it can have.
 
@@ -132,27 +170,48 @@ def _look_at(
     """
     x, y, z = center
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
-    size = max(core[0], core[1], core[2]) + core[RADIUS]
+    size = _extent(core)
     if member < n_triangles:
-        f = int(surface[FACES]) + FACE * int(surface[int(surface[TRIANGLES]) + TRIANGLE * member + 9])
+        t = int(surface[TRIANGLES]) + TRIANGLE * member
+        f = int(surface[FACES]) + FACE * int(surface[t + 9])
         least = face_height(surface, f, x, y, z) - size
         if surface[f + 4] != patch or least > best:
+            return math.inf, 0.0, 0.0, 0.0, 1.0, least
+        if min(_above(surface, t, aim), min(_above(surface, t + 3, aim), _above(surface, t + 6, aim))) > best:
             return math.inf, 0.0, 0.0, 0.0, 1.0, least
         g, past, nx, ny, nz = _on_face(surface, member, core, turn, center)
     elif member < n_triangles + n_edges:
         e = int(surface[EDGES]) + EDGE * (member - n_triangles)
+        least = _above(surface, e, aim)
+        least -= max(
+            surface[e + 6] * (aim[0] * surface[e + 3] + aim[1] * surface[e + 4] + aim[2] * surface[e + 5]), 0.0
+        )
+        if surface[e + 13] != patch or least > best:
+            return math.inf, 0.0, 0.0, 0.0, 1.0, least
         _, px, py, pz = past_edge(surface, e, x, y, z)
         least = _least(core, turn, x - px, y - py, z - pz)
-        if surface[e + 13] != patch or least > best:
+        if least > best:
             return math.inf, 0.0, 0.0, 0.0, 1.0, least
         g, past, nx, ny, nz = _on_edge(surface, e, core, point, turn, center, size)
     else:
         c = int(surface[CORNERS]) + CORNER * (member - n_triangles - n_edges)
-        least = _least(core, turn, x - surface[c], y - surface[c + 1], z - surface[c + 2])
+        least = _above(surface, c, aim)
         if surface[c + 3] != patch or least > best:
+            return math.inf, 0.0, 0.0, 0.0, 1.0, least
+        least = _least(core, turn, x - surface[c], y - surface[c + 1], z - surface[c + 2])
+        if least > best:
             return math.inf, 0.0, 0.0, 0.0, 1.0, least
         g, past, nx, ny, nz = _on_corner(surface, c, core, point, turn, center, size)
     return g, past - REACH * surface[SIZE], nx, ny, nz, least
+
+
+@compiled
+def _aim(surface: Floats, core: Floats, turn: Axes, center: Point, normal: Point) -> Aim:
+    """Return a normal and the height along it that the body keeps, with what features in one plane differ by."""
+    px, py, pz = _point_against(core, turn, center, normal)
+    level = normal[0] * px + normal[1] * py + normal[2] * pz - core[RADIUS]
+    none = _SAME * (abs(px) + abs(py) + abs(pz) + surface[SIZE])
+    return normal[0], normal[1], normal[2], level + none
 
 
 @compiled
@@ -166,30 +225,32 @@ def _nearest(
     """
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     x, y, z = center
-    size = max(core[0], core[1], core[2]) + core[RADIUS]
+    size = _extent(core)
     best, missed, found = 1e300, 1e300, 0
     distance, past, bx, by, bz = 1e300, 1e300, 0.0, 0.0, 1.0
+    aim: Aim = (0.0, 0.0, 0.0, -1e300)
     # the feature nearest to the centre, then faces, which cost least: they rule out most of the others
     _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z)
     if kind != ON_FACE:
         found = number + n_triangles + (int(surface[N_EDGES]) if kind == ON_CORNER else 0)
-        g, beyond, nx, ny, nz, _ = _look_at(surface, patch, found, core, point, turn, center, best)
+        g, beyond, nx, ny, nz, _ = _look_at(surface, patch, found, core, point, turn, center, best, aim)
         if g == g:
             gap = g - core[RADIUS]
             best = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
             distance, past, bx, by, bz = g, beyond, nx, ny, nz
+            aim = _aim(surface, core, turn, center, (nx, ny, nz))
     for stage in range(2):
         node = 0
         while node < int(surface[N_NODES]):
             at = nodes + NODE * node
-            if math.sqrt(box_square(surface, at, x, y, z)) - size > best:
+            if math.sqrt(box_square(surface, at, x, y, z)) - size > best or _above_box(surface, at, aim) > best:
                 node = int(surface[at + 6])
                 continue
             for i in range(int(surface[at + 8])):
                 member = int(surface[members + int(surface[at + 7]) + i])
                 if (member < n_triangles) != (stage == 0):
                     continue
-                g, beyond, nx, ny, nz, least = _look_at(surface, patch, member, core, point, turn, center, best)
+                g, beyond, nx, ny, nz, least = _look_at(surface, patch, member, core, point, turn, center, best, aim)
                 if g != g:
                     missed = min(missed, least)
                     continue
@@ -197,6 +258,7 @@ def _nearest(
                 key = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
                 if key < best:
                     best, distance, past, found, bx, by, bz = key, g, beyond, member, nx, ny, nz
+                    aim = _aim(surface, core, turn, center, (nx, ny, nz))
             node += 1
     if not missed >= best:
         distance = math.nan
@@ -223,8 +285,13 @@ def evaluate_surface_smooth(
         depth = depth_inside(surface, x, y, z)
         if depth > 0.0:
             # it is farther inside than any contact, which is a sign that one was passed
-            gap = -depth - max(second[0], second[1], second[2]) - second[RADIUS]
+            gap = -depth - _extent(second)
     px, py, pz = _point_against(second, turn, (x, y, z), (nx, ny, nz))
+    if kind == ON_EDGE and not is_round(second):
+        e = int(surface[EDGES]) + EDGE * number
+        ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
+        foot = (surface[e], surface[e + 1], surface[e + 2])
+        px, py, pz = nearest_to_line(second, turn, x, y, z, foot, ex, ey, ez, 0.0, (nx, ny, nz))
     # the patch of a surface that has one only does not end
     out[0], out[30] = gap, past if surface[N_PATCHES] > 1.0 or depth > 0.0 else 0.0
     out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
@@ -234,7 +301,8 @@ def evaluate_surface_smooth(
         out[7 + i] = out[10 + i] - gap * out[1 + i]
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
-    write_core(out, SIDE_B, second, axes_b, mx, my, mz)
+    bx, by, bz = back(turn, px - x, py - y, pz - z)
+    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, bx, by, bz)
     out[29] = float(number)
     if kind == ON_FACE:
         write_flat(out, SIDE_A)

@@ -37,7 +37,7 @@ def core_numbers(
     semi : tuple of float
         a, b and c [m], all positive or all 0.
     powers : tuple of float
-        p and q, not below 2, or not above 2 and above 1: boxes with round edges.
+        p and q, above 1; below 2 the core has flat places, as boxes with round edges have.
     radius : float
         All points within this distance of the core belong to the shape [m].
     center : tuple of float
@@ -58,21 +58,26 @@ def support_point(core: tuple[float, ...], direction: Vector) -> Vector:
 
 
 def farthest(core: tuple[float, ...]) -> float:
-    """Return the distance of the farthest point from the origin of the body frame [m], a bound if it is not known.
+    """Return the distance of the farthest point from the origin of the body frame [m], a bound if it is not known."""
+    return math.hypot(*core[6:9]) + extent(core)
 
-    Of a shape about the origin it is an axis's, powers of 2 and more, as the core lies in the ellipsoid.  In the
-    squares of the coordinates a boxy core is one of the same kind, and their sum the support function of that.
+
+def extent(core: tuple[float, ...]) -> float:
+    """Return the distance of the farthest point from the centre of the core [m].
+
+    It is an axis's, powers of 2 and more, as the core lies in the ellipsoid.  In the squares of the coordinates a core
+    with less is one of the same kind, and their sum the support function of that.
     """
-    return math.hypot(*core[6:9]) + (_corner(core) if core[3] < 2.0 else max(core[:3])) + core[5]
+    return _corner(core) + core[5]
 
 
 def _corner(core: tuple[float, ...]) -> float:
-    """Return the distance of the farthest point of a boxy core from its centre [m]."""
+    """Return the distance of the farthest point of a core from its centre, without the radius [m]."""
 
     def norm(one: float, two: float, power: float) -> float:
         # p of the gauge is p / (p - 1), of the squares' gauge half of it, of its dual p / (2 - p)
         larger, smaller = max(one, two), min(one, two)
-        if power == 2.0:
+        if power >= 2.0:
             return larger
         dual = power / (2.0 - power)
         return float(larger * (1.0 + (smaller / larger) ** dual) ** (1.0 / dual))

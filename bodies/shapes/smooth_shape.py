@@ -21,4 +21,9 @@ class SmoothShape(ConvexShape):
     @property
     def boxy(self) -> bool:
         """Whether it has flat points: a pair that divides by its curvatures cannot take it."""
-        return self.core[0] > 0.0 and self.core[3] < 2.0
+        return self.core[0] > 0.0 and self.core[3] < 2.0 and self.core[4] <= 2.0
+
+    @property
+    def mixed(self) -> bool:
+        """Whether it is flat along one of two ways and sharp along the other."""
+        return self.core[0] > 0.0 and (self.core[3] - 2.0) * (self.core[4] - 2.0) < 0.0

@@ -30,10 +30,12 @@ class Superellipsoid(SmoothShape):
 
     The exponents e1 and e2 go from 0.2, nearly a box, over 1, the ellipsoid, towards 2, the octahedron.  The support
     function has the powers p = 2/(2 - e1) and q = 2/(2 - e2) with the semi-axes as factors.  From 1 on the contacts
-    follow from it: its radii of curvature do not jump for p >= 2, q >= 2, and q = 2 where p = 2.  Below 1 the body is
-    boxy: it has flat points in the middle of its faces and flat lines across them, where these radii are infinite, and
-    the contacts follow from its gauge, whose curvatures are finite (:mod:`bodies.contacts.boxy_newton`).  Both
-    exponents are of the same kind, and a boxy body takes no rounding.
+    follow from it: its radii of curvature do not jump for p >= 2, q >= 2, and q = 2 where p = 2.  With both
+    below 1 the body is boxy: it has flat points in the middle of its faces and flat lines across them, where these
+    radii are infinite, and the contacts follow from its gauge, whose curvatures are finite
+    (:mod:`bodies.contacts.boxy_newton`).  With one below 1 and one above it has flat lines and sharp ones, and the
+    contacts follow from coordinates in which point and normal have derivatives (:mod:`bodies.contacts.chart`).  A body
+    with flat points takes no rounding.
 
     References
     ----------
@@ -59,13 +61,6 @@ class Superellipsoid(SmoothShape):
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
         unit_vector("Superellipsoid orientation", orientation, 4)
         along, across = self.exponent_along, self.exponent_across
-        if min(along, across) < 1.0 < max(along, across):
-            raise InvalidInput(
-                "Superellipsoid.exponent_across",
-                f"must be {'at most' if along < 1.0 else 'at least'} 1 where exponent_along is {along:g}",
-                across,
-                "With one below 1 and the other above the body has flat points and edges with no radius.",
-            )
         if along == 1.0 != across:
             raise InvalidInput(
                 "Superellipsoid.exponent_across",

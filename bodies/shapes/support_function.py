@@ -16,7 +16,7 @@ Support: TypeAlias = tuple[float, float, float, float, float, float, float, floa
 def support_of(core: Floats, x: float, y: float, z: float) -> Support:
     """Return the support function of the core, without the radius, at the unit vector (x, y, z) of its own axes.
 
-    Of a boxy core (:func:`is_boxy`), whose second derivative is infinite at the axes, that is not a number.
+    Of a core that is not round its second derivative, which is infinite at the axes, is not a number.
     """
     found: Support = support_by(core[0], core[1], core[2], core[3], core[4], x, y, z)
     return found
@@ -28,7 +28,7 @@ def support_by(a: float, b: float, c: float, p: float, q: float, x: float, y: fl
     if a == 0.0:
         h = 0.0
         return h, h, h, h, h, h, h, h, h, h
-    if p < 2.0:
+    if p < 2.0 or q < 2.0:
         h, px, py, pz = _norm_and_gradient(a, b, c, p, q, x, y, z)
         none = math.nan
         return h, px, py, pz, none, none, none, none, none, none
@@ -39,7 +39,19 @@ def support_by(a: float, b: float, c: float, p: float, q: float, x: float, y: fl
 @compiled
 def is_boxy(core: Floats) -> bool:
     """Return whether the gauge of a core has a second derivative rather than its support function: flat points."""
-    return core[0] > 0.0 and core[3] < 2.0
+    return core[0] > 0.0 and core[3] < 2.0 and core[4] <= 2.0
+
+
+@compiled
+def is_round(core: Floats) -> bool:
+    """Return whether the support function of a core has a second derivative: no flat points."""
+    return core[0] == 0.0 or min(core[3], core[4]) >= 2.0
+
+
+@compiled
+def is_mixed(core: Floats) -> bool:
+    """Return whether a core is flat along one of the two ways and sharp along the other."""
+    return core[0] > 0.0 and (core[3] - 2.0) * (core[4] - 2.0) < 0.0
 
 
 @compiled
@@ -77,6 +89,9 @@ def norm_of(a: float, b: float, c: float, p: float, q: float, x: float, y: float
     if p == 2.0 and q == 2.0:
         aa, bb, cc = a * a, b * b, c * c
         h = math.sqrt(aa * x * x + bb * y * y + cc * z * z)
+        if h == 0.0:
+            # a circle along its axis: of all its points the middle of them
+            return h, h, h, h, h, h, h, h, h, h
         px, py, pz = aa * x / h, bb * y / h, cc * z / h
         return (
             h,

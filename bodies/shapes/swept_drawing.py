@@ -5,10 +5,13 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bodies.shapes.drawing import check_fineness
 from bodies.shapes.polytope import Polytope
 from nonsmooth.interfaces.body import Vector
+
+Integers = NDArray[np.int64]
 
 
 def draw_swept(core: Polytope, radius: float, fineness: int) -> tuple[Vector, Vector]:
@@ -20,51 +23,58 @@ def draw_swept(core: Polytope, radius: float, fineness: int) -> tuple[Vector, Ve
     check_fineness(fineness)
     steps = -(-fineness // 4)
     vertices, normals = np.array(core.vertices), np.array(core.planes)[:, :3]
-    points: list[Vector] = []
-    triangles: list[tuple[int, int, int]] = []
+    blocks: list[Vector] = []
+    count = 0
+    triangles: list[Integers] = []
 
-    def put(vertex: int, direction: Vector) -> int:
-        points.append(vertices[vertex] + radius * direction / np.linalg.norm(direction))
-        return len(points) - 1
+    def put(vertex: int, directions: Vector) -> Integers:
+        nonlocal count
+        blocks.append(vertices[vertex] + radius * directions / np.linalg.norm(directions, axis=1)[:, None])
+        count += len(directions)
+        return np.arange(count - len(directions), count)
 
-    corner = {(v, f): put(v, normals[f]) for f, face in enumerate(core.faces) for v in face}
+    corner = {(v, f): put(v, normals[f : f + 1]) for f, face in enumerate(core.faces) for v in face}
     for f, face in enumerate(core.faces):
-        triangles += [(corner[face[0], f], corner[a, f], corner[b, f]) for a, b in itertools.pairwise(face[1:])]
+        fan = [(corner[face[0], f], corner[a, f], corner[b, f]) for a, b in itertools.pairwise(face[1:])]
+        triangles.append(np.array(fan).reshape(-1, 3))
     # the arc round a vertex from one of its faces to the next, counter-clockwise as seen from outside
-    arcs: dict[int, dict[int, tuple[int, list[int]]]] = {v: {} for v in range(len(vertices))}
+    arcs: dict[int, dict[int, tuple[int, Integers, Vector]]] = {v: {} for v in range(len(vertices))}
+    shares = np.arange(steps)[:, None] / steps
     for one, two, left, right in core.edges:
-        inner = [_between(normals[right], normals[left], i / steps) for i in range(1, steps)]
-        rows = [[corner[v, right], *(put(v, n) for n in inner), corner[v, left]] for v in (one, two)]
-        for (a, b), (c, d) in zip(itertools.pairwise(rows[0]), itertools.pairwise(rows[1]), strict=True):
-            triangles += [(a, c, d), (a, d, b)]
-        arcs[one][right] = left, rows[0]
-        arcs[two][left] = right, rows[1][::-1]
+        around = _between(normals[right], normals[left : left + 1], shares)
+        rows = [np.concatenate([corner[v, right], put(v, around[1:]), corner[v, left]]) for v in (one, two)]
+        a, b, c, d = rows[0][:-1], rows[0][1:], rows[1][:-1], rows[1][1:]
+        triangles += [np.column_stack([a, c, d]), np.column_stack([a, d, b])]
+        arcs[one][right] = left, rows[0][:-1], around
+        backwards = np.concatenate([normals[left : left + 1], around[:0:-1]])
+        arcs[two][left] = right, rows[1][:0:-1], backwards
     for vertex, own in arcs.items():
         start = at = next(iter(own))
-        loop: list[int] = []
+        loop, rim = list[Integers](), list[Vector]()
         while True:
-            at, row = own[at]
-            loop += row[:-1]
+            at, row, directions = own[at]
+            loop.append(row)
+            rim.append(directions)
             if at == start:
                 break
+        ends, outward = np.concatenate(loop), np.concatenate(rim)
         axis = np.sum([normals[f] for f in own], axis=0)
         axis /= np.linalg.norm(axis)
-        rim = [(points[i] - vertices[vertex]) / radius for i in loop]
-        before = [put(vertex, axis)] * len(loop)
+        before = np.repeat(put(vertex, axis[None]), len(ends))
         for ring in range(1, steps + 1):
-            now = loop if ring == steps else [put(vertex, _between(axis, n, ring / steps)) for n in rim]
-            for i in range(len(loop)):
-                j = (i + 1) % len(loop)
-                triangles.append((before[i], now[i], now[j]))
-                if ring > 1:
-                    triangles.append((before[i], now[j], before[j]))
+            now = ends if ring == steps else put(vertex, _between(axis, outward, ring / steps))
+            after = np.roll(now, -1)
+            triangles.append(np.column_stack([before, now, after]))
+            if ring > 1:
+                triangles.append(np.column_stack([before, after, np.roll(before, -1)]))
             before = now
-    return np.array(points), np.array(triangles)
+    return np.concatenate(blocks), np.concatenate(triangles)
 
 
-def _between(m: Vector, n: Vector, share: float) -> Vector:
-    """Return the unit vector so far on the way from m to n along their great circle."""
-    angle = float(np.arctan2(np.linalg.norm(np.cross(m, n)), m @ n))
-    if angle == 0.0:
-        return m
-    return np.asarray((np.sin((1.0 - share) * angle) * m + np.sin(share * angle) * n) / np.sin(angle))
+def _between(m: Vector, n: Vector, share: Vector | float) -> Vector:
+    """Return the unit vectors so far on the way from m to all n, shape [k, 3], along their great circles."""
+    angle = np.arctan2(np.linalg.norm(np.cross(m, n), axis=1), n @ m)[:, None]
+    flat = angle == 0.0
+    angle = np.where(flat, 1.0, angle)
+    found = (np.sin((1.0 - share) * angle) * m + np.sin(share * angle) * n) / np.sin(angle)
+    return np.asarray(np.where(flat, m, found))

@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from bodies import Box, Ellipsoid, FrustumMesh, Sphere, Superellipsoid, SweptPolytope, TriangleMesh, Triangles
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
+from bodies.shapes.smooth import extent
 from nonsmooth.interfaces import Shape
 from nonsmooth.testing.rig import Rig
 from tests.benchmarks.swept_pairs import capsule, rounded_box, rounded_hull
@@ -91,7 +92,9 @@ def _round(rng: Generator, kind: str) -> Round:
         return Sphere(float(rng.uniform(5e-4, 4e-3)), *rng.uniform(-2e-3, 2e-3, 3).tolist())
     if kind == "ellipsoid":
         return Ellipsoid(*sizes)
-    return Superellipsoid(*sizes, *rng.uniform(1.1, 1.5, 2).tolist())
+    low, high = rng.uniform(0.2, 0.9, 2).tolist(), rng.uniform(1.1, 1.5, 2).tolist()
+    exponents = {"superellipsoid": high, "boxy": low, "mixed": [low[0], high[0]]}[kind]
+    return Superellipsoid(*sizes, *exponents)
 
 
 def _least_radius(shape: Round, n: Array) -> float:
@@ -115,7 +118,7 @@ def _with_round(kind: str, part: str) -> Callable[[float, Generator], Known]:
             if isinstance(second, Sphere):
                 patches = patches_for_ball(features, second.radius)
             else:
-                patches = patches_for_body(features, 2.0 * (max(second.core[:3]) + second.core[5]))
+                patches = patches_for_body(features, 2.0 * extent(second.core))
             # not where a slight overlap is more than the body is round
             number, point, n = _feature(rng, features, part, kind != "sphere" or gap > 1e-2)
             m = rng.normal(size=3)
@@ -220,7 +223,7 @@ _OVER_EDGES = (("edge", "edge"), ("vertex", "edge"))
 MESHES: dict[str, Callable[[float, Generator], Known]] = {
     **{
         f"mesh-{kind}, {part}": _with_round(kind, part)
-        for kind in ("sphere", "ellipsoid", "superellipsoid")
+        for kind in ("sphere", "ellipsoid", "superellipsoid", "boxy", "mixed")
         for part in PARTS
     },
     "mesh-box, face and vertex": _with_box("face", "vertex"),

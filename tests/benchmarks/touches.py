@@ -50,6 +50,13 @@ def boxy(rng: Generator) -> ConvexShape:
     return Superellipsoid(*_sizes(rng), *rng.uniform(0.2, 0.9, 2).tolist(), **_place(rng))
 
 
+def mixed(rng: Generator) -> ConvexShape:
+    """Return a superellipsoid with flat places along its third axis and sharp ones across, or the other way round."""
+    exponents = [float(rng.uniform(0.2, 0.9)), float(rng.uniform(1.1, 1.5))]
+    (a, b, c), (along, across) = _sizes(rng), exponents if rng.uniform() < 0.5 else exponents[::-1]
+    return Superellipsoid(a, b, c, along, across, **_place(rng))
+
+
 def sphere(rng: Generator) -> ConvexShape:
     """Return a sphere."""
     return Sphere(float(rng.uniform(_SMALL, _LARGE)), *rng.uniform(-2e-3, 2e-3, 3).tolist())

@@ -13,13 +13,14 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import BoxBody, EllipsoidBody, MeshBody, Plate, Superellipsoid, SuperellipsoidBody, Triangles
+from bodies import BoxBody, Cylinder, EllipsoidBody, Plate, Superellipsoid, SuperellipsoidBody, TriangleMesh, Triangles
 from bodies.contacts.boxy_newton import place_on
 from bodies.contacts.smooth_newton import widest
 from bodies.inertia import tensor_of
 from bodies.shapes.support_function import boxy_gauge_of, support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.kernel import PLAIN
+from tests.bodies.carriers import Rig, Stand
 from tests.bodies.meshes import parts
 
 Array = NDArray[np.float64]
@@ -124,13 +125,16 @@ def test_a_body_on_its_face_is_found_at_its_middle() -> None:
     np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.011, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
 
 
-def test_a_mesh_that_is_not_convex_takes_none() -> None:
-    """Its features are found by radii of curvature."""
-    mesh = MeshBody(Triangles(*parts.bracket()))
-    boxy = SuperellipsoidBody(0.01, 0.01, 0.01, 0.5, 0.5)
-    system = ns.System([mesh, boxy])
-    with pytest.raises(ns.InvalidInput, match="contact of a mesh must be with a body whose radii of curvature"):
-        system.contact(mesh, boxy, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.5))
+def test_it_finds_a_surface_that_is_not_convex(build: Any) -> None:
+    """In the inner corner of a bracket it has a contact with either wall, in the middle of a face."""
+    mesh, boxy = TriangleMesh(Triangles(*parts.bracket(), "bracket")), Superellipsoid(3e-3, 2e-3, 4e-3, 0.3, 0.5)
+    rig = Rig((mesh, boxy), build.laws())
+    upright = np.array([1.0, 0.0, 0.0, 0.0])
+    rig.put([(np.zeros(3), upright), (np.array([0.013, 0.012, 0.007]), upright)], np.zeros(12))
+    touching = rig.geometry[(np.abs(rig.geometry[:, 0]) < 1e-15) & (rig.geometry[:, 30] <= 0.0)]
+    np.testing.assert_allclose(sorted(touching[:, 1:4].tolist()), [[0, 1, 0], [1, 0, 0]], atol=1e-15)
+    points = sorted(touching[:, 7:10].tolist())
+    np.testing.assert_allclose(points, [[0.01, 0.012, 0.007], [0.013, 0.01, 0.007]], atol=1e-15)
 
 
 def _fall(body: Any, friction: Any, restitution: float, t_end: float, **start: Any) -> ns.Solution:
@@ -164,6 +168,44 @@ def test_what_lies_on_its_middle_stays() -> None:
         np.testing.assert_allclose(at_rest.q_end[:3], [0.0, 0.0, 0.008], rtol=0, atol=1e-15)
         slides = _fall(body, Frictionless(), 0.5, 0.1, position=(0.0, 0.0, 0.008), velocity=(0.1, 0.0, 0.0))
         np.testing.assert_allclose(slides.q_end[:3], [0.01, 0.0, 0.008], rtol=0, atol=1e-12)
+
+
+def _on_cylinder(cylinder: Cylinder, body: Any, friction: Any, t_end: float, **start: Any) -> ns.Solution:
+    stand = Stand((cylinder,))
+    system = ns.System([stand, body], gravity=9.81)
+    system.contact(stand, body, normal=Unilateral(), friction=friction, impact=EnergeticImpact(0.3))
+    system.place(body, **start)
+    return ns.simulate(system, t_end)
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+@pytest.mark.parametrize("exponent", [0.5, 0.8])
+def test_it_slides_down_the_side_of_a_cylinder(exponent: float) -> None:
+    """On the middle of a face along the highest line, without friction, as a point does on a slope."""
+    lean, t_end, body = 0.4, 0.15, SuperellipsoidBody(0.01, 0.012, 0.008, exponent, exponent)
+    up, down = np.array([np.sin(lean), 0.0, np.cos(lean)]), np.array([np.cos(lean), 0.0, -np.sin(lean)])
+    pole, begin = Cylinder(0.02, 0.2, axis_x=float(down[0]), axis_z=float(down[2])), 0.028 * up - 0.05 * down
+    turn = np.array([np.cos(0.5 * lean), 0.0, np.sin(0.5 * lean), 0.0])
+    solution = _on_cylinder(pole, body, Frictionless(), t_end, position=begin, orientation=turn)
+    assert solution.status == "done"
+    end = begin + 0.5 * 9.81 * np.sin(lean) * t_end**2 * down
+    np.testing.assert_allclose(solution.q_end[:3], end, rtol=0, atol=1e-12)
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+def test_it_rolls_and_slides_off_a_log() -> None:
+    """It falls on the side of a lying cylinder, stays in contact, rolls and slides off; the books balance."""
+    log, rng = Cylinder(0.02, 0.05, axis_x=1.0, axis_z=0.0), np.random.default_rng(0)
+    for friction in (Frictionless(), Coulomb(0.3)):
+        body, turn = SuperellipsoidBody(0.01, 0.012, 0.008, 0.8, 0.8), rng.normal(size=4)
+        spin = tuple((3.0 * rng.normal(size=3)).tolist())
+        start = {"position": (0.0, 0.002, 0.035), "orientation": turn / np.linalg.norm(turn), "angular_velocity": spin}
+        solution = _on_cylinder(log, body, friction, 0.3, **start)
+        assert solution.status == "done"
+        assert solution.counters.impacts > 3
+        assert solution.energy.residual <= 1e-8
+        # it is off the log
+        assert solution.q_end[2] < 0.0
 
 
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")

@@ -57,6 +57,10 @@ ROUNDED_HULL = ConvexHull(HULL.points, **PLACE, **AXES, rounding=0.06)
 ELLIPSOID = Ellipsoid(0.2, 0.35, 0.5, **PLACE, **AXES)
 SUPERELLIPSOID = Superellipsoid(0.3, 0.2, 0.4, 1.5, 1.2, **PLACE, **AXES)
 BOXY = Superellipsoid(0.3, 0.2, 0.4, 0.4, 0.6, **PLACE, **AXES)
+MIXED = Superellipsoid(0.3, 0.2, 0.4, 0.4, 1.3, **PLACE, **AXES)
+"""Flat along its third axis, sharp across it."""
+SHARP = Superellipsoid(0.2, 0.3, 0.25, 1.4, 0.5, y=0.1)
+"""The other way round."""
 
 PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "plane-sphere": (PLANE, SPHERE, 1),
@@ -106,6 +110,18 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "box-boxy superellipsoid": (BOX, BOXY, 1),
     "hull-boxy superellipsoid": (HULL, BOXY, 1),
     "capsule-boxy superellipsoid": (CAPSULE, BOXY, 1),
+    "cylinder-boxy superellipsoid": (CYLINDER, BOXY, 1),
+    "cone-boxy superellipsoid": (CONE, BOXY, 1),
+    "disc-boxy superellipsoid": (DISC, BOXY, 1),
+    "plane-mixed superellipsoid": (PLANE, MIXED, 1),
+    "mixed superellipsoid-sphere": (SHARP, SPHERE, 1),
+    "mixed superellipsoid-ellipsoid": (MIXED, ELLIPSOID, 1),
+    "mixed superellipsoid-superellipsoid": (SHARP, SUPERELLIPSOID, 1),
+    "mixed superellipsoid-boxy superellipsoid": (SHARP, BOXY, 1),
+    "mixed superellipsoid-another": (MIXED, SHARP, 1),
+    "box-mixed superellipsoid": (BOX, MIXED, 1),
+    "capsule-mixed superellipsoid": (CAPSULE, SHARP, 1),
+    "cone-mixed superellipsoid": (CONE, MIXED, 1),
     "box-ellipsoid": (BOX, ELLIPSOID, 1),
     "box-superellipsoid": (BOX, SUPERELLIPSOID, 1),
     "hull-ellipsoid": (HULL, ELLIPSOID, 1),

@@ -145,16 +145,20 @@ def test_too_many_features_are_refused_with_their_numbers(monkeypatch: pytest.Mo
         mesh_mesh.MeshMesh.between(BRACKET, BRACKET)
 
 
-@pytest.mark.parametrize("kind", ["ellipsoid", "superellipsoid"])
+@pytest.mark.parametrize("kind", ["ellipsoid", "superellipsoid", "boxy"])
 def test_a_smooth_body_has_the_gap_of_a_hull_or_of_a_ball(build: Any, kind: str) -> None:
     """Over a convex mesh that of the hull; a smooth body that is a ball, over any mesh, that of the ball."""
     rng = np.random.default_rng(9)
-    smooth = Ellipsoid(6e-3, 4e-3, 9e-3, x=1e-3) if kind == "ellipsoid" else Superellipsoid(6e-3, 4e-3, 9e-3, 1.5, 1.2)
+    smooth: Ellipsoid | Superellipsoid = Superellipsoid(
+        *((5e-3, 4e-3, 6e-3, 0.3, 0.6) if kind == "boxy" else (6e-3, 4e-3, 9e-3, 1.5, 1.2))
+    )
+    smooth = Ellipsoid(6e-3, 4e-3, 9e-3, x=1e-3) if kind == "ellipsoid" else smooth
     round_one = Ellipsoid(4e-3, 4e-3, 4e-3, x=1e-3) if kind == "ellipsoid" else Superellipsoid(4e-3, 4e-3, 4e-3, x=1e-3)
     box_mesh = TriangleMesh(Triangles(*box()))
     hull = ConvexHull(box_mesh.features.vertices.tolist())
     ball = Sphere(4e-3, x=1e-3)
-    for first, second in (((hull, smooth), (box_mesh, smooth)), ((BRACKET, ball), (BRACKET, round_one))):
+    pairs: list[Any] = [((hull, smooth), (box_mesh, smooth)), ((BRACKET, ball), (BRACKET, round_one))]
+    for first, second in pairs[:1] if kind == "boxy" else pairs:
         rigs = Rig(first, build.laws()), Rig(second, build.laws())
         low, high = first[0].bounds
         compared = 0

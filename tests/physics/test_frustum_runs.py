@@ -101,6 +101,7 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
     "a box stands on a rounded cap": (ROUND_PILLAR, BoxBody(0.01, 0.006, 0.005), 0.005, UPRIGHT, 4),
     "a rounded cylinder lies on a cap": (PILLAR, CylinderBody(0.01, 0.015, rounding=0.002), 0.01, LYING, 2),
     "a beam lies across a log": (LOG, BoxBody(0.005, 0.03, 0.005), 0.005, UPRIGHT, 2),
+    "a boxy body lies on a cap": (PILLAR, SuperellipsoidBody(0.01, 0.012, 0.008, 0.4, 0.6), 0.008, UPRIGHT, 1),
 }
 """Shape of the support, body, height of its origin over the support, orientation, contacts that hold it."""
 
@@ -173,6 +174,10 @@ COLLIDING: dict[str, tuple[FreeBody, FreeBody]] = {
     "cylinder and ellipsoid": (CylinderBody(0.03, 0.05), EllipsoidBody(0.03, 0.04, 0.05)),
     "cone and superellipsoid": (ConeBody(0.04, 0.07), SuperellipsoidBody(0.03, 0.04, 0.05, 1.3, 1.2)),
     "disc and ellipsoid": (DiscBody(0.05), EllipsoidBody(0.02, 0.02, 0.03)),
+    "cylinder and boxy superellipsoid": (CylinderBody(0.03, 0.05), SuperellipsoidBody(0.03, 0.04, 0.05, 0.5, 0.7)),
+    "cone and boxy superellipsoid": (ConeBody(0.04, 0.07), SuperellipsoidBody(0.03, 0.04, 0.05, 0.3, 0.6)),
+    "cylinder and mixed superellipsoid": (CylinderBody(0.03, 0.05), SuperellipsoidBody(0.03, 0.04, 0.05, 0.5, 1.3)),
+    "disc and boxy superellipsoid": (DiscBody(0.05), SuperellipsoidBody(0.02, 0.02, 0.03, 0.4, 0.4)),
 }
 
 

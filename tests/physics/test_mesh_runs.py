@@ -180,12 +180,14 @@ def test_brackets_collide_without_passing_into_each_other(
         Sphere(8e-3),
         Ellipsoid(6e-3, 4e-3, 9e-3),
         Superellipsoid(6e-3, 4e-3, 9e-3, 1.5, 1.2),
+        Superellipsoid(6e-3, 4e-3, 7e-3, 0.4, 0.6),
+        Superellipsoid(6e-3, 4e-3, 7e-3, 1.3, 0.6),
         Capsule(3e-3, 8e-3),
         Box(6e-3, 4e-3, 9e-3, rounding=1e-3),
         Box(6e-3, 4e-3, 9e-3, rounding=1e-6),
         TETRAHEDRON,
     ],
-    ids=lambda shape: type(shape).__name__,
+    ids=["Sphere", "Ellipsoid", "Superellipsoid", "boxy", "mixed", "Capsule", "rounded", "hardly rounded", "hull"],
 )
 @pytest.mark.parametrize("part", [bracket, channel], ids=["L", "U"])
 def test_round_bodies_collide_with_a_part(build: Any, part: Any, shape: Shape) -> None:
@@ -199,11 +201,13 @@ def test_round_bodies_collide_with_a_part(build: Any, part: Any, shape: Shape) -
         assert solution.energy.residual < 1e-9
 
 
-def test_an_ellipsoid_and_a_capsule_move_over_triangles_as_over_a_plane(build: Any) -> None:
+def test_round_bodies_move_over_triangles_as_over_a_plane(build: Any) -> None:
+    """Where a boxy one rolls over the middle of a face its acceleration has no bound, and 1e-12 cannot be had."""
     points, triangles = finer(*box(0.6, 0.4, 0.02, at=(0.0, 0.0, -0.01)))
     mesh = DrivenBody(Rest(), (TriangleMesh(Triangles(points, triangles)),))
-    options = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
-    for shape in (Ellipsoid(0.01, 0.012, 0.008), Capsule(6e-3, 8e-3)):
+    boxy = Superellipsoid(0.01, 0.012, 0.008, 0.8, 0.8)
+    for shape in (Ellipsoid(0.01, 0.012, 0.008), boxy, Capsule(6e-3, 8e-3)):
+        options = ns.Options(tolerance=1e-9 if shape is boxy else 1e-12, impact_tolerance=1e-12)
         ends = []
         for ground in (mesh, Plate()):
             body = Carrier((shape,), 0.03, (1e-6, 1.2e-6, 0.8e-6))

@@ -1,0 +1,163 @@
+"""Where a smooth body is nearest to one part of a cylinder, a cone or a disc: gap, point and normal, or nan if nowhere.
+
+On a cap the normal is given.  On the side it has one angle, found by Newton's method on the support function, or for a
+boxy body by halving.  On a rim and at the apex it is that of a flat ellipsoid or of a point.  A stop belongs to its
+part: the point lies before it, and the normal is one of its own.
+"""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.boxy_line import across_line, nearest_to_line
+from bodies.contacts.boxy_newton import Answer
+from bodies.contacts.frustum import HIGH_CAP, HIGH_RIM
+from bodies.contacts.smooth_core import Axes, back, bend, forth
+from bodies.contacts.smooth_newton import widest_of_round
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN
+from bodies.shapes.support_function import is_round, support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+ON_BORDER = 1e-14
+"""How far a point may be over the end of a part, in units of the size, and a normal over that of its cone."""
+_STEPS, _HALVINGS = 60, 40
+_ROUND_OFF, _SEEN, _CLOSE, _RIGHT = 2e-16, 1e-14, 1e-12, 1e-13
+"""As in :mod:`bodies.contacts.dual_newton`."""
+
+
+@compiled
+def point_against(
+    core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
+) -> tuple[float, float, float]:
+    """Return the smooth body's farthest point against n, in the axes of the frustum."""
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    s = support_of(core, mx, my, mz)
+    px, py, pz = forth(turn, s[1], s[2], s[3])
+    return x + px, y + py, z + pz
+
+
+@compiled
+def on_cap(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float) -> Answer:
+    """Return the stop of a cap."""
+    up = 1.0 if part == HIGH_CAP else -1.0
+    radius = frustum[1] if part == HIGH_CAP else frustum[0]
+    px, py, pz = point_against(core, turn, x, y, z, 0.0, 0.0, up)
+    g = pz - frustum[HIGH] if part == HIGH_CAP else frustum[LOW] - pz
+    if radius == 0.0 or px * px + py * py > (radius + near) * (radius + near):
+        g = math.nan
+    return g, px, py, pz, 0.0, 0.0, up
+
+
+@compiled
+def _before_flank(frustum: Floats, near: float, found: Answer) -> bool:
+    """Return whether the point of a stop on the continued side lies before the side itself."""
+    g, px, py, pz, nx, ny, _ = found
+    cosine, sine = frustum[COS], frustum[SIN]
+    away = (nx * px + ny * py) / cosine
+    up = cosine * (pz - frustum[LOW]) - sine * (away - frustum[0])
+    return bool(away >= g * cosine and -near <= up <= frustum[SIDE] + near)
+
+
+@compiled
+def on_flank(
+    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, near: float
+) -> Answer:
+    """Return the stop of the side; begin at the direction (sx, sy)."""
+    cosine, sine = frustum[COS], frustum[SIN]
+    reach = cosine * frustum[0] + sine * frustum[LOW]
+    length = math.sqrt(sx * sx + sy * sy)
+    ex, ey = sx / length, sy / length
+    if not is_round(core):
+        g, px, py, pz, nx, ny, nz = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
+        axis, normal = (0.0, 0.0, 0.0), (nx, ny, nz)
+        px, py, pz = nearest_to_line(core, turn, x, y, z, axis, 0.0, 0.0, 1.0, sine, normal)
+    else:
+        g, px, py, pz, nx, ny, nz = _on_round_flank(frustum, core, turn, x, y, z, ex, ey, near)
+    if not _before_flank(frustum, near, (g, px, py, pz, nx, ny, nz)):
+        g = math.nan
+    return g, px, py, pz, nx, ny, nz
+
+
+@compiled
+def _on_round_flank(
+    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, ex: float, ey: float, near: float
+) -> Answer:
+    """Return the stop of the continued side, by Newton's method on the angle."""
+    cosine, sine = frustum[COS], frustum[SIN]
+    reach = cosine * frustum[0] + sine * frustum[LOW]
+    size = near / ON_BORDER
+    lx, ly, step = ex, ey, 0.0
+    px, py, pz = x, y, z
+    g, before, halvings = -math.inf, math.inf, 0
+    for _ in range(_STEPS):
+        nx, ny = cosine * ex, cosine * ey
+        mx, my, mz = back(turn, -nx, -ny, -sine)
+        s = support_of(core, mx, my, mz)
+        px, py, pz = forth(turn, s[1], s[2], s[3])
+        px, py, pz = x + px, y + py, z + pz
+        found = nx * px + ny * py + sine * pz - reach
+        if found < g - _SEEN * size and halvings < _HALVINGS:
+            halvings += 1
+            step *= 0.5
+        else:
+            g, halvings = found, 0
+            lx, ly = ex, ey
+            rate = cosine * (ex * py - ey * px)
+            tx, ty, tz = back(turn, -ey, ex, 0.0)
+            second = -cosine * (ex * px + ey * py) - cosine * cosine * bend(s, tx, ty, tz, tx, ty, tz)
+            residual = abs(rate)
+            if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):
+                if residual > _RIGHT * size or second > 0.0:
+                    break
+                return g, px, py, pz, nx, ny, sine
+            before = residual
+            step = rate / max(abs(second), _ROUND_OFF * size)
+            step = min(max(step, -1.0), 1.0)
+        # the turn by an angle whose tangent is the step
+        ex, ey = lx - step * ly, ly + step * lx
+        length = math.sqrt(ex * ex + ey * ey)
+        ex, ey = ex / length, ey / length
+    return math.nan, px, py, pz, cosine * lx, cosine * ly, sine
+
+
+@compiled
+def on_rim(
+    frustum: Floats,
+    circle: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    sx: float,
+    sy: float,
+    part: int,
+    tilt: float,
+) -> Answer:
+    """Return the stop of a rim, or of the apex; begin on the side of the direction (sx, sy).
+
+    Begin at the part ``tilt`` of the way from the normal of the side to that of the cap, if it is below 0 at the way
+    from the rim to the centre, if that is between these normals.
+    """
+    up = 1.0 if part == HIGH_RIM else -1.0
+    radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_RIM else (frustum[0], frustum[LOW])
+    if radius > 0.0:
+        # where the centre of the cap is nearest, the normal of the circle is the axis
+        for sign in (-1.0, 1.0):
+            px, py, pz = point_against(core, turn, x, y, z, 0.0, 0.0, sign)
+            if sign * (pz - height) >= 0.0 and px * px + py * py <= radius * radius:
+                return math.nan, px, py, pz, 0.0, 0.0, sign
+    length = math.sqrt(sx * sx + sy * sy)
+    ex, ey = sx / length, sy / length
+    flat = frustum[SIDE] == 0.0
+    radial, axial = ex * x + ey * y - radius, z - height
+    if tilt >= 0.0 or radial <= 0.0 or not (flat or up * (frustum[COS] * axial - frustum[SIN] * radial) > 0.0):
+        tilt = abs(tilt)
+        cap = math.copysign(1.0, axial) if flat else up
+        radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
+    g, px, py, pz, nx, ny, nz = widest_of_round(circle, core, turn, x, y, z - height, radial * ex, radial * ey, axial)
+    lean = frustum[COS] * nz - frustum[SIN] * math.sqrt(nx * nx + ny * ny)
+    if not flat and up * lean < -ON_BORDER:
+        g = math.nan
+    return g, px, py, pz + height, nx, ny, nz

@@ -1,0 +1,155 @@
+"""Superellipsoids that are flat one way and sharp the other: their charts, gaps of known poses, and their motion."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+import nonsmooth as ns
+from bodies import BoxBody, CapsuleBody, EllipsoidBody, Plate, Superellipsoid, SuperellipsoidBody
+from bodies.contacts.chart import chart_of, start_of
+from bodies.contacts.smooth_newton import widest
+from bodies.inertia import tensor_of
+from bodies.shapes.support_function import gauge_of, support_of
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.engine.kernel import PLAIN
+
+Array = NDArray[np.float64]
+BOTH_WAYS = [(0.3, 1.3), (1.4, 0.5)]
+GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9, -1e-9, -1e-7, -1e-5)
+"""[m]"""
+
+
+def _core(exponents: Any, semi: Any = (0.006, 0.009, 0.007)) -> Array:
+    return np.array(Superellipsoid(*semi, *exponents).core)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.floats(0.2, 1.8), st.floats(0.2, 1.8), st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3))
+def test_point_and_normal_move_as_the_chart_says(along: float, across: float, way: list[float]) -> None:
+    """Of any exponents: the support point along the normal, U and S by differences, U + L S = 1."""
+    if np.min(np.abs(way)) < 0.05 or min(abs(along - 1.0), abs(across - 1.0)) < 0.01:
+        return
+    core, n, length = _core((along, across)), np.array(way) / np.linalg.norm(way), 0.005
+    norm: Any = tuple(core[:5].tolist())
+    point, normal, first, second, slide, turn, w, one, two = chart_of(norm, length, *start_of(norm, *n.tolist()))
+    np.testing.assert_allclose(normal, n, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(point, support_of(core, *n)[1:4], rtol=0, atol=1e-14)
+    assert gauge_of(core, *point) == pytest.approx(1.0, rel=1e-12)
+    tangents = np.array([first, second])
+    s, u = (np.array([[m[0], m[1]], [m[1], m[2]]]) for m in (slide, turn))
+    np.testing.assert_allclose(u + length * s, np.eye(2), rtol=0, atol=1e-9)
+    step = 1e-6 * length
+    for i, way_of_w in enumerate((one, two)):
+        there, back = (chart_of(norm, length, *(np.array(w) + sign * step * np.array(way_of_w))) for sign in (1, -1))
+        moves, turns = (tangents @ (np.array(there[k]) - np.array(back[k])) / (2.0 * step) for k in (0, 1))
+        np.testing.assert_allclose(moves, u[:, i], rtol=0, atol=1e-6)
+        np.testing.assert_allclose(length * turns, length * s[:, i], rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("exponents", BOTH_WAYS)
+@pytest.mark.parametrize("other", [(0.4, 1.2), (1.3, 0.6), (0.3, 0.7), (1.2, 1.4), (1.0, 1.0)])
+def test_gaps_of_known_poses(exponents: Any, other: Any) -> None:
+    """At any normal, and next to flat and sharp places; from either side."""
+    rng, one = np.random.default_rng(7), _core(exponents)
+    for gap in GAPS:
+        for i in range(1 if PLAIN else 8):
+            two = _core(other, rng.uniform(0.004, 0.01, 3).tolist())
+            turn, n = Rotation.random(random_state=rng).as_matrix(), rng.normal(size=3)
+            # not where a slight overlap is more than the bodies are round
+            n[i % 3] *= 10.0 ** rng.uniform(-8.0, -1.0) if gap > -1e-8 else 1.0
+            n /= np.linalg.norm(n)
+            p, q = np.array(support_of(one, *n)[1:4]), np.array(support_of(two, *(-turn.T @ n))[1:4])
+            x = p + gap * n - turn @ q
+            for swapped in (False, True):
+                there = -turn.T @ x if swapped else x
+                pair = (two, one, turn.T) if swapped else (one, two, turn)
+                found = np.array(widest(*pair[:2], tuple(pair[2].ravel()), *there))
+                assert abs(found[0] - gap) <= 1e-12
+                np.testing.assert_allclose(-turn @ found[4:7] if swapped else found[4:7], n, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("exponents", BOTH_WAYS)
+def test_a_ball_over_the_third_axis(exponents: Any) -> None:
+    """Over the middle of a flat place, or over a tip, where the chart has no directions."""
+    ball = np.array(Superellipsoid(0.004, 0.004, 0.004).core)
+    found = widest(_core(exponents), ball, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), 0.0, 0.0, 0.012)
+    np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.008, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
+
+
+def _fall(body: Any, friction: Any, t_end: float, **start: Any) -> ns.Solution:
+    plate = Plate()
+    system = ns.System([plate, body], gravity=9.81)
+    system.contact(plate, body, normal=Unilateral(), friction=friction, impact=EnergeticImpact(0.5))
+    system.place(body, **start)
+    return ns.simulate(system, t_end)
+
+
+def test_it_lies_and_slides_on_its_flat_place() -> None:
+    """Flat along the third axis: at rest, and without friction at constant speed."""
+    body = SuperellipsoidBody(0.01, 0.012, 0.008, 0.5, 1.3)
+    at_rest = _fall(body, Coulomb(0.3), 0.1, position=(0.0, 0.0, 0.008))
+    np.testing.assert_allclose(at_rest.q_end[:3], [0.0, 0.0, 0.008], rtol=0, atol=1e-15)
+    slides = _fall(body, Frictionless(), 0.1, position=(0.0, 0.0, 0.008), velocity=(0.1, 0.0, 0.0))
+    np.testing.assert_allclose(slides.q_end[:3], [0.01, 0.0, 0.008], rtol=0, atol=1e-12)
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+@pytest.mark.parametrize("exponents", [(0.85, 1.2), (1.2, 0.85)])
+def test_it_falls_and_rolls(exponents: Any) -> None:
+    """Over flat and sharp places; the books balance."""
+    rng = np.random.default_rng(3)
+    for friction in (Frictionless(), Coulomb(0.3)):
+        body, turn = SuperellipsoidBody(0.01, 0.012, 0.008, *exponents), rng.normal(size=4)
+        start = {"velocity": (0.1, 0.0, 0.0), "angular_velocity": tuple((3.0 * rng.normal(size=3)).tolist())}
+        place = {"position": (0.0, 0.0, 0.03), "orientation": turn / np.linalg.norm(turn)}
+        solution = _fall(body, friction, 0.5, **place, **start)
+        assert solution.status == "done"
+        assert solution.energy.residual <= 1e-8
+        assert solution.counters.impacts > 3
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+def test_collisions_conserve_momentum_and_energy() -> None:
+    """Both kinds among each other and with all kinds of others, elastic and without friction."""
+    bodies = [
+        SuperellipsoidBody(0.02, 0.03, 0.05, 0.3, 1.3),
+        SuperellipsoidBody(0.03, 0.02, 0.02, 1.3, 0.5),
+        SuperellipsoidBody(0.03, 0.02, 0.04, 0.4, 0.6),
+        EllipsoidBody(0.02, 0.03, 0.03),
+        BoxBody(0.03, 0.02, 0.025),
+        CapsuleBody(0.015, 0.03),
+    ]
+    system, rng = ns.System(bodies, gravity=0.0), np.random.default_rng(4)
+    laws: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(1.0)}
+    for i, one in enumerate(bodies):
+        # of the others each with these two only
+        for other in bodies[i + 1 :] if i < 2 else []:
+            system.contact(one, other, **laws)
+        place = 0.2 * np.array([np.cos(i), np.sin(i), 0.3 * rng.normal()])
+        turn = np.roll(Rotation.random(random_state=i).as_quat(), 1)
+        spin = tuple(rng.normal(size=3).tolist())
+        system.place(one, position=place, orientation=turn, velocity=-3.0 * place, angular_velocity=spin)
+    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-12))
+    assert solution.counters.impacts >= 5
+
+    def totals(q: Array, u: Array) -> tuple[float, Array]:
+        energy: Any = 0.0
+        momenta = np.zeros(6)
+        for body, x, v in zip(bodies, q.reshape(-1, 7), u.reshape(-1, 6), strict=True):
+            own = tensor_of(body.inertia, body.products) @ v[3:]
+            energy += 0.5 * body.total_mass * v[:3] @ v[:3] + 0.5 * v[3:] @ own
+            momenta[:3] += body.total_mass * v[:3]
+            turn = Rotation.from_quat(np.roll(x[3:], -1))
+            momenta[3:] += np.cross(x[:3], body.total_mass * v[:3]) + turn.apply(own)
+        return float(energy), momenta
+
+    before, after = totals(solution.q[0], solution.u[0]), totals(solution.q_end, solution.u_end)
+    assert after[0] == pytest.approx(before[0], rel=1e-9)
+    np.testing.assert_allclose(after[1], before[1], rtol=0, atol=1e-9 * np.max(np.abs(before[1])))
