@@ -38,6 +38,10 @@ _WAYS = 14
 """So often the way behind a jump is doubled, from a part of the time tolerance on, until the jump is passed."""
 _FINE = 0.01
 """Part of the time tolerance to which roots are found."""
+_LOOKS = 4
+"""So often, between two of them, a gap that is to close is looked at when it should have closed,"""
+_BEHIND = 1e-3
+"""later by this part of the time that it takes."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -192,16 +196,36 @@ def _may_face(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     return 0
 
 
+@kernel("f8(S, F, I)")
+def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
+    soonest = 1e300
+    for c in range(S.n_contacts):
+        gap, rate = w[S.geometry + GEOMETRY * c], w[S.gap_rate + c]
+        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c + PAST_END] <= 0.0 and gap > 0.0 and rate < 0.0:
+            soonest = min(soonest, -gap / rate)
+    return soonest
+
+
 @kernel("f8(S, F, I, f8, f8, f8)")
 def _sampled(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float) -> float:
-    """Return the first of some fractions in between at which a gap has closed, its guards in ``guard``, or 0."""
-    for part in range(1, _SAMPLES):
-        theta = low + (high - low) * part / _SAMPLES
-        guards_within(S, w, k, h, theta, 0)
-        if first_fired(S, w, k, 0, -1) >= 0:
-            guards_within(S, w, k, h, theta, _any_closed(S, w, k))
-            return theta
-        arm_further(S, w, k, 0)
+    """Return the first of some fractions in between at which a gap has closed, its guards in ``guard``, or 0.
+
+    Features that face each other only from one sample to the next are looked at when their gap is to close.
+    """
+    for part in range(_SAMPLES):
+        theta, end = low + (high - low) * part / _SAMPLES, low + (high - low) * (part + 1) / _SAMPLES
+        for look in range(_LOOKS):
+            if theta >= end:
+                break
+            # right at the start nothing has grown yet
+            guards_within(S, w, k, h, max(theta, _FAINT), 0)
+            if part + look > 0:
+                if first_fired(S, w, k, 0, -1) >= 0:
+                    guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+                    return theta
+                arm_further(S, w, k, 0)
+            theta += (1.0 + _BEHIND) * _soonest(S, w, k) / h
     return 0.0
 
 
@@ -324,6 +348,19 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     return theta
 
 
+@kernel("f8(S, F, I, f8, f8, i8)")
+def _passed(S: Scalars, w: Floats, k: Integers, h: float, theta: float, closed: int) -> float:
+    """Return a fraction of the step before ``theta`` at which a gap has closed that was not looked at so far, or 0."""
+    earlier = _sampled(S, w, k, h, 0.0, theta)
+    if earlier > 0.0:
+        return earlier
+    guards_within(S, w, k, h, theta, closed)
+    for c in range(S.n_contacts):
+        w[S.gap_rate_middle + c] = w[S.gap_rate + c]
+        w[S.gap_middle + c] = w[S.geometry + GEOMETRY * c]
+    return _dip(S, w, k, h, 0.0, theta, 1)
+
+
 @kernel("f8(S, F, I, f8)")
 def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
     """Step to right behind the jump of the guard ``trigger`` that the interpolant has at ``step``; return the step."""
@@ -366,11 +403,12 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         theta = _root(S, w, k, h, later, first, closed)
         if roots > 1 and S.guard_slope == -math.inf and (later - theta) * h <= S.time_tolerance:
             # it jumps where the one before does
-            break
-        S.trigger = first
-        first = first_fired(S, w, k, closed, S.trigger)
+            first = -1
+        else:
+            S.trigger = first
+            first = first_fired(S, w, k, closed, S.trigger)
         if first < 0 and _may_face(S, w, k, h) == 1:
-            earlier = _sampled(S, w, k, h, 0.0, theta)
+            earlier = _passed(S, w, k, h, theta, closed)
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
             else:
