@@ -369,7 +369,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN and k[S.normal_function + c] == 0:
             closed += 1
-            if k[S.mode + c] == SLIDE and _speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
+            if S.velocity_tolerance < _speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
                 creeping += 1
     return 1 if closed > 1 and creeping > 0 else 0
 
@@ -394,7 +394,7 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
                 return status
             approaching = S.approaching
             continue
-        if S.recorded == 0:
+        if S.recorded == 0 and projected == 0:
             remember(S, w, k)
         _expect(S, w, k, cause, contact)
         solved = _solve_islands(S, w, k)
