@@ -49,10 +49,11 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     square = cross_x * cross_x + cross_y * cross_y + cross_z * cross_z
     dot = ax * bx + ay * by + az * bz
     none = square < 1e-12
-    if none:
-        cross_x, cross_y, cross_z = tangent_of(ax, ay, az)
-        square, dot = 1.0, 0.0
     one, two = first[SIN], -second[SIN]
+    if none:
+        # of parallel axes any direction across both is as good
+        cross_x, cross_y, cross_z = tangent_of(ax, ay, az)
+        square, dot, one, two = 1.0, 0.0, 0.0, 0.0
     p, q = (one - dot * two) / square, (two - dot * one) / square
     rest = 1.0 - (p * one + q * two)
     none = none or rest < 0.0
