@@ -435,7 +435,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             slope = w[S.gap_rate + i // 2]
         elif k[S.guard_deflated + i] == 1:
             value /= step
-        if not slope < 0.0:
+        # a gap that closes slower than what counts as rest does not tell where
+        if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
             return step
         correction = min(0.2 * theta * h, max(-0.2 * theta * h, -value / slope))
         if step + correction <= 0.0:
