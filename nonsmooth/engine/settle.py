@@ -50,8 +50,9 @@ from nonsmooth.model.layout import GEOMETRY, PAST_END
 _ATTEMPTS = 200
 _PAINLEVE_ATTEMPTS = 5
 _PROJECTIONS = 2
+"""So often an instant is settled anew after a projection that may have turned a slip."""
 _SLOW = 100.0
-"""A slip of so many velocity tolerances may be turned by a projection."""
+"""A slip of up to so many velocity tolerances may be turned."""
 _FACINGS = 20
 """So often friction may be found to oppose the other way."""
 
@@ -318,6 +319,7 @@ def _join(S: Scalars, w: Floats, k: Integers) -> int:
         if rigid and k[S.touching + c] == 1 and k[S.member + c] == 0 and w[S.rate + 3 * c] < -S.velocity_tolerance:
             joining += 1
             k[S.member + c] = 1
+            begin_contact(S, w, k, c)
             k[S.mode + c] = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
     return joining
 
