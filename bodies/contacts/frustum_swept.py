@@ -63,7 +63,8 @@ class FrustumSwept(ContactKinematics):
 
     The two touch where their cores are the radii apart.  The other contacts are those of the edges across side and
     rims, of the rims and feet over the faces, and of the apex, as a sphere.  Every one of them has its number for ever;
-    one whose features are not the nearest any more is past their end.  Vertices do not see the feet.
+    one whose features are not the nearest any more is past their end.  Vertices do not see the feet.  Corners of
+    meshes have these contacts, too (:class:`bodies.FrustumMesh`).
 
     Attributes
     ----------
@@ -77,8 +78,8 @@ class FrustumSwept(ContactKinematics):
         Unit vectors along the edges that leave it.
     size : float
         Size of the bodies [m].
-    vertex : int
-        Its number.
+    name : str
+        What the vertex is called.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
@@ -88,7 +89,7 @@ class FrustumSwept(ContactKinematics):
     place: tuple[float, float, float]
     star: Numbers
     size: float
-    vertex: int
+    name: str
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
@@ -98,7 +99,8 @@ class FrustumSwept(ContactKinematics):
         core, size, numbers = second.core, size_of_both(first, second), without_feet(first.frustum)
         check_number(len(core.edges))
         vertices = (
-            cls(numbers, second.sweep, place, star_of(core, i), size, i) for i, place in enumerate(core.vertices)
+            cls(numbers, second.sweep, place, star_of(core, i), size, f"vertex {i}")
+            for i, place in enumerate(core.vertices)
         )
         others = (kind.between(first, second) for kind in (FlankEdge, RimEdge, RimFace, ApexSwept))
         return tuple(itertools.chain(vertices, *others))
@@ -125,4 +127,4 @@ class FrustumSwept(ContactKinematics):
     @property
     def features(self) -> tuple[str, ...]:
         """From the cap against the axis to the one along it."""
-        return tuple(f"{part} and vertex {self.vertex}" for part in part_names(self.first))
+        return tuple(f"{part} and {self.name}" for part in part_names(self.first))

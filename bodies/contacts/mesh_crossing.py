@@ -7,17 +7,45 @@ from collections.abc import Iterator
 
 from bodies.contacts.across import across
 from bodies.contacts.frames import vector_in_body
-from bodies.contacts.frustum import axis_in_world, center_in_world, nearest_part
+from bodies.contacts.frustum import center_in_world, nearest_part
+from bodies.contacts.frustum_edge import edge_in_frustum
+from bodies.contacts.smooth_core import Axes, axes_in_world
 from bodies.contacts.surface_search import depth_inside
 from bodies.contacts.surface_tables import Numbers, edge_row, surface_numbers
 from bodies.contacts.vertex_face import DEEP
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
+from bodies.shapes.frustum import HIGH, LOW, SIDE, SWEEP
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 _ASTRAY = 1e-6
 """Sine of the angle by which the normal of a closed crossing may leave those of the edge: beyond, a face is nearer."""
+
+
+@compiled
+def _pierced(
+    b: Floats, frustum: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float, size: float
+) -> float:
+    """Return how deep an edge goes through a frustum [m], by where it is nearest to the axis between the caps, or 0."""
+    x, y, z, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
+    least, low, high = DEEP * size, 0.0, edge[6]
+    under, over = frustum[LOW] - z, frustum[HIGH] - z
+    if frustum[SIDE] > 0.0:
+        square = dx * dx + dy * dy
+        s = -(x * dx + y * dy) / square if square > 0.0 else 0.5 * edge[6]
+        if abs(dz) > 0.0:
+            low, high = max(low, min(under / dz, over / dz)), min(high, max(under / dz, over / dz))
+        s = min(max(s, low), high)
+        away = math.hypot(x + s * dx, y + s * dy)
+        outside, _, _, _ = nearest_part(frustum, z + s * dz, away)
+        return -outside if low <= high and outside < -least else 0.0
+    ends = -under, -under + dz * edge[6]
+    if ends[0] * ends[1] >= 0.0:
+        return 0.0
+    away = math.hypot(x + under / dz * dx, y + under / dz * dy)
+    depth = min(frustum[0] - away, min(abs(ends[0]), abs(ends[1])))
+    return depth if depth > least else 0.0
 
 
 @compiled
@@ -27,7 +55,8 @@ def judge_crossing(
     """Open a crossing, whose block is written, where a face is nearer, or where the bodies do not overlap as it seems.
 
     A rim that rolls over an edge changes from the face to the edge where its normal becomes one of the edge's.  And
-    where neither point of what overlaps is inside of the other body, they lie on the far sides of each other.
+    where neither point of what overlaps is inside of the other body, they lie on the far sides of each other.  But an
+    edge that goes through the frustum is a sign that they overlap.
     """
     x, y, z = vector_in_body(b, out[1], out[2], out[3])
     astray = max(-x * edge[7] - y * edge[8] - z * edge[9], -x * edge[10] - y * edge[11] - z * edge[12])
@@ -38,16 +67,23 @@ def judge_crossing(
         for i in range(3):
             out[10 + i] = out[7 + i] + apart * out[1 + i]
     gap, past = out[0], out[30]
+    axes = axes_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    if gap > 0.0:
+        depth = _pierced(b, frustum, edge, axes, cx, cy, cz, size)
+        if depth > 0.0:
+            out[0], out[30] = -depth, max(past, DEEP * size)
+            for i in range(3):
+                out[10 + i] = out[7 + i] - depth * out[1 + i]
+        return
     if past > 0.0 or gap >= -DEEP * size:
         return
     x, y, z = vector_in_body(b, out[7] - b[0], out[8] - b[1], out[9] - b[2])
     if depth_inside(surface, x, y, z) > 0.0:
         return
-    ax, ay, az = axis_in_world(a, frustum)
-    cx, cy, cz = center_in_world(a, frustum)
-    along, away, _, _, _ = across(out[10] - cx, out[11] - cy, out[12] - cz, ax, ay, az)
+    along, away, _, _, _ = across(out[10] - cx, out[11] - cy, out[12] - cz, axes[2], axes[5], axes[8])
     outside, _, _, _ = nearest_part(frustum, along, away)
-    if outside < 0.0:
+    if outside < frustum[SWEEP]:
         return
     apart = math.sqrt(2.0) * gap
     out[0], out[30] = -apart, -gap

@@ -8,11 +8,12 @@ from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
+from bodies.contacts.offset import gap_at_distance
 from bodies.contacts.surface_tables import FACE, FACES, Numbers, star_of, surface_numbers
 from bodies.contacts.surface_vertex import face_under
 from bodies.contacts.tangents import write_tangent
 from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_body
+from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.point import Point
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -58,16 +59,19 @@ def _evaluate_reversed(
     vertex_z: float,
     n_star: float,
     star: Floats,
+    radius: float,
 ) -> None:
     face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star)
     f = int(surface[FACES]) + FACE * face
+    gap = gap_at_distance(gap, past, radius)
     out[0], out[29], out[30] = gap, float(face), past
     out[1], out[2], out[3] = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
     out[7], out[8], out[9] = point_in_world(a, vertex_x, vertex_y, vertex_z)
     for i in range(3):
+        out[7 + i] += radius * out[1 + i]
         out[10 + i] = out[7 + i] + gap * out[1 + i]
     write_tangent(a, out)
-    write_round(out, SIDE_A, 0.0)
+    write_round(out, SIDE_A, radius)
     write_flat(out, SIDE_B)
 
 
@@ -140,7 +144,7 @@ class MeshPoint(ContactKinematics):
         """Return the contacts of a point with the patches of a mesh."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, Point)
-        own, patches = first.features, patches_for_body(first.features, 0.0)
+        own, patches = first.features, patches_for_ball(first.features, 0.0)
         surface, place = surface_numbers(own, patches), (second.x, second.y, second.z)
         n_faces = len(own.planes)
         return tuple(cls(_Vertex(surface, n_faces, i, place, (), "point")) for i in range(patches.count))
@@ -148,7 +152,7 @@ class MeshPoint(ContactKinematics):
     @classmethod
     def of_corners(cls, first: Features, second: Features) -> tuple[MeshPoint, ...]:
         """Return the contacts of all corners of the second surface with the patches of the first."""
-        return tuple(cls(vertex) for vertex in _all(first, _corners(second)))
+        return tuple(cls(vertex) for vertex in _all(first, _corners(second), 0.0))
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -164,35 +168,38 @@ class MeshPoint(ContactKinematics):
 @final
 @dataclass(frozen=True)
 class PointMesh(ContactKinematics):
-    """A vertex of the first body against a patch of the surface of the second.
+    """A vertex of the first body, with a radius about it or without, against a patch of the surface of the second.
 
     Attributes
     ----------
     vertex : _Vertex
         The vertex and the patch.
+    radius : float
+        The radius [m].
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Point, TriangleMesh)
     vertex: _Vertex
+    radius: float
 
     def parameters(self) -> dict[str, Value]:
-        """Return the surface and the vertex."""
-        return self.vertex.values()
+        """Return the surface, the vertex and its radius."""
+        return {**self.vertex.values(), "radius": self.radius}
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[PointMesh, ...]:
         """Return the contacts of a point with the patches of a mesh."""
-        return tuple(cls(other.vertex) for other in MeshPoint.between(second, first))
+        return tuple(cls(other.vertex, 0.0) for other in MeshPoint.between(second, first))
 
     @classmethod
     def of_corners(cls, first: Features, second: Features) -> tuple[PointMesh, ...]:
         """Return the contacts of all corners of the first surface with the patches of the second."""
-        return cls.of_vertices(_corners(first), second)
+        return cls.of_vertices(_corners(first), second, 0.0)
 
     @classmethod
-    def of_vertices(cls, vertices: Iterable[Corner], second: Features) -> tuple[PointMesh, ...]:
-        """Return the contacts of vertices of the first body with the patches of the second."""
-        return tuple(cls(vertex) for vertex in _all(second, vertices))
+    def of_vertices(cls, vertices: Iterable[Corner], second: Features, radius: float) -> tuple[PointMesh, ...]:
+        """Return the contacts of vertices of the first body, with a radius [m], with the patches of the second."""
+        return tuple(cls(vertex, radius) for vertex in _all(second, vertices, radius))
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -210,8 +217,8 @@ def _corners(features: Features) -> Iterator[Corner]:
         yield (x, y, z), tuple(star_of(features, i)), f"vertex {i}"
 
 
-def _all(surface: Features, vertices: Iterable[Corner]) -> Iterator[_Vertex]:
-    patches = patches_for_body(surface, 0.0)
+def _all(surface: Features, vertices: Iterable[Corner], radius: float) -> Iterator[_Vertex]:
+    patches = patches_for_ball(surface, radius)
     numbers, n_faces = surface_numbers(surface, patches), len(surface.planes)
     for place, star, name in vertices:
         for patch in range(patches.count):

@@ -7,21 +7,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
-from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.frames import point_in_world, vector_in_body
 from bodies.contacts.offset import place_sphere
-from bodies.contacts.surface_search import ON_EDGE, ON_FACE, nearest_in_patch
-from bodies.contacts.surface_tables import (
-    EDGE,
-    EDGES,
-    FACE,
-    FACES,
-    N_EDGES,
-    N_FACES,
-    N_PATCHES,
-    Numbers,
-    surface_numbers,
-)
+from bodies.contacts.surface_feature import out_of_surface, write_feature
+from bodies.contacts.surface_search import nearest_in_patch
+from bodies.contacts.surface_tables import N_PATCHES, Numbers, surface_numbers
 from bodies.contacts.swept_vertex import END, NEAR, past_star
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball
@@ -48,15 +39,11 @@ def _evaluate(
 ) -> None:
     center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
-    distance, past, kind, number, px, py, pz = nearest_in_patch(surface, patch, x, y, z)
+    found = nearest_in_patch(surface, patch, x, y, z)
+    distance, kind, number = found[0], found[2], found[3]
     # the patch of a surface that has one only does not end
-    past = past if surface[N_PATCHES] > 1.0 else 0.0
-    if kind == ON_FACE and (past <= 0.0 or distance == 0.0):
-        f = int(surface[FACES]) + FACE * number
-        nx, ny, nz = surface[f], surface[f + 1], surface[f + 2]
-    else:
-        nx, ny, nz = (x - px) / distance, (y - py) / distance, (z - pz) / distance
-    nx, ny, nz = vector_in_world(a, nx, ny, nz)
+    past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
+    nx, ny, nz = out_of_surface(a, surface, found, past, x, y, z)
     if n_star > 0.0:
         beyond = past_star(b, star, n_star, distance, nx, ny, nz, size)
         past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
@@ -65,17 +52,8 @@ def _evaluate(
         apart = max(distance - radius, 0.0)
         distance = math.sqrt(apart * apart + past * past) + radius
     place_sphere(a, out, center_x, center_y, center_z, distance, radius)
-    out[29], out[30] = float(number), past
-    if kind == ON_FACE:
-        write_flat(out, SIDE_A)
-    elif kind == ON_EDGE:
-        e = int(surface[EDGES]) + EDGE * number
-        ex, ey, ez = vector_in_world(a, surface[e + 3], surface[e + 4], surface[e + 5])
-        write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
-        out[29] += surface[N_FACES]
-    else:
-        write_round(out, SIDE_A, 0.0)
-        out[29] += surface[N_FACES] + surface[N_EDGES]
+    out[30] = past
+    write_feature(a, out, SIDE_A, surface, kind, number)
     write_round(out, SIDE_B, radius)
 
 

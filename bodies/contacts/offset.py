@@ -1,4 +1,4 @@
-"""Surfaces at a distance from a core (a point, a segment): what spheres and capsules have in common."""
+"""Surfaces at a distance from a core: what spheres, capsules and other rounded bodies have in common."""
 
 from __future__ import annotations
 
@@ -36,3 +36,15 @@ def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance:
     out[7], out[8], out[9] = x - distance * out[1], y - distance * out[2], z - distance * out[3]
     out[10], out[11], out[12] = x - radius * out[1], y - radius * out[2], z - radius * out[3]
     write_tangent(a, out)
+
+
+@compiled
+def gap_at_distance(gap: float, past: float, radius: float) -> float:
+    """Return the gap at a distance from a core, by that of the core and the way past its end.
+
+    Past the end a gap that is positive stays so: it is the root of the squares of the gap and of the way past the end.
+    """
+    if past <= 0.0 or gap <= 0.0:
+        return gap - radius
+    apart = math.sqrt(max(gap * gap - past * past, 0.0))
+    return math.hypot(max(apart - radius, 0.0), past)

@@ -6,7 +6,7 @@ import math
 
 from bodies.contacts.across import across
 from bodies.contacts.frustum_writing import astray_of_rim
-from bodies.contacts.surface_search import box_square, face_height
+from bodies.contacts.surface_search import box_square, face_height, pierced
 from bodies.contacts.surface_tables import (
     FACE,
     FACES,
@@ -21,7 +21,7 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.surface_vertex import ASTRAY, over_face, touched_face
 from bodies.contacts.vertex_face import REACH
-from bodies.shapes.frustum import SIDE
+from bodies.shapes.frustum import HIGH, LOW, SIDE
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -59,7 +59,8 @@ def rim_under(
 ) -> tuple[int, float, float]:
     """Return face, gap and way past the end of a rim against a patch of a surface, as of a vertex.
 
-    Over every face it is another point of the rim that counts, the lowest.
+    Over every face it is another point of the rim that counts, the lowest.  Past the end a body that goes through the
+    surface has a negative gap.
 
     Parameters
     ----------
@@ -118,4 +119,12 @@ def rim_under(
     face, gap, past = touched_face(
         surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
     )
+    if past > 0.0 and gap > 0.0:
+        # to the other side of the core, or of the disc
+        onward, far = up * (frustum[LOW] - frustum[HIGH]), frustum[0] + frustum[1] - radius
+        ex, ey, ez = (cx - x) / radius, (cy - y) / radius, (cz - z) / radius
+        ex, ey, ez = cx + onward * ax + far * ex, cy + onward * ay + far * ey, cz + onward * az + far * ez
+        depth = pierced(surface, x, y, z, ex, ey, ez)
+        if depth > 0.0:
+            gap = -depth
     return face, gap, past

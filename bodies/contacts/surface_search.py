@@ -29,6 +29,9 @@ from nonsmooth.types import Floats
 ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
 """Kinds of features."""
 
+_THROUGH = 1e-4
+"""A line goes through a triangle that its ends, and the triangle's edges, are so far from, in units of the size."""
+
 Point: TypeAlias = tuple[float, float, float]
 Found: TypeAlias = tuple[float, float, int, int, float, float, float]
 """Signed distance, way past the end of the feature [m], kind and number of the feature, and its nearest point."""
@@ -130,6 +133,40 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
                     side = qx * surface[n] + qy * surface[n + 1] + qz * surface[n + 2]
         node += 1
     return float(least**0.5) if side < 0.0 else 0.0
+
+
+@compiled
+def pierced(surface: Floats, px: float, py: float, pz: float, qx: float, qy: float, qz: float) -> float:
+    """Return how far the nearer end of a straight line is from the plane of a triangle that it goes through, or 0."""
+    nodes, members, margin = int(surface[NODES]), int(surface[MEMBERS]), _THROUGH * surface[SIZE]
+    node = 0
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * node
+        if (
+            max(px, qx) < surface[at]
+            or max(py, qy) < surface[at + 1]
+            or max(pz, qz) < surface[at + 2]
+            or min(px, qx) > surface[at + 3]
+            or min(py, qy) > surface[at + 4]
+            or min(pz, qz) > surface[at + 5]
+        ):
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            if member >= int(surface[N_TRIANGLES]):
+                continue
+            t = int(surface[TRIANGLES]) + TRIANGLE * member
+            f = int(surface[FACES]) + FACE * int(surface[t + 9])
+            one, two = face_height(surface, f, px, py, pz), face_height(surface, f, qx, qy, qz)
+            if one * two >= 0.0 or min(abs(one), abs(two)) <= margin:
+                continue
+            s = one / (one - two)
+            over, _ = over_ends(surface, t, px + s * (qx - px), py + s * (qy - py), pz + s * (qz - pz))
+            if over < -margin:
+                return min(abs(one), abs(two))
+        node += 1
+    return 0.0
 
 
 @compiled

@@ -11,10 +11,11 @@ import math
 from typing import TypeAlias
 
 from bodies.contacts.boxy_line import nearest_to_line
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
+from bodies.contacts.curvature import SIDE_A, SIDE_B
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest_from, write_surface
+from bodies.contacts.surface_feature import write_feature
 from bodies.contacts.surface_search import (
     ON_CORNER,
     ON_EDGE,
@@ -37,7 +38,6 @@ from bodies.contacts.surface_tables import (
     FACES,
     MEMBERS,
     N_EDGES,
-    N_FACES,
     N_NODES,
     N_PATCHES,
     N_TRIANGLES,
@@ -303,14 +303,4 @@ def evaluate_surface_smooth(
     mx, my, mz = back(turn, -nx, -ny, -nz)
     bx, by, bz = back(turn, px - x, py - y, pz - z)
     write_surface(out, SIDE_B, second, axes_b, mx, my, mz, bx, by, bz)
-    out[29] = float(number)
-    if kind == ON_FACE:
-        write_flat(out, SIDE_A)
-    elif kind == ON_EDGE:
-        e = int(surface[EDGES]) + EDGE * number
-        ex, ey, ez = vector_in_world(a, surface[e + 3], surface[e + 4], surface[e + 5])
-        write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
-        out[29] += surface[N_FACES]
-    else:
-        write_round(out, SIDE_A, 0.0)
-        out[29] += surface[N_FACES] + surface[N_EDGES]
+    write_feature(a, out, SIDE_A, surface, kind, number)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -35,6 +37,7 @@ _LEAF = 4
 """Members of a leaf, at most."""
 
 
+@lru_cache(maxsize=4)
 def surface_numbers(features: Features, patches: Patches) -> Numbers:
     """Return the numbers of a surface whose features are divided into patches."""
     triangles = _triangles(features)
@@ -72,11 +75,16 @@ def surface_numbers(features: Features, patches: Patches) -> Numbers:
 def edge_row(features: Features, number: int) -> Numbers:
     """Return first end, direction, length, and in either face the direction from the edge into it."""
     one, two, left, right = features.edges[number]
-    way = features.vertices[two] - features.vertices[one]
-    length = float(np.linalg.norm(way))
-    along = way / length
-    inward = np.cross(features.planes[left, :3], along), np.cross(along, features.planes[right, :3])
-    return *features.vertices[one].tolist(), *along.tolist(), length, *inward[0].tolist(), *inward[1].tolist()
+    start, end = features.vertices[one].tolist(), features.vertices[two].tolist()
+    way = [y - x for x, y in zip(start, end, strict=True)]
+    length = math.hypot(*way)
+    along = [x / length for x in way]
+    inward = *_cross(features.planes[left].tolist(), along), *_cross(along, features.planes[right].tolist())
+    return *start, *along, length, *inward
+
+
+def _cross(a: Sequence[float], b: Sequence[float]) -> Numbers:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 def star_of(features: Features, number: int) -> list[float]:

@@ -24,7 +24,7 @@ from nonsmooth.types import Floats
 END = 3e-10
 """So far before its end, in units of the size of the bodies, an edge gives its contact to the vertex, and the vertex
 gives it back after twice that way: neither none of them is closed nor both of them for long."""
-_OPEN = 100.0
+OPEN = 100.0
 """Gap of a contact that another one has, over its way past the end."""
 NEAR = 1e-6
 """A wider gap, in units of the size, ends nowhere: it is that of a sphere that is part of the body."""
@@ -84,7 +84,7 @@ def write_vertex_over(
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
         # so small a way past the end is written large, that nobody takes the open contact for one that touches
-        gap, past = math.hypot(distance - sweep - radius, _OPEN * shared), max(past, shared)
+        gap, past = math.hypot(distance - sweep - radius, OPEN * shared), max(past, shared)
     sign = 1.0 - 2.0 * swap
     near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
     out[0], out[29], out[30] = gap, number, past

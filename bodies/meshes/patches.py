@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import final
 
 import numpy as np
@@ -41,12 +42,14 @@ class Patches:
         return 1 + max(self.of_faces + self.of_edges + self.of_corners)
 
 
+@lru_cache(maxsize=4)
 def patches_for_ball(features: Features, radius: float) -> Patches:
     """Return patches for a ball of a radius [m]; points p and q that it touches are r |n_p - n_q| from each other."""
     normals = features.planes[:, :3]
     return _patches(features, lambda i: radius * np.linalg.norm(normals - normals[i], axis=1))
 
 
+@lru_cache(maxsize=4)
 def patches_for_body(features: Features, diameter: float) -> Patches:
     """Return patches for a convex body of a diameter [m]; 0 for a vertex."""
     return _patches(features, lambda _: np.full(len(features.planes), diameter))

@@ -220,6 +220,7 @@ def _are_of(features: tuple[str, ...], part: str, other: str) -> bool:
 
 PARTS = "face", "edge", "vertex"
 _OVER_EDGES = (("edge", "edge"), ("vertex", "edge"))
+_OVER_ROUND = (("rim", PARTS), ("cap", ("vertex",)), ("side", ("edge", "vertex")))
 MESHES: dict[str, Callable[[float, Generator], Known]] = {
     **{
         f"mesh-{kind}, {part}": _with_round(kind, part)
@@ -251,6 +252,9 @@ MESHES: dict[str, Callable[[float, Generator], Known]] = {
             ("cone", "side", "edge"),
             ("disc", "rim", "face"),
             ("disc", "rim", "edge"),
+            *(("rounded cylinder", part, other) for part, others in _OVER_ROUND for other in others),
+            *(("rounded cone", "apex", other) for other in PARTS),
+            *(("rounded disc", "rim", other) for other in ("face", "edge")),
         )
     },
 }

@@ -1,0 +1,129 @@
+"""The apex of a rounded cone, a sphere, against a triangle mesh, convex or not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.apex_swept import past_apex
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.frames import vector_in_body
+from bodies.contacts.frustum import axis_in_world, center_in_world
+from bodies.contacts.surface_feature import out_of_surface, write_feature
+from bodies.contacts.surface_search import ON_CORNER, ON_EDGE, Found, nearest_in_patch
+from bodies.contacts.surface_tables import EDGE, EDGES, N_PATCHES, Numbers, surface_numbers
+from bodies.contacts.swept_vertex import END, NEAR, OPEN
+from bodies.contacts.tangents import write_tangent
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_ball
+from bodies.shapes.frustum import HIGH, SIDE, SWEEP, Frustum
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+@compiled
+def _within(surface: Floats, found: Found) -> float:
+    """Return how far the point that was found is from the nearer end of its edge [m]: 0 at a corner."""
+    _, _, kind, number, x, y, z = found
+    if kind == ON_CORNER:
+        return 0.0
+    if kind != ON_EDGE:
+        return math.inf
+    e = int(surface[EDGES]) + EDGE * number
+    x, y, z = x - surface[e], y - surface[e + 1], z - surface[e + 2]
+    along = x * surface[e + 3] + y * surface[e + 4] + z * surface[e + 5]
+    return float(min(along, surface[e + 6] - along))
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats, patch: float, size: float) -> None:
+    ax, ay, az = axis_in_world(a, first)
+    px, py, pz = center_in_world(a, first)
+    px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
+    x, y, z = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
+    found = nearest_in_patch(surface, patch, x, y, z)
+    # the patch of a surface that has one only does not end
+    past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
+    nx, ny, nz = out_of_surface(b, surface, found, past, x, y, z)
+    radius = first[SWEEP]
+    gap = found[0] - radius
+    beyond = past_apex(first, found[0], -nx * ax - ny * ay - nz * az, size)
+    past = max(past, min(beyond, -END * size) if gap > NEAR * size else beyond)
+    # a corner has a contact of its own
+    shared = END * size - _within(surface, found)
+    past = max(past, shared)
+    if past > 0.0:
+        # so small a way past the end is written large, that nobody takes the open contact for one that touches
+        gap = math.hypot(max(gap, 0.0), max(past, OPEN * shared))
+    out[1], out[2], out[3] = -nx, -ny, -nz
+    out[7], out[8], out[9] = px - radius * nx, py - radius * ny, pz - radius * nz
+    out[0], out[30] = gap, past
+    for i in range(3):
+        out[10 + i] = out[7 + i] + gap * out[1 + i]
+    write_tangent(a, out)
+    write_round(out, SIDE_A, radius)
+    write_feature(b, out, SIDE_B, surface, found[2], found[3])
+
+
+@final
+@dataclass(frozen=True)
+class ApexMesh(ContactKinematics):
+    """The round apex of a cone against the nearest face or edge of one patch; a corner has a contact of its own.
+
+    Attributes
+    ----------
+    first : tuple of float
+        The cone (:func:`bodies.shapes.frustum.frustum_numbers`).
+    surface : tuple of float
+        The surface (:mod:`bodies.contacts.surface_tables`).
+    patch : int
+        Number of the patch.
+    size : float
+        Size of the larger body [m].
+    counts : tuple of int
+        Numbers of faces, convex edges and corners.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
+
+    first: Numbers
+    surface: Numbers
+    patch: int
+    size: float
+    counts: tuple[int, int, int]
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ApexMesh, ...]:
+        """Return the contacts of a cone; others have no apex."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, TriangleMesh)
+        return cls.of_patches(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
+
+    @classmethod
+    def of_patches(cls, first: Numbers, second: Features, size: float) -> tuple[ApexMesh, ...]:
+        """Return the same."""
+        if first[SIDE] == 0.0 or first[1] > 0.0:
+            return ()
+        patches = patches_for_ball(second, first[SWEEP])
+        surface = surface_numbers(second, patches)
+        counts = len(second.planes), len(second.edges), len(second.corners)
+        return tuple(cls(first, surface, patch, size, counts) for patch in range(patches.count))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {"first": self.first, "surface": self.surface, "patch": float(self.patch), "size": self.size}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces, convex edges and corners by number; the last never closed."""
+        kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
+        return tuple(f"apex and {part} {i}" for part, n in kinds for i in range(n))
