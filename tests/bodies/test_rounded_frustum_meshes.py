@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Cone, Cylinder, Disc, TriangleMesh, Triangles
+from bodies import Cone, Cylinder, Disc, Frustum, TriangleMesh, Triangles
 from nonsmooth.engine.kernel import PLAIN
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import bracket
@@ -48,6 +48,21 @@ def test_gap_is_the_distance_of_the_core(build: Any, name: str) -> None:
             assert np.min(gaps[past <= 0.0]) == pytest.approx(distance - shape.rounding, abs=1e-14)
             assert np.all(gaps[past > 0.0] > min(distance - shape.rounding, 0.0) - 1e-14)
     assert min(compared, deep) > 3
+
+
+@pytest.mark.parametrize("shape", [Disc(8e-3), Cone(6e-3, 0.012), Cylinder(2e-3, 0.012, rounding=5e-4)])
+def test_what_goes_right_through_overlaps(build: Any, shape: Frustum) -> None:
+    """A sharp disc that edges pierce far from its rim, a slender body both of whose ends are outside."""
+    rig, rng = Rig((shape, MESH), build.laws()), np.random.default_rng(3)
+    low, high = MESH.bounds
+    deep = 0
+    for place in rng.uniform(low - 5e-3, high + 5e-3, (20 if PLAIN else 60, 3)):
+        turn = Rotation.random(random_state=rng)
+        if core_distance(MESH, shape, place, turn) < 1e-9:
+            deep += 1
+            rig.put([(place, np.roll(turn.as_quat(), 1)), (np.zeros(3), UNIT)], np.zeros(12))
+            assert np.min(rig.geometry[:, 0]) < 0.0
+    assert deep > 5
 
 
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")

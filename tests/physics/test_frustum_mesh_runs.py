@@ -13,11 +13,12 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from bodies import Cone, Cylinder, CylinderBody, Disc, DrivenBody, Frustum, Rest, TriangleMesh, Triangles
 from bodies.contacts.frustum import nearest_part
-from bodies.shapes.frustum import AXIS, CENTER
+from bodies.shapes.frustum import AXIS, CENTER, FEET
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import CAUSES
 from tests.bodies.meshes.parts import bracket, channel
+from tests.bodies.round_distances import core_distance
 from tests.bodies.surfaces import distances, is_inside
 from tests.physics.test_mesh_runs import collision
 
@@ -30,6 +31,11 @@ SHAPES = {
     "log": Cylinder(4e-3, 0.03),
     "cone": Cone(6e-3, 0.016),
     "disc": Disc(9e-3),
+}
+ROUNDED = {
+    "cylinder": Cylinder(6e-3, 8e-3, foot_height=6e-7, rounding=1e-3),
+    "cone": Cone(6e-3, 0.016, rounding=1e-3),
+    "disc": Disc(9e-3, rounding=1e-3),
 }
 PARTS = {"L": bracket, "U": channel}
 
@@ -78,6 +84,23 @@ def test_collisions_keep_momentum_and_energy(build: Any, name: str, part: str) -
         assert max(_deepest(mesh, shape, q) for q in solution.q[::10]) < 1e-9
 
 
+@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("name", ROUNDED)
+def test_collisions_of_rounded_ones_keep_momentum_and_energy(build: Any, name: str, part: str) -> None:
+    """Their cores are never nearer than the radius."""
+    mesh, shape = _mesh(PARTS[part]), ROUNDED[name]
+    for seed in range(3):
+        solution, momentum = collision(build, (mesh, shape), seed)
+        assert solution.counters.impacts > 0
+        np.testing.assert_allclose(momentum[1], momentum[0], rtol=0, atol=1e-12)
+        assert solution.energy.residual < 1e-9
+        for q in solution.q[::30]:
+            turns = [Rotation.from_quat(np.roll(q[7 * i + 3 : 7 * i + 7], -1)) for i in range(2)]
+            place = turns[0].inv().apply(q[7:10] - q[:3])
+            distance = core_distance(mesh, shape, place, turns[0].inv() * turns[1])
+            assert distance > shape.rounding - shape.frustum[FEET] - 1e-9
+
+
 @pytest.mark.parametrize("name", ["cylinder", "cone"])
 def test_collisions_with_friction_keep_them_apart(build: Any, name: str) -> None:
     mesh, shape = _mesh(channel), SHAPES[name]
@@ -119,12 +142,13 @@ def test_a_cylinder_rolls_down_inside_a_channel_until_it_strikes_the_wall() -> N
     assert abs(turn.inv().apply(solution.q_end[:3])[1]) < 1e-9
 
 
-def test_a_cylinder_comes_to_rest_in_the_corner_of_an_l() -> None:
+@pytest.mark.parametrize("rounding", [0.0, 5e-4])
+def test_a_cylinder_comes_to_rest_in_the_corner_of_an_l(rounding: float) -> None:
     """It rolls down the slope and lies against the wall at last, on both rims at either."""
     radius, mesh = 2e-3, _mesh(bracket)
     # the wall of the L stands at low x: down along -x
     x, z = (float(np.unique(mesh.features.vertices[:, i].round(12))[1]) for i in (0, 2))
-    body = CylinderBody(radius, 5e-3)
+    body = CylinderBody(radius, 5e-3, rounding=rounding)
     solution = ns.simulate(_system(bracket, body, -0.3, (x + 8e-3, 1e-3, z + radius + 1e-3), 0.3, 0.3), 1.0)
     place = Rotation.from_euler("y", -0.3).inv().apply(solution.q_end[:3])
     assert solution.status == "done"
@@ -133,11 +157,12 @@ def test_a_cylinder_comes_to_rest_in_the_corner_of_an_l() -> None:
     assert np.count_nonzero(solution.events.after[-1]) == 4
 
 
-def test_a_cylinder_stands_in_a_channel_on_its_feet() -> None:
+@pytest.mark.parametrize("rounding", [0.0, 1e-3])
+def test_a_cylinder_stands_in_a_channel_on_its_feet(rounding: float) -> None:
     """On three feet on the floor between the walls."""
     mesh = _mesh(channel)
     floor = float(np.unique(mesh.features.vertices[:, 2].round(12))[1])
-    ground, body = DrivenBody(Rest(), (mesh,)), CylinderBody(6e-3, 8e-3)
+    ground, body = DrivenBody(Rest(), (mesh,)), CylinderBody(6e-3, 8e-3, rounding=rounding)
     system = ns.System([ground, body])
     system.contact(ground, body, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(restitution=0.3))
     system.place(body, position=(1e-3, 5e-4, floor + 8e-3))
