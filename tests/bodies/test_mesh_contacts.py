@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from scipy.spatial.transform import Rotation
 from bodies import (
     Box,
     Capsule,
+    Cone,
     ConvexHull,
     Ellipsoid,
     MeshSphere,
@@ -23,6 +25,7 @@ from bodies import (
     Triangles,
 )
 from bodies.contacts import mesh_mesh
+from bodies.contacts.apex_mesh import ApexMesh
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from nonsmooth import InvalidInput
 from nonsmooth.interfaces import Shape
@@ -93,9 +96,15 @@ def test_contacts_with_points_and_balls_have_the_properties_of_the_kit() -> None
         (contact, BRACKET, ball) for ball in [Sphere(4e-3)] for contact in MeshSphere.between(BRACKET, ball)[:1]
     ]
     tip = Point(1e-3, 2e-3)
-    pairs += [(MeshPoint.between(BRACKET, tip)[0], BRACKET, tip), (PointMesh.between(tip, BRACKET)[0], tip, BRACKET)]
+    point, cone = PointMesh.between(tip, BRACKET)[0], Cone(6e-3, 0.012, 1e-3, rounding=1e-3)
+    pairs += [(MeshPoint.between(BRACKET, tip)[0], BRACKET, tip), (point, tip, BRACKET)]
+    pairs += [(ApexMesh.between(cone, BRACKET)[0], cone, BRACKET)]
     for contact, first, second in pairs:
         for check in check_contact_kinematics(contact, first, second):
+            check()
+    # a point has no radius, but a foot may
+    for check in check_contact_kinematics(replace(point, radius=2e-3), tip, BRACKET):
+        if check.name in ("gap rate", "second-order terms", "witness points"):
             check()
 
 
