@@ -15,7 +15,7 @@ from bodies.contacts.surface_tables import Numbers, edge_row, surface_numbers
 from bodies.contacts.vertex_face import DEEP
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
-from bodies.shapes.frustum import HIGH, LOW, SIDE, SWEEP
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -27,19 +27,26 @@ _ASTRAY = 1e-6
 def _pierced(
     b: Floats, frustum: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float, size: float
 ) -> float:
-    """Return how deep an edge goes through a frustum [m], by where it is nearest to the axis between the caps, or 0."""
+    """Return how deep an edge goes through a frustum [m], where it is deepest under the side between the caps, or 0."""
     x, y, z, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
     least, low, high = DEEP * size, 0.0, edge[6]
-    under, over = frustum[LOW] - z, frustum[HIGH] - z
     if frustum[SIDE] > 0.0:
-        square = dx * dx + dy * dy
-        s = -(x * dx + y * dy) / square if square > 0.0 else 0.5 * edge[6]
+        under, over = frustum[LOW] + 2.0 * least - z, frustum[HIGH] - 2.0 * least - z
         if abs(dz) > 0.0:
             low, high = max(low, min(under / dz, over / dz)), min(high, max(under / dz, over / dz))
+        square, slope = dx * dx + dy * dy, dz * frustum[SIN] / frustum[COS]
+        s = 0.5 * edge[6]
+        if square > slope * slope:
+            # where the distance from the axis changes by the slope
+            s = -(x * dx + y * dy) / square
+            nearest = math.hypot(x + s * dx, y + s * dy)
+            s -= slope * nearest / math.sqrt(square * (square - slope * slope))
+        elif slope != 0.0:
+            s = -math.copysign(size, slope)
         s = min(max(s, low), high)
-        away = math.hypot(x + s * dx, y + s * dy)
-        outside, _, _, _ = nearest_part(frustum, z + s * dz, away)
+        outside, _, _, _ = nearest_part(frustum, z + s * dz, math.hypot(x + s * dx, y + s * dy))
         return -outside if low <= high and outside < -least else 0.0
+    under = frustum[LOW] - z
     ends = -under, -under + dz * edge[6]
     if ends[0] * ends[1] >= 0.0:
         return 0.0

@@ -164,7 +164,7 @@ def pierced(surface: Floats, px: float, py: float, pz: float, qx: float, qy: flo
             s = one / (one - two)
             over, _ = over_ends(surface, t, px + s * (qx - px), py + s * (qy - py), pz + s * (qz - pz))
             if over < -margin:
-                return min(abs(one), abs(two))
+                return float(min(abs(one), abs(two)))
         node += 1
     return 0.0
 

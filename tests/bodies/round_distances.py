@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,7 @@ def _from_core(shape: Frustum, points: Array) -> Array:
     point = np.stack([np.hypot(own[..., 0], own[..., 1]), own[..., 2]], axis=-1)
     outline = np.array([(0.0, below), (low, below), (high, above), (0.0, above)])
     nearest, inside = np.full(point.shape[:-1], np.inf), np.ones(point.shape[:-1], dtype=bool)
-    for one, two in zip(outline[:-1], outline[1:], strict=True):
+    for one, two in itertools.pairwise(outline):
         way, off = two - one, point - one
         share = np.clip(off @ way / max(float(way @ way), 1e-300), 0.0, 1.0)
         nearest = np.minimum(nearest, np.linalg.norm(off - share[..., None] * way, axis=-1))
