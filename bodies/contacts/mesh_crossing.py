@@ -10,7 +10,7 @@ from bodies.contacts.frames import vector_in_body
 from bodies.contacts.frustum import center_in_world, nearest_part
 from bodies.contacts.frustum_edge import edge_in_frustum
 from bodies.contacts.smooth_core import Axes, axes_in_world
-from bodies.contacts.surface_search import depth_inside
+from bodies.contacts.surface_search import THROUGH, depth_inside
 from bodies.contacts.surface_tables import Numbers, edge_row, surface_numbers
 from bodies.contacts.vertex_face import DEEP
 from bodies.meshes.features import Features
@@ -29,7 +29,7 @@ def _pierced(
 ) -> float:
     """Return how deep an edge goes through a frustum [m], where it is deepest under the side between the caps, or 0."""
     x, y, z, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
-    least, low, high = DEEP * size, 0.0, edge[6]
+    least, low, high = THROUGH * size, 0.0, edge[6]
     if frustum[SIDE] > 0.0:
         under, over = frustum[LOW] + 2.0 * least - z, frustum[HIGH] - 2.0 * least - z
         if abs(dz) > 0.0:

@@ -29,8 +29,9 @@ from nonsmooth.types import Floats
 ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
 """Kinds of features."""
 
-_THROUGH = 1e-4
-"""A line goes through a triangle that its ends, and the triangle's edges, are so far from, in units of the size."""
+THROUGH = 1e-3
+"""A line goes through a body, or a triangle, whose ends or edges are so far from it, in units of the size: much farther
+than bodies get into each other before their contacts are found."""
 
 Point: TypeAlias = tuple[float, float, float]
 Found: TypeAlias = tuple[float, float, int, int, float, float, float]
@@ -138,7 +139,7 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
 @compiled
 def pierced(surface: Floats, px: float, py: float, pz: float, qx: float, qy: float, qz: float) -> float:
     """Return how far the nearer end of a straight line is from the plane of a triangle that it goes through, or 0."""
-    nodes, members, margin = int(surface[NODES]), int(surface[MEMBERS]), _THROUGH * surface[SIZE]
+    nodes, members, margin = int(surface[NODES]), int(surface[MEMBERS]), THROUGH * surface[SIZE]
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
