@@ -10,6 +10,7 @@ from bodies.contacts.boxy_pair import meet
 from bodies.contacts.chart import write_chart
 from bodies.contacts.chart_newton import meet_in_charts
 from bodies.contacts.dual_newton import climb
+from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.smooth_core import Axes, back, forth, write_core
 from bodies.shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
 from nonsmooth.compiled import compiled
@@ -21,7 +22,9 @@ _DEEP = 1e-2
 _TOUCHING = 1e-12
 """Overlap, in units of the distance of the centres, that is not asked for a proof."""
 
-_PARTS = 24
+_STARTS = 12
+"""Further directions to begin with: the axes of both bodies, either way."""
+_FEW_PARTS, _PARTS = 4, 24
 """Steps of the powers on the way from ellipsoids where all direct ways fail."""
 _SAMPLES = 8
 """Parts of the way between the points of an answer at whose ends a point of both is looked for."""
@@ -48,22 +51,29 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
     x, y, z : float
         The second core's centre from the first's [m].
     """
-    best: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
+    best: Answer = _from_start(first, second, turn, x, y, z, x, y, z, _FEW_PARTS)
     overlap = _share_a_point(first, second, turn, x, y, z, best)
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
         return best
-    for axis in range(12):
+    if overlap and no_shorter_way(first, second, turn, x, y, z, best):
+        return best
+    mixed = is_mixed(first) or is_mixed(second)
+    for start in range(2 * _STARTS if mixed else _STARTS):
+        if start == _STARTS and overlap and best[0] == best[0]:
+            break
+        axis = start % _STARTS
         i, sign = axis % 3, 1.0 if axis < 6 else -1.0
         sx, sy, sz = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
         if axis % 6 >= 3:
             sx, sy, sz = forth(turn, sx, sy, sz)
-        found: Answer = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+        parts = 0 if start < _STARTS else _FEW_PARTS
+        found: Answer = _from_start(first, second, turn, x, y, z, sx, sy, sz, parts)
+        overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
         if found[0] == found[0] and not best[0] >= found[0]:
             best = found
-            if best[0] >= 0.0:
+            if best[0] >= 0.0 or (overlap and no_shorter_way(first, second, turn, x, y, z, best)):
                 return best
-        overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
-    if (best[0] != best[0] or not overlap) and (is_mixed(first) or is_mixed(second)):
+    if mixed and (best[0] != best[0] or not overlap):
         last: Answer = _in_charts(first, second, turn, x, y, z, x, y, z, _PARTS)
         overlap = overlap or _share_a_point(first, second, turn, x, y, z, last)
         if last[0] == last[0] and not best[0] >= last[0]:
@@ -106,11 +116,11 @@ def _thickness(first: Floats, second: Floats) -> float:
 
 @compiled
 def _from_start(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float, parts: int
 ) -> Answer:
     """Return the same from one direction to begin with."""
     if is_mixed(first) or is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, 0)
+        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, parts)
         return mixed
     if is_boxy(first):
         if is_boxy(second):
@@ -131,14 +141,14 @@ def _in_charts(
     ax, ay, az, bx, by, bz = first[0], first[1], first[2], second[0], second[1], second[2]
     one, two = (ax, ay, az, 2.0, 2.0), (bx, by, bz, 2.0, 2.0)
     norm, other = (ax, ay, az, first[3], first[4]), (bx, by, bz, second[3], second[4])
-    g, px, py, pz, nx, ny, nz = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
+    g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
+    px, py, pz = x, y, z
     if g == g:
         g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, nx, ny, nz, 0)
-    for last in range(2):
-        if g == g:
-            break
-        wx, wy, wz = (x, y, z) if last == 1 and x * x + y * y + z * z > 0.0 else (sx, sy, sz)
-        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, wx, wy, wz, parts if last == 1 else 4)
+    if g != g and parts > 0:
+        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, sx, sy, sz, min(parts, _FEW_PARTS))
+    if g != g and parts > _FEW_PARTS and x * x + y * y + z * z > 0.0:
+        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, x, y, z, parts)
     return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
 
 
