@@ -65,7 +65,7 @@ def _over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found: A
     one at the height d on the way from there to the centre: in any direction one of them is at least d behind one of
     the rim's, if both are d inside of it.
     """
-    g, px, py, pz, _, _, up = found
+    g, px, py, _, _, _, up = found
     if g >= 0.0:
         return True
     radius, level = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])

@@ -12,6 +12,7 @@ from bodies.contacts.chart_newton import meet_in_charts
 from bodies.contacts.dual_newton import climb
 from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.smooth_core import Axes, back, forth, write_core
+from bodies.contacts.smooth_starts import starts_of, uphill
 from bodies.shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -57,22 +58,20 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
         return best
     if overlap and no_shorter_way(first, second, turn, x, y, z, best):
         return best
-    mixed = is_mixed(first) or is_mixed(second)
-    for start in range(2 * _STARTS if mixed else _STARTS):
-        if start == _STARTS and overlap and best[0] == best[0]:
-            break
-        axis = start % _STARTS
-        i, sign = axis % 3, 1.0 if axis < 6 else -1.0
-        sx, sy, sz = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
-        if axis % 6 >= 3:
-            sx, sy, sz = forth(turn, sx, sy, sz)
-        parts = 0 if start < _STARTS else _FEW_PARTS
-        found: Answer = _from_start(first, second, turn, x, y, z, sx, sy, sz, parts)
+    starts = starts_of(first, second, turn, x, y, z)
+    for i in range(4):
+        seen, sx, sy, sz = starts[i]
+        found: Answer = _from_start(first, second, turn, x, y, z, sx, sy, sz, 0)
+        if not found[0] >= seen:
+            # it left the hill
+            sx, sy, sz = uphill(first, second, turn, x, y, z, starts[i])
+            found = _from_start(first, second, turn, x, y, z, sx, sy, sz, 0)
         overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
         if found[0] == found[0] and not best[0] >= found[0]:
             best = found
             if best[0] >= 0.0 or (overlap and no_shorter_way(first, second, turn, x, y, z, best)):
                 return best
+    mixed = is_mixed(first) or is_mixed(second)
     if mixed and (best[0] != best[0] or not overlap):
         last: Answer = _in_charts(first, second, turn, x, y, z, x, y, z, _PARTS)
         overlap = overlap or _share_a_point(first, second, turn, x, y, z, last)
@@ -141,9 +140,11 @@ def _in_charts(
     ax, ay, az, bx, by, bz = first[0], first[1], first[2], second[0], second[1], second[2]
     one, two = (ax, ay, az, 2.0, 2.0), (bx, by, bz, 2.0, 2.0)
     norm, other = (ax, ay, az, first[3], first[4]), (bx, by, bz, second[3], second[4])
-    g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
-    px, py, pz = x, y, z
-    if g == g:
+    g, nx, ny, nz, px, py, pz = math.nan, sx, sy, sz, x, y, z
+    if parts == 0:
+        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, sx, sy, sz, 0)
+    if g != g:
+        g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
         g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, nx, ny, nz, 0)
     if g != g and parts > 0:
         g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, sx, sy, sz, min(parts, _FEW_PARTS))

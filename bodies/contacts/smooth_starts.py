@@ -1,0 +1,129 @@
+"""Where to begin the search of the shortest way out of two smooth bodies: directions with a large gap.
+
+The gap along a direction is by the support functions alone.  It is looked at along the axes of both bodies and half-way
+between two or three of them, where flat and sharp places are.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from bodies.contacts.smooth_core import Axes, back, forth
+from bodies.shapes.support_function import support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_CLIMBS = 8
+_NEAR = 0.95
+"""Cosine of the angle between directions of which the better one stands for both."""
+Start: TypeAlias = tuple[float, float, float, float]
+"""A gap, and the unit vector along which it is."""
+Starts: TypeAlias = tuple[Start, Start, Start, Start]
+"""In no order; without a direction where there were less."""
+
+
+@compiled
+def gap_along(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
+) -> float:
+    """Return the gap of two cores along a unit vector [m]; arguments as in :func:`starts_of`."""
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    return float(
+        nx * x + ny * y + nz * z - support_of(first, nx, ny, nz)[0] - support_of(second, mx, my, mz)[0],
+    )
+
+
+@compiled
+def uphill(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, start: Start
+) -> tuple[float, float, float]:
+    """Return a unit vector with a larger gap than that of a start."""
+    g, nx, ny, nz = start
+    step = 0.3
+    dx, dy, dz = _between(first, second, turn, x, y, z, nx, ny, nz)
+    for _ in range(_CLIMBS):
+        rx, ry, rz = dx - g * nx, dy - g * ny, dz - g * nz
+        r = math.sqrt(rx * rx + ry * ry + rz * rz)
+        if r == 0.0:
+            break
+        mx, my, mz = nx + step * rx / r, ny + step * ry / r, nz + step * rz / r
+        length = math.sqrt(mx * mx + my * my + mz * mz)
+        mx, my, mz = mx / length, my / length, mz / length
+        ex, ey, ez = _between(first, second, turn, x, y, z, mx, my, mz)
+        found = mx * ex + my * ey + mz * ez
+        if found > g:
+            g, nx, ny, nz, dx, dy, dz = found, mx, my, mz, ex, ey, ez
+        else:
+            step *= 0.4
+    return nx, ny, nz
+
+
+@compiled
+def _between(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
+) -> tuple[float, float, float]:
+    """Return the way from the first body's farthest point along n to the second's against it."""
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    a, b = support_of(first, nx, ny, nz), support_of(second, mx, my, mz)
+    px, py, pz = forth(turn, b[1], b[2], b[3])
+    return x + px - a[1], y + py - a[2], z + pz - a[3]
+
+
+@compiled
+def starts_of(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Starts:
+    """Return four directions apart from each other with the largest gaps that were seen.
+
+    Parameters
+    ----------
+    first, second : Floats
+        The cores; their radii are left out.
+    turn : Axes
+        Rotation from the axes of the second core to those of the first.
+    x, y, z : float
+        The second core's centre from the first's [m].
+    """
+    none: Start = (-math.inf, 0.0, 0.0, 0.0)
+    kept: Starts = (none, none, none, none)
+    for i in range(54):
+        way = i % 27
+        if way == 13:
+            continue
+        nx, ny, nz = way // 9 - 1.0, way // 3 % 3 - 1.0, way % 3 - 1.0
+        length = math.sqrt(nx * nx + ny * ny + nz * nz)
+        nx, ny, nz = nx / length, ny / length, nz / length
+        if i >= 27:
+            nx, ny, nz = forth(turn, nx, ny, nz)
+        g = gap_along(first, second, turn, x, y, z, nx, ny, nz)
+        kept = _with(kept, (g, nx, ny, nz))
+    return kept
+
+
+@compiled
+def _with(kept: Starts, new: Start) -> Starts:
+    """Return those kept with a new one in the place of one near it, or else of the worst, if it is better."""
+    one, two, three, four = kept
+    if _is_near(one, new):
+        place = 0
+    elif _is_near(two, new):
+        place = 1
+    elif _is_near(three, new):
+        place = 2
+    elif _is_near(four, new):
+        place = 3
+    else:
+        least = min(min(one[0], two[0]), min(three[0], four[0]))
+        place = 0 if one[0] == least else 1 if two[0] == least else 2 if three[0] == least else 3
+    if new[0] <= kept[place][0]:
+        return kept
+    return (
+        new if place == 0 else one,
+        new if place == 1 else two,
+        new if place == 2 else three,
+        new if place == 3 else four,
+    )
+
+
+@compiled
+def _is_near(one: Start, two: Start) -> bool:
+    return bool(one[1] * two[1] + one[2] * two[2] + one[3] * two[3] > _NEAR)
