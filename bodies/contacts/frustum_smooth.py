@@ -58,7 +58,7 @@ def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: An
 
 
 @compiled
-def _over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found: Answer) -> bool:
+def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found: Answer) -> bool:
     """Whether the stop of a cap is proved to be the nearest, of all directions.
 
     Of bodies apart it is.  Of an overlap d two points of the smooth body prove it, the lowest one at the depth d and
@@ -93,7 +93,7 @@ def _nearest(
     if z > frustum[HIGH] or z < frustum[LOW]:
         part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
         over: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
-        if _over_cap(frustum, part, x, y, z, over):
+        if is_over_cap(frustum, part, x, y, z, over):
             return over, part
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     where = LOW_CAP

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from bodies.contacts.boxy_line import across_line
-from bodies.contacts.boxy_newton import Answer, climb_boxy, write_boxy
+from bodies.contacts.boxy_newton import Answer, Point, climb_boxy, write_boxy
 from bodies.contacts.boxy_pair import meet
 from bodies.contacts.chart import write_chart
 from bodies.contacts.chart_newton import meet_in_charts
@@ -23,8 +23,12 @@ _DEEP = 1e-2
 _TOUCHING = 1e-12
 """Overlap, in units of the distance of the centres, that is not asked for a proof."""
 
-_STARTS = 12
-"""Further directions to begin with: the axes of both bodies, either way."""
+_AXES, _CLOSER, _CHARTS = 4, 16, 20
+"""After how many attempts the axes of both bodies, places next to tops and other powers are begun from."""
+_THIN = 4.0
+"""Ratio of semi-axes from which on these axes are looked at in any case."""
+_NEARBY, _NEXT_TO = 0.05, 1e-6
+"""How close to a top the search begins where a first one failed, and a second [rad]."""
 _FEW_PARTS, _PARTS = 4, 24
 """Steps of the powers on the way from ellipsoids where all direct ways fail."""
 _SAMPLES = 8
@@ -41,7 +45,7 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
 
     The gap is nan where none was found.  One above 0 is the only one; one below is told only with a point that both
     bodies have.  Thin bodies that overlap, or nearly touch, have ways out that are longer than another: where the first
-    answer is one of a body deep in the other, or none, the search begins from the axes of both as well.
+    answer is none, or cannot be proved to be the shortest, the search begins from directions with a large gap as well.
 
     Parameters
     ----------
@@ -52,36 +56,56 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
     x, y, z : float
         The second core's centre from the first's [m].
     """
-    best: Answer = _from_start(first, second, turn, x, y, z, x, y, z, _FEW_PARTS)
+    mixed = is_mixed(first) or is_mixed(second)
+    best: Answer = _first_look(first, second, turn, x, y, z, mixed)
     overlap = _share_a_point(first, second, turn, x, y, z, best)
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
         return best
     if overlap and no_shorter_way(first, second, turn, x, y, z, best):
         return best
-    starts = starts_of(first, second, turn, x, y, z)
-    for i in range(4):
-        seen, sx, sy, sz = starts[i]
-        found: Answer = _from_start(first, second, turn, x, y, z, sx, sy, sz, 0)
-        if not found[0] >= seen:
-            # it left the hill
-            sx, sy, sz = uphill(first, second, turn, x, y, z, starts[i])
-            found = _from_start(first, second, turn, x, y, z, sx, sy, sz, 0)
+    starts, thin = starts_of(first, second, turn, x, y, z), _is_thin(first, second)
+    for attempt in range(_CHARTS + 1 if mixed else _CLOSER):
+        if overlap and best[0] == best[0] and attempt >= (_CLOSER if thin else _AXES):
+            break
+        if attempt == _CHARTS:
+            found: Answer = _in_charts(first, second, turn, x, y, z, x, y, z)
+        elif attempt >= _CLOSER:
+            _, sx, sy, sz = uphill(first, second, turn, x, y, z, starts[attempt - _CLOSER], _NEXT_TO)
+            found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+        elif attempt >= _AXES:
+            sx, sy, sz = _axis(turn, attempt - _AXES)
+            found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+        else:
+            seen, sx, sy, sz = starts[attempt]
+            found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+            if not found[0] >= seen:
+                # Newton's method left the hill, or found no top
+                _, sx, sy, sz = uphill(first, second, turn, x, y, z, starts[attempt], _NEARBY)
+                found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
         overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
         if found[0] == found[0] and not best[0] >= found[0]:
             best = found
             if best[0] >= 0.0 or (overlap and no_shorter_way(first, second, turn, x, y, z, best)):
                 return best
-    mixed = is_mixed(first) or is_mixed(second)
-    if mixed and (best[0] != best[0] or not overlap):
-        last: Answer = _in_charts(first, second, turn, x, y, z, x, y, z, _PARTS)
-        overlap = overlap or _share_a_point(first, second, turn, x, y, z, last)
-        if last[0] == last[0] and not best[0] >= last[0]:
-            best = last
-            if best[0] >= 0.0:
-                return best
     if not overlap:
         return math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
     return best
+
+
+@compiled
+def _axis(turn: Axes, number: int) -> Point:
+    """Return one of the twelve directions along the axes of both bodies."""
+    i, sign = number % 3, 1.0 if number < 6 else -1.0
+    ex, ey, ez = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
+    if number % 6 >= 3:
+        ex, ey, ez = forth(turn, ex, ey, ez)
+    return ex, ey, ez
+
+
+@compiled
+def _is_thin(first: Floats, second: Floats) -> bool:
+    most = max(max(first[0], first[1], first[2]), max(second[0], second[1], second[2]))
+    return bool(most > _THIN * _thickness(first, second))
 
 
 @compiled
@@ -114,12 +138,22 @@ def _thickness(first: Floats, second: Floats) -> float:
 
 
 @compiled
+def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, mixed: bool) -> Answer:
+    """Return the same from the line of centres."""
+    if mixed:
+        found: Answer = _by_ellipsoids(first, second, turn, x, y, z, x, y, z)
+    else:
+        found = _from_start(first, second, turn, x, y, z, x, y, z)
+    return found
+
+
+@compiled
 def _from_start(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float, parts: int
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
     """Return the same from one direction to begin with."""
     if is_mixed(first) or is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, parts)
+        mixed: Answer = _by_parts(first, second, turn, x, y, z, sx, sy, sz, 0)
         return mixed
     if is_boxy(first):
         if is_boxy(second):
@@ -134,22 +168,40 @@ def _from_start(
 
 @compiled
 def _in_charts(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float, parts: int
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
     """Return the same where one is flat one way and sharp another; beginning where both are ellipsoids."""
-    ax, ay, az, bx, by, bz = first[0], first[1], first[2], second[0], second[1], second[2]
-    one, two = (ax, ay, az, 2.0, 2.0), (bx, by, bz, 2.0, 2.0)
-    norm, other = (ax, ay, az, first[3], first[4]), (bx, by, bz, second[3], second[4])
-    g, nx, ny, nz, px, py, pz = math.nan, sx, sy, sz, x, y, z
-    if parts == 0:
-        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, sx, sy, sz, 0)
-    if g != g:
-        g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
-        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, nx, ny, nz, 0)
-    if g != g and parts > 0:
-        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, sx, sy, sz, min(parts, _FEW_PARTS))
-    if g != g and parts > _FEW_PARTS and x * x + y * y + z * z > 0.0:
-        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, x, y, z, parts)
+    found: Answer = _by_ellipsoids(first, second, turn, x, y, z, sx, sy, sz)
+    if found[0] != found[0]:
+        found = _by_parts(first, second, turn, x, y, z, sx, sy, sz, _FEW_PARTS)
+    if found[0] != found[0] and x * x + y * y + z * z > 0.0:
+        found = _by_parts(first, second, turn, x, y, z, x, y, z, _PARTS)
+    return found
+
+
+@compiled
+def _by_ellipsoids(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same from the normal of the ellipsoids with their semi-axes."""
+    one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
+    g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
+    found: Answer = (g, x, y, z, nx, ny, nz)
+    if g == g:
+        found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
+    return found
+
+
+@compiled
+def _by_parts(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float, parts: int
+) -> Answer:
+    """Return the same from a direction, if it fails by so many steps from the powers of ellipsoids."""
+    one, two = (
+        (first[0], first[1], first[2], first[3], first[4]),
+        (second[0], second[1], second[2], second[3], second[4]),
+    )
+    g, px, py, pz, nx, ny, nz = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, parts)
     return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
 
 
@@ -159,7 +211,7 @@ def widest_of_round(
 ) -> Answer:
     """Return the same where the first core is not boxy; it may be a point, or flat, if the second is not."""
     if is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, _PARTS)
+        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz)
         return mixed
     if is_boxy(second):
         other = first[0], first[1], first[2], first[3], first[4]

@@ -10,11 +10,12 @@ import math
 from typing import TypeAlias
 
 from bodies.contacts.smooth_core import Axes, back, forth
+from bodies.contacts.tangents import tangent_of
 from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-_CLIMBS = 8
+_LONGEST, _MOVES = 0.2, 100
 _NEAR = 0.95
 """Cosine of the angle between directions of which the better one stands for both."""
 Start: TypeAlias = tuple[float, float, float, float]
@@ -36,38 +37,29 @@ def gap_along(
 
 @compiled
 def uphill(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, start: Start
-) -> tuple[float, float, float]:
-    """Return a unit vector with a larger gap than that of a start."""
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, start: Start, least: float
+) -> Start:
+    """Return a direction with a larger gap than any other at an angle of about ``least`` from it, by steps from one."""
     g, nx, ny, nz = start
-    step = 0.3
-    dx, dy, dz = _between(first, second, turn, x, y, z, nx, ny, nz)
-    for _ in range(_CLIMBS):
-        rx, ry, rz = dx - g * nx, dy - g * ny, dz - g * nz
-        r = math.sqrt(rx * rx + ry * ry + rz * rz)
-        if r == 0.0:
+    step = _LONGEST
+    for _ in range(_MOVES):
+        if step <= least:
             break
-        mx, my, mz = nx + step * rx / r, ny + step * ry / r, nz + step * rz / r
-        length = math.sqrt(mx * mx + my * my + mz * mz)
-        mx, my, mz = mx / length, my / length, mz / length
-        ex, ey, ez = _between(first, second, turn, x, y, z, mx, my, mz)
-        found = mx * ex + my * ey + mz * ez
-        if found > g:
-            g, nx, ny, nz, dx, dy, dz = found, mx, my, mz, ex, ey, ez
-        else:
+        tx, ty, tz = tangent_of(nx, ny, nz)
+        ux, uy, uz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
+        best: Start = (g, nx, ny, nz)
+        for i in range(8):
+            c, s = step * math.cos(0.25 * math.pi * i), step * math.sin(0.25 * math.pi * i)
+            mx, my, mz = nx + c * tx + s * ux, ny + c * ty + s * uy, nz + c * tz + s * uz
+            length = math.sqrt(mx * mx + my * my + mz * mz)
+            mx, my, mz = mx / length, my / length, mz / length
+            found = gap_along(first, second, turn, x, y, z, mx, my, mz)
+            if found > best[0]:
+                best = (found, mx, my, mz)
+        if best[0] <= g:
             step *= 0.4
-    return nx, ny, nz
-
-
-@compiled
-def _between(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
-) -> tuple[float, float, float]:
-    """Return the way from the first body's farthest point along n to the second's against it."""
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    a, b = support_of(first, nx, ny, nz), support_of(second, mx, my, mz)
-    px, py, pz = forth(turn, b[1], b[2], b[3])
-    return x + px - a[1], y + py - a[2], z + pz - a[3]
+        g, nx, ny, nz = best
+    return g, nx, ny, nz
 
 
 @compiled
