@@ -12,7 +12,7 @@ from bodies.contacts.chart_newton import meet_in_charts
 from bodies.contacts.dual_newton import climb
 from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.smooth_core import Axes, back, forth, write_core
-from bodies.contacts.smooth_starts import starts_of, uphill
+from bodies.contacts.smooth_starts import gap_along, starts_of, uphill
 from bodies.shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -31,6 +31,8 @@ _NEARBY, _NEXT_TO = 0.05, 1e-6
 """How close to a top the search begins where a first one failed, and a second [rad]."""
 _FEW_PARTS, _PARTS = 4, 24
 """Steps of the powers on the way from ellipsoids where all direct ways fail."""
+_ON_AXIS = 1e-5
+"""How far from the axis of a circle a top may be found that is on it [rad]."""
 _SAMPLES = 8
 """Parts of the way between the points of an answer at whose ends a point of both is looked for."""
 _NOWHERE = 1e-300
@@ -170,8 +172,19 @@ def _from_start(
 def _in_charts(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the same where one is flat one way and sharp another; beginning where both are ellipsoids."""
+    """Return the same where one is flat one way and sharp another; beginning where both are ellipsoids.
+
+    The gap to a circle that is largest along the axis is that to its middle, and none of the circle's own.
+    """
     found: Answer = _by_ellipsoids(first, second, turn, x, y, z, sx, sy, sz)
+    if found[0] != found[0]:
+        length = math.sqrt(sx * sx + sy * sy + sz * sz)
+        nx, ny, nz = sx / length, sy / length, sz / length
+        start = gap_along(first, second, turn, x, y, z, nx, ny, nz), nx, ny, nz
+        _, nx, ny, nz = uphill(first, second, turn, x, y, z, start, _NEXT_TO)
+        if first[0] > 0.0 and first[2] == 0.0 and max(abs(nx), abs(ny)) < _ON_AXIS:
+            return math.nan, x, y, z, nx, ny, nz
+        found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
     if found[0] != found[0]:
         found = _by_parts(first, second, turn, x, y, z, sx, sy, sz, _FEW_PARTS)
     if found[0] != found[0] and x * x + y * y + z * z > 0.0:
