@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,34 +38,41 @@ def draw_solids(
     shades : sequence of str
         Colours, one each.
     """
+    from matplotlib.collections import PolyCollection
     from matplotlib.colors import to_rgb
-    from matplotlib.patches import Polygon
 
     ca, sa, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
     across, up, towards = np.array([-sa, ca, 0.0]), np.array([-ca * se, -sa * se, ce]), np.array([ca * ce, sa * ce, se])
-    order = np.argsort(poses[:, :3] @ towards)
-    for i in order:
+    pieces, colours, lines = [], [], []
+    for i in np.argsort(poses[:, :3] @ towards):
         axes = rotation(poses[i, 3:])
-        for corners, outward, is_face in _parts(solids[i]):
-            normal = axes @ outward
-            if normal @ towards > 0.0:
-                seen = 1e3 * (corners @ axes.T + poses[i, :3]) @ np.column_stack([across, up])
-                light = 0.55 + 0.45 * max(float(normal @ _LIGHT), 0.0)
-                colour = tuple(light * c for c in to_rgb(shades[i]))
-                line = "black" if is_face and solids[i].rounding == 0.0 else colour
-                axis.add_patch(Polygon(seen, facecolor=colour, edgecolor=line, linewidth=0.6))
+        corners, normals, n_faces = _parts(solids[i])
+        normals = normals @ axes.T
+        light = 0.55 + 0.45 * np.maximum(normals @ _LIGHT, 0.0)
+        edged = n_faces if solids[i].rounding == 0.0 else 0
+        for number in np.flatnonzero(normals @ towards > 0.0):
+            colour = tuple(light[number] * c for c in to_rgb(shades[i]))
+            pieces.append(1e3 * (corners[number] @ axes.T + poses[i, :3]) @ np.column_stack([across, up]))
+            colours.append(colour)
+            lines.append((0.0, 0.0, 0.0) if number < edged else colour)
+    axis.add_collection(PolyCollection(pieces, facecolors=colours, edgecolors=lines, linewidths=0.6))
     axis.set_aspect("equal")
     axis.autoscale_view()
 
 
-def _parts(solid: Polyhedron) -> Iterator[tuple[Floats, Floats, bool]]:
-    """Return corners, outward normal, and whether it is a face, of flat pieces; small ones stand for what is round."""
+def _parts(solid: Polyhedron) -> tuple[list[Floats], Floats, int]:
+    """Return corners and outward normals of flat pieces, the faces first, and how many these are.
+
+    Small pieces stand for what is round.
+    """
     core = solid.core
-    for face, plane in zip(core.faces, core.planes, strict=True):
-        normal = np.array(plane[:3])
-        yield np.array(core.vertices)[list(face)] + solid.rounding * normal, normal, True
-    if solid.rounding > 0.0:
-        vertices, triangles = solid.drawing(_FINENESS)
-        for corners in vertices[triangles[sum(len(face) - 2 for face in core.faces) :]]:
-            normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-            yield corners, normal / np.linalg.norm(normal), False
+    normals = np.array(core.planes)[:, :3]
+    places = np.array(core.vertices)
+    corners = [places[list(face)] + solid.rounding * n for face, n in zip(core.faces, normals, strict=True)]
+    if solid.rounding == 0.0:
+        return corners, normals, len(corners)
+    vertices, triangles = solid.drawing(_FINENESS)
+    small = vertices[triangles[sum(len(face) - 2 for face in core.faces) :]]
+    outward = np.cross(small[:, 1] - small[:, 0], small[:, 2] - small[:, 0])
+    outward /= np.linalg.norm(outward, axis=1)[:, None]
+    return corners + list(small), np.concatenate([normals, outward]), len(corners)

@@ -97,9 +97,17 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
 
 @kernel("void(S, F, I, f8)")
 def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
-    """Divide the growth of the guards that started from zero, or below it by round-off, by the time elapsed."""
+    """Divide the growth of the guards that started from zero, or below it by round-off, by the time elapsed.
+
+    As long as a gap has not grown beyond round-off its rate at the start stands.
+    """
     for i in range(2 * S.n_contacts + S.n_own_guards):
         if k[S.guard_deflated + i] == 1:
+            rate = w[S.guard_first + i]
+            separates = i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and rate > S.velocity_tolerance
+            if separates and rate * elapsed <= _ROUND_OFF * S.gap_tolerance:
+                w[S.guard + i] = rate
+                continue
             w[S.guard + i] = (w[S.guard + i] - w[S.guard_start + i]) / elapsed
 
 

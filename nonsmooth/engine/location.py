@@ -42,6 +42,8 @@ _LOOKS = 4
 """So often, between two of them, a gap that is to close is looked at when it should have closed,"""
 _BEHIND = 1e-3
 """later by this part of the time that it takes."""
+_FAR_BEHIND = 10.0
+"""Other gaps may be closed by so many gap tolerances at an event: what closes at one instant does to round-off."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -380,6 +382,55 @@ def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
     return -1.0
 
 
+@kernel("f8(S, F, I, f8)")
+def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
+    """Step to where the guard ``trigger`` vanishes, on the interpolant after the time ``root``; return the step."""
+    i = S.trigger
+    h, step = S.h, root
+    for _iteration in range(10):
+        S.h = step
+        if not try_step(S, w, k, step) <= _TRUSTED:
+            return -1.0
+        write_guards(S, w, k, S.t + step, S.y_new, 1)
+        value = w[S.guard + i]
+        slope = S.guard_slope
+        if k[S.guard_deflated + i] == 1:
+            value -= w[S.guard_start + i]
+        if is_gap(S, w, k, i) == 1:
+            slope = w[S.gap_rate + i // 2]
+        elif k[S.guard_deflated + i] == 1:
+            value /= step
+        # a gap that closes slower than what counts as rest does not tell where
+        if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
+            return step
+        correction = min(0.2 * root, max(-0.2 * root, -value / slope))
+        if step + correction <= 0.0:
+            return -1.0
+        if abs(correction) <= _SHORT * h:
+            # so short a way is straight
+            for j in range(S.n_y):
+                w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
+            return float(step + correction)
+        step += correction
+    S.h = step
+    if not try_step(S, w, k, step) <= _TRUSTED:
+        return -1.0
+    write_guards(S, w, k, S.t + step, S.y_new, 1)
+    return float(step)
+
+
+@kernel("i8(S, F, I)")
+def _overtaken(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a correction went past the closing of another contact than that of the guard ``trigger``."""
+    for c in range(S.n_contacts):
+        block = S.geometry + GEOMETRY * c
+        if k[S.mode + c] == OPEN and c != S.trigger // 2 and w[block + PAST_END] <= 0.0:
+            start = min(0.0, w[S.guard_start + 2 * c])
+            if w[block] < start - _FAR_BEHIND * S.gap_tolerance and w[S.gap_rate + c] < 0.0:
+                return 1
+    return 0
+
+
 @room("f8(S, F, I, f8, f8)")
 def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
@@ -422,33 +473,5 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         return step
     if S.guard_slope == -math.inf:
         return _behind_jump(S, w, k, step)
-    for _iteration in range(10):
-        S.h = step
-        if not try_step(S, w, k, step) <= _TRUSTED:
-            return -1.0
-        write_guards(S, w, k, S.t + step, S.y_new, 1)
-        value = w[S.guard + i]
-        slope = S.guard_slope
-        if k[S.guard_deflated + i] == 1:
-            value -= w[S.guard_start + i]
-        if is_gap(S, w, k, i) == 1:
-            slope = w[S.gap_rate + i // 2]
-        elif k[S.guard_deflated + i] == 1:
-            value /= step
-        # a gap that closes slower than what counts as rest does not tell where
-        if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
-            return step
-        correction = min(0.2 * theta * h, max(-0.2 * theta * h, -value / slope))
-        if step + correction <= 0.0:
-            return -1.0
-        if abs(correction) <= _SHORT * h:
-            # so short a way is straight
-            for j in range(S.n_y):
-                w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
-            return float(step + correction)
-        step += correction
-    S.h = step
-    if not try_step(S, w, k, step) <= _TRUSTED:
-        return -1.0
-    write_guards(S, w, k, S.t + step, S.y_new, 1)
-    return float(step)
+    step = _corrected(S, w, k, step)
+    return -1.0 if step > 0.0 and _overtaken(S, w, k) == 1 else step

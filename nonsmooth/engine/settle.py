@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.anisotropy import turn_facing, unstretch_force
-from nonsmooth.engine.bodies import evaluate_bodies
+from nonsmooth.engine.closing import close_contacts
 from nonsmooth.engine.compliance import (
     begin_contact,
-    evaluate_given_force,
     push_given,
-    refresh_states,
     rubs_unasked,
 )
 from nonsmooth.engine.contact_problem import accelerate, free_acceleration, set_up, solve_contact
@@ -21,9 +17,7 @@ from nonsmooth.engine.impact_window import LARGE, windowed_impact
 from nonsmooth.engine.instant_impulses import jam_slips, map_impact
 from nonsmooth.engine.islands import activate_group, group_members, group_touching
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates, row
 from nonsmooth.engine.modes import (
-    CLOSING,
     FEATURE_CHANGE,
     IMPACT,
     IMPACT_ENDLESS,
@@ -43,9 +37,9 @@ from nonsmooth.engine.modes import (
     STICK,
     STICK_TO_SLIP,
 )
-from nonsmooth.engine.projection import project_closed, project_rates
+from nonsmooth.engine.projection import project_closed
 from nonsmooth.engine.record import amend_last, code, impact_code, record_event, remember
-from nonsmooth.model.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.touching import slip_speed, touch
 
 _ATTEMPTS = 200
 _PAINLEVE_ATTEMPTS = 5
@@ -55,52 +49,6 @@ _SLOW = 100.0
 """A slip of up to so many velocity tolerances may be turned."""
 _FACINGS = 20
 """So often friction may be found to oppose the other way."""
-
-
-@room("i8(S, F, I)")
-def touch(S: Scalars, w: Floats, k: Integers) -> int:
-    """Find and evaluate the touching contacts; return 1 if one of them approaches."""
-    evaluate_bodies(S, w, k, S.t, S.y)
-    refresh_states(S, w, k, S.y)
-    approaching = 0
-    for c in range(S.n_contacts):
-        k[S.touching + c] = 1
-        evaluate_geometry(S, w, k, c)
-        evaluate_rates(S, w, k, c)
-        rate = w[S.rate + 3 * c]
-        if w[S.geometry + GEOMETRY * c + PAST_END] > S.gap_tolerance and w[S.geometry + GEOMETRY * c] > 0.0:
-            k[S.touching + c] = 0
-            continue
-        if k[S.normal_function + c] != 0:
-            _touch_compliant(S, w, k, c)
-            continue
-        near = max(S.gap_tolerance, S.time_tolerance * abs(rate))
-        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c] > near:
-            k[S.touching + c] = 0
-            continue
-        evaluate_contact(S, w, k, c, 3)
-        if rate < -S.velocity_tolerance:
-            approaching = 1
-    return approaching
-
-
-@kernel("void(S, F, I, i8)")
-def _touch_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> None:
-    """Find whether the compliant contact ``c`` touches, and evaluate it; it does not collide."""
-    gap, rate = w[S.geometry + GEOMETRY * c], w[S.rate + 3 * c]
-    end = 0.0 if k[S.mode + c] == OPEN else w[S.reach + c]
-    slow = rate <= S.velocity_tolerance
-    if gap > end + S.gap_tolerance or (gap > end - S.gap_tolerance and not slow):
-        k[S.touching + c] = 0
-        return
-    evaluate_contact(S, w, k, c, 3)
-    evaluate_given_force(S, w, k, c)
-
-
-@kernel("f8(S, F, I, i8)")
-def _speed(S: Scalars, w: Floats, k: Integers, c: int) -> float:
-    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-    return math.sqrt(v1 * v1 + v2 * v2)
 
 
 @kernel("i8(S, F, I)")
@@ -199,7 +147,7 @@ def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
         return
     if k[S.mode + c] == OPEN:
         begin_contact(S, w, k, c)
-    speed = _speed(S, w, k, c)
+    speed = slip_speed(S, w, k, c)
     k[S.mode + c] = SLIDE if speed > S.velocity_tolerance else STICK
     if speed > S.velocity_tolerance:
         for i in range(2):
@@ -228,7 +176,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
         elif k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
             k[S.member + c] = 1
             # a slip about to start from rest is found anew, not remembered
-            mode = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
+            mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
             # one that touches without having closed parts again
             if k[S.mode + c] == OPEN and c != contact and cause != START:
                 mode = OPEN
@@ -248,7 +196,7 @@ def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, contact: int, 
         k[S.touching + c] = 0
     if k[S.touching + c] == 0:
         return
-    speed = _speed(S, w, k, c)
+    speed = slip_speed(S, w, k, c)
     slides = speed > S.velocity_tolerance or k[S.traction_function + c] != 0
     breaks = cause == STICK_TO_SLIP and (c == contact or k[S.tied + c] + k[S.tied + contact] == 2)
     k[S.mode_agreed + c] = SLIDE if slides or breaks else STICK
@@ -297,7 +245,7 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
             contact = k[S.active + a]
             k[S.impacting + contact] = 1
-            S.impact_seed = max(S.impact_seed, _speed(S, w, k, contact))
+            S.impact_seed = max(S.impact_seed, slip_speed(S, w, k, contact))
     if contact < 0:
         return NO_CONTACT_SOLUTION
     if S.policy == REFUSE:
@@ -310,68 +258,13 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("i8(S, F, I)")
-def _join(S: Scalars, w: Floats, k: Integers) -> int:
-    """Close the contacts at rest that closing others makes approach, which is no collision; return how many."""
-    touch(S, w, k)
-    joining = 0
-    for c in range(S.n_contacts):
-        rigid = k[S.normal_function + c] == 0
-        if rigid and k[S.touching + c] == 1 and k[S.member + c] == 0 and w[S.rate + 3 * c] < -S.velocity_tolerance:
-            joining += 1
-            k[S.member + c] = 1
-            begin_contact(S, w, k, c)
-            k[S.mode + c] = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
-    return joining
-
-
-@kernel("i8(S, F, I)")
-def _close(S: Scalars, w: Floats, k: Integers) -> int:
-    """Close the contacts whose bounces have become shorter than their contact time, Eq. (33); return how many."""
-    closing = 0
-    contact = -1
-    S.h_first = 1e300
-    for c in range(S.n_contacts):
-        rate = w[S.rate + 3 * c]
-        if k[S.touching + c] == 0 or k[S.normal_function + c] != 0 or rate <= S.velocity_tolerance:
-            continue
-        approach = -(w[S.bias + 3 * c] + row(S, w, k, c, 0, S.du))
-        if approach > 0.0:
-            # the next step shall not fly over the touch-down that is due after 2 rate / approach
-            S.h_first = min(S.h_first, 3.0 * rate / approach)
-        if approach > 0.0 and rate <= approach * w[S.contact_time + c]:
-            if closing == 0:
-                remember(S, w, k)
-            closing += 1
-            contact = c
-            k[S.mode + c] = SLIDE if _speed(S, w, k, c) > S.velocity_tolerance else STICK
-    if closing == 0:
-        return 0
-    # contacts that close here and those of their island that rest take the step together, the others are left alone
-    for c in range(S.n_contacts):
-        k[S.member + c] = 1 if k[S.touching + c] == 1 and k[S.mode + c] != OPEN else 0
-    before = S.driven_work
-    w[S.event_head + 4] = 0.0
-    for _round in range(S.n_contacts):
-        group_members(S, w, k)
-        for group in range(S.n_groups):
-            activate_group(S, w, k, group)
-            w[S.event_head + 4] += project_rates(S, w, k, 1)
-        if _join(S, w, k) == 0:
-            break
-    w[S.event_head + 1] = S.driven_work - before
-    S.closing_loss += w[S.event_head + 4]
-    record_event(S, w, k, CLOSING, contact, 0)
-    return closing
-
-
-@kernel("i8(S, F, I)")
 def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if one of several closed contacts slips so slowly that projecting the others may turn its slip."""
     closed = creeping = 0
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN and k[S.normal_function + c] == 0:
             closed += 1
-            if S.velocity_tolerance < _speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
+            if S.velocity_tolerance < slip_speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
                 creeping += 1
     return 1 if closed > 1 and creeping > 0 else 0
 
@@ -416,7 +309,7 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
             approaching = S.approaching
             continue
         _adopt(S, w, k)
-        if _close(S, w, k) == 0:
+        if close_contacts(S, w, k) == 0:
             if _creeps(S, w, k) == 0 or projected == _PROJECTIONS:
                 _finish(S, w, k, cause, contact)
                 return RUNNING

@@ -347,6 +347,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "order": _per(1, "n_slots"),
     "rank": _per(1, "n_slots"),
     "mode_agreed": _per(1, "n_slots"),
+    "closes": _per(1, "n_slots"),
     "tied": _per(1, "n_slots"),
     "holds": _per(1, "n_slots"),
     "listed": _per(1, "n_slots"),

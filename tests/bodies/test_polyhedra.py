@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from nonsmooth.engine.kernel import PLAIN
 from tests.bodies.carriers import Rig
 from tests.bodies.polytopes import Posed, random_shapes
 
 NAMES = tuple(random_shapes(np.random.default_rng(7)))
 GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9, 0.0, -1e-9, -1e-7, -1e-5, -1e-4)
+_POSES, _MOTIONS = (2, 1) if PLAIN else (20, 5)
+"""Of each gap; in plain mode a query takes hundreds of times as long."""
 KINDS = ("edge-edge", "face-vertex", "vertex-face")
 
 
@@ -28,7 +31,7 @@ def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, kind
     rig = Rig(shapes, build.laws())
     # a knife has no depth to speak of
     for gap in GAPS[:-3] if name == "slivers" else GAPS:
-        for _ in range(20):
+        for _ in range(_POSES):
             posed = Posed(rng, shapes, kind, gap)
             rig.put(posed.poses, np.zeros(12))
             block = rig.geometry[posed.number]
@@ -56,7 +59,7 @@ def test_rates_are_derivatives(build: Any, name: str, kind: str) -> None:
     shapes = random_shapes(rng)[name]
     rig = Rig(shapes, build.laws())
     for gap in (1e-3, 1e-5, 1e-9):
-        for _ in range(5):
+        for _ in range(_MOTIONS):
             posed = Posed(rng, shapes, kind, gap)
             u = np.concatenate([rng.normal(size=3) * scale for scale in (0.05, 3.0, 0.05, 3.0)])
 

@@ -1,4 +1,7 @@
-"""All built-ins have the properties that plug-ins must have."""
+"""All built-ins have the properties that plug-ins must have.
+
+Those of scenarios, as of the example of every class, are looked at by way of ``nonsmooth check`` (tests/cli).
+"""
 
 from __future__ import annotations
 
@@ -101,7 +104,6 @@ from nonsmooth.testing import (
     check_load,
     check_motion,
     check_normal_law,
-    check_scenario,
     check_shape,
     check_traction_law,
 )
@@ -250,8 +252,6 @@ def _all() -> Iterator[Property]:
     yield from _of_pairs()
     for shape in {type(one): one for pair in SHAPES for one in pair}.values():
         yield from check_shape(shape)
-    for owner in registry.load_all("scenarios").values():
-        yield from check_scenario(owner())
 
 
 @pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
