@@ -23,8 +23,8 @@ _DEEP = 1e-2
 _TOUCHING = 1e-12
 """Overlap, in units of the distance of the centres, that is not asked for a proof."""
 
-_AXES, _CLOSER, _CHARTS = 4, 16, 20
-"""After how many attempts the axes of both bodies, places next to tops and other powers are begun from."""
+_TOPS = 4
+"""Directions with large gaps from which the search begins, before the twelve axes of both bodies."""
 _THIN = 4.0
 """Ratio of semi-axes from which on these axes are looked at in any case."""
 _NEARBY, _NEXT_TO = 0.05, 1e-6
@@ -66,16 +66,20 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
     if overlap and no_shorter_way(first, second, turn, x, y, z, best):
         return best
     starts, thin = starts_of(first, second, turn, x, y, z), _is_thin(first, second)
-    for attempt in range(_CHARTS + 1 if mixed else _CLOSER):
-        if overlap and best[0] == best[0] and attempt >= (_CLOSER if thin else _AXES):
-            break
-        if attempt == _CHARTS:
+    axes = 2 * _TOPS if mixed else _TOPS
+    for attempt in range(axes + (13 if mixed else 12)):
+        if overlap and best[0] == best[0] and attempt >= _TOPS:
+            if not thin or attempt == axes + 12:
+                break
+            if attempt < axes:
+                continue
+        if attempt == axes + 12:
             found: Answer = _in_charts(first, second, turn, x, y, z, x, y, z)
-        elif attempt >= _CLOSER:
-            _, sx, sy, sz = uphill(first, second, turn, x, y, z, starts[attempt - _CLOSER], _NEXT_TO)
+        elif attempt >= axes:
+            sx, sy, sz = _axis(turn, attempt - axes)
             found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
-        elif attempt >= _AXES:
-            sx, sy, sz = _axis(turn, attempt - _AXES)
+        elif attempt >= _TOPS:
+            _, sx, sy, sz = uphill(first, second, turn, x, y, z, starts[attempt - _TOPS], _NEXT_TO)
             found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
         else:
             seen, sx, sy, sz = starts[attempt]
