@@ -26,13 +26,14 @@ _TOUCHING = 1e-12
 _TOPS = 4
 """Directions with large gaps from which the search begins, before the twelve axes of both bodies."""
 _THIN = 4.0
-"""Ratio of semi-axes from which on these axes are looked at in any case."""
+_BURIED = 0.5
+"""Ratio of semi-axes, and overlap in units of the least one, from which on these axes are looked at in any case."""
 _NEARBY, _NEXT_TO = 0.05, 1e-6
 """How close to a top the search begins where a first one failed, and a second [rad]."""
 _FEW_PARTS, _PARTS = 4, 24
 """Steps of the powers on the way from ellipsoids where all direct ways fail."""
-_ON_AXIS = 1e-5
-"""How far from the axis of a circle a top may be found that is on it [rad]."""
+_ON_AXIS, _SUNK = 1e-5, 0.2
+"""How far from the axis of a circle a top may be found that is on it [rad], and overlaps up to which no other is."""
 _SAMPLES = 8
 """Parts of the way between the points of an answer at whose ends a point of both is looked for."""
 _NOWHERE = 1e-300
@@ -59,17 +60,18 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
         The second core's centre from the first's [m].
     """
     mixed = is_mixed(first) or is_mixed(second)
-    best: Answer = _first_look(first, second, turn, x, y, z, mixed)
+    best: Answer = _first_look(first, second, turn, x, y, z)
     overlap = _share_a_point(first, second, turn, x, y, z, best)
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
         return best
     if overlap and no_shorter_way(first, second, turn, x, y, z, best):
         return best
     starts, thin = starts_of(first, second, turn, x, y, z), _is_thin(first, second)
+    buried = best[0] < -_BURIED * _thickness(first, second)
     axes = 2 * _TOPS if mixed else _TOPS
     for attempt in range(axes + (13 if mixed else 12)):
         if overlap and best[0] == best[0] and attempt >= _TOPS:
-            if not thin or attempt == axes + 12:
+            if attempt == axes + 12 or not (thin or buried):
                 break
             if attempt < axes:
                 continue
@@ -144,12 +146,17 @@ def _thickness(first: Floats, second: Floats) -> float:
 
 
 @compiled
-def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, mixed: bool) -> Answer:
+def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
     """Return the same from the line of centres."""
-    if mixed:
-        found: Answer = _by_ellipsoids(first, second, turn, x, y, z, x, y, z)
-    else:
-        found = _from_start(first, second, turn, x, y, z, x, y, z)
+    if not (is_mixed(first) or is_mixed(second)):
+        found: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
+        return found
+    one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
+    g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, x, y, z)
+    found = (g, x, y, z, nx, ny, nz)
+    if g == g:
+        # from the normal of the ellipsoids with their semi-axes
+        found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
     return found
 
 
@@ -180,32 +187,24 @@ def _in_charts(
 
     The gap to a circle that is largest along the axis is that to its middle, and none of the circle's own.
     """
-    found: Answer = _by_ellipsoids(first, second, turn, x, y, z, sx, sy, sz)
-    if found[0] != found[0]:
+    one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
+    found: Answer = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
+    if found[0] == found[0]:
+        found = _by_parts(first, second, turn, x, y, z, found[4], found[5], found[6], 0)
+    if found[0] != found[0] and first[0] > 0.0 and first[2] == 0.0:
         length = math.sqrt(sx * sx + sy * sy + sz * sz)
         nx, ny, nz = sx / length, sy / length, sz / length
         start = gap_along(first, second, turn, x, y, z, nx, ny, nz), nx, ny, nz
-        _, nx, ny, nz = uphill(first, second, turn, x, y, z, start, _NEXT_TO)
-        if first[0] > 0.0 and first[2] == 0.0 and max(abs(nx), abs(ny)) < _ON_AXIS:
+        g, nx, ny, nz = uphill(first, second, turn, x, y, z, start, _NEXT_TO)
+        shallow = g >= -_SUNK * _thickness(first, second)
+        if shallow and max(abs(nx), abs(ny)) < _ON_AXIS:
             return math.nan, x, y, z, nx, ny, nz
-        found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
+        if shallow:
+            found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
     if found[0] != found[0]:
         found = _by_parts(first, second, turn, x, y, z, sx, sy, sz, _FEW_PARTS)
     if found[0] != found[0] and x * x + y * y + z * z > 0.0:
         found = _by_parts(first, second, turn, x, y, z, x, y, z, _PARTS)
-    return found
-
-
-@compiled
-def _by_ellipsoids(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
-) -> Answer:
-    """Return the same from the normal of the ellipsoids with their semi-axes."""
-    one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
-    g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
-    found: Answer = (g, x, y, z, nx, ny, nz)
-    if g == g:
-        found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
     return found
 
 
