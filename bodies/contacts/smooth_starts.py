@@ -16,12 +16,13 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 _LONGEST, _MOVES = 0.2, 100
+"""First step uphill [rad], and the most steps."""
 _NEAR = 0.95
 """Cosine of the angle between directions of which the better one stands for both."""
 Start: TypeAlias = tuple[float, float, float, float]
 """A gap, and the unit vector along which it is."""
 Starts: TypeAlias = tuple[Start, Start, Start, Start]
-"""In no order; without a direction where there were less."""
+"""Four of them, in no order."""
 
 
 @compiled
