@@ -58,6 +58,26 @@ def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: An
 
 
 @compiled
+def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found: Answer) -> bool:
+    """Whether the stop of a cap is proved to be the nearest, of all directions.
+
+    Of bodies apart it is.  Of an overlap d two points of the smooth body prove it, the lowest one at the depth d and
+    one at the height d on the way from there to the centre: in any direction one of them is at least d behind one of
+    the rim's, if both are d inside of it.
+    """
+    g, px, py, _, _, _, up = found
+    if g >= 0.0:
+        return True
+    radius, level = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])
+    height, inside = up * (z - level), radius + g
+    if g != g or height < -g or inside < 0.0:
+        return False
+    way = -2.0 * g / (height - g)
+    wx, wy = px + way * (x - px), py + way * (y - py)
+    return bool(max(px * px + py * py, wx * wx + wy * wy) <= inside * inside)
+
+
+@compiled
 def _nearest(
     frustum: Floats, low: Floats, high: Floats, core: Floats, turn: Axes, x: float, y: float, z: float
 ) -> tuple[Answer, int]:
@@ -70,6 +90,11 @@ def _nearest(
     away = math.sqrt(x * x + y * y)
     sx, sy = (x, y) if away > _CLOSE * size else (1.0, 0.0)
     _, _, _, guess = nearest_part(frustum, z, away)
+    if z > frustum[HIGH] or z < frustum[LOW]:
+        part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
+        over: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
+        if is_over_cap(frustum, part, x, y, z, over):
+            return over, part
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     where = LOW_CAP
     for start in range(_TURNS + 3):

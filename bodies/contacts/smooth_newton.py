@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 
 from bodies.contacts.boxy_line import across_line
-from bodies.contacts.boxy_newton import Answer, climb_boxy, write_boxy
+from bodies.contacts.boxy_newton import Answer, Point, climb_boxy, write_boxy
 from bodies.contacts.boxy_pair import meet
 from bodies.contacts.chart import write_chart
 from bodies.contacts.chart_newton import meet_in_charts
 from bodies.contacts.dual_newton import climb
+from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.smooth_core import Axes, back, forth, write_core
+from bodies.contacts.smooth_starts import gap_along, starts_of, uphill
 from bodies.shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -21,8 +23,17 @@ _DEEP = 1e-2
 _TOUCHING = 1e-12
 """Overlap, in units of the distance of the centres, that is not asked for a proof."""
 
-_PARTS = 24
+_TOPS = 4
+"""Directions with large gaps from which the search begins, before the twelve axes of both bodies."""
+_THIN = 4.0
+_BURIED = 0.5
+"""Ratio of semi-axes, and overlap in units of the least one, from which on these axes are looked at in any case."""
+_NEARBY, _NEXT_TO = 0.05, 1e-6
+"""How close to a top the search begins where a first one failed, and a second [rad]."""
+_FEW_PARTS, _PARTS = 4, 24
 """Steps of the powers on the way from ellipsoids where all direct ways fail."""
+_ON_AXIS, _SUNK = 1e-5, 0.2
+"""How far from the axis of a circle a top may be found that is on it [rad], and overlaps up to which no other is."""
 _SAMPLES = 8
 """Parts of the way between the points of an answer at whose ends a point of both is looked for."""
 _NOWHERE = 1e-300
@@ -37,7 +48,7 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
 
     The gap is nan where none was found.  One above 0 is the only one; one below is told only with a point that both
     bodies have.  Thin bodies that overlap, or nearly touch, have ways out that are longer than another: where the first
-    answer is one of a body deep in the other, or none, the search begins from the axes of both as well.
+    answer is none, or cannot be proved to be the shortest, the search begins from directions with a large gap as well.
 
     Parameters
     ----------
@@ -48,31 +59,61 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
     x, y, z : float
         The second core's centre from the first's [m].
     """
-    best: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
+    mixed = is_mixed(first) or is_mixed(second)
+    best: Answer = _first_look(first, second, turn, x, y, z)
     overlap = _share_a_point(first, second, turn, x, y, z, best)
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
         return best
-    for axis in range(12):
-        i, sign = axis % 3, 1.0 if axis < 6 else -1.0
-        sx, sy, sz = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
-        if axis % 6 >= 3:
-            sx, sy, sz = forth(turn, sx, sy, sz)
-        found: Answer = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+    if overlap and no_shorter_way(first, second, turn, x, y, z, best):
+        return best
+    starts, thin = starts_of(first, second, turn, x, y, z), _is_thin(first, second)
+    buried = best[0] < -_BURIED * _thickness(first, second)
+    axes = 2 * _TOPS if mixed else _TOPS
+    for attempt in range(axes + (13 if mixed else 12)):
+        if overlap and best[0] == best[0] and attempt >= _TOPS:
+            if attempt == axes + 12 or not (thin or buried):
+                break
+            if attempt < axes:
+                continue
+        if attempt == axes + 12:
+            found: Answer = _in_charts(first, second, turn, x, y, z, x, y, z)
+        elif attempt >= axes:
+            sx, sy, sz = _axis(turn, attempt - axes)
+            found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+        elif attempt >= _TOPS:
+            _, sx, sy, sz = uphill(first, second, turn, x, y, z, starts[attempt - _TOPS], _NEXT_TO)
+            found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+        else:
+            seen, sx, sy, sz = starts[attempt]
+            found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+            if not found[0] >= seen:
+                # Newton's method left the hill, or found no top
+                _, sx, sy, sz = uphill(first, second, turn, x, y, z, starts[attempt], _NEARBY)
+                found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
+        overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
         if found[0] == found[0] and not best[0] >= found[0]:
             best = found
-            if best[0] >= 0.0:
-                return best
-        overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
-    if (best[0] != best[0] or not overlap) and (is_mixed(first) or is_mixed(second)):
-        last: Answer = _in_charts(first, second, turn, x, y, z, x, y, z, _PARTS)
-        overlap = overlap or _share_a_point(first, second, turn, x, y, z, last)
-        if last[0] == last[0] and not best[0] >= last[0]:
-            best = last
-            if best[0] >= 0.0:
+            if best[0] >= 0.0 or (overlap and no_shorter_way(first, second, turn, x, y, z, best)):
                 return best
     if not overlap:
         return math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
     return best
+
+
+@compiled
+def _axis(turn: Axes, number: int) -> Point:
+    """Return one of the twelve directions along the axes of both bodies."""
+    i, sign = number % 3, 1.0 if number < 6 else -1.0
+    ex, ey, ez = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
+    if number % 6 >= 3:
+        ex, ey, ez = forth(turn, ex, ey, ez)
+    return ex, ey, ez
+
+
+@compiled
+def _is_thin(first: Floats, second: Floats) -> bool:
+    most = max(max(first[0], first[1], first[2]), max(second[0], second[1], second[2]))
+    return bool(most > _THIN * _thickness(first, second))
 
 
 @compiled
@@ -105,12 +146,27 @@ def _thickness(first: Floats, second: Floats) -> float:
 
 
 @compiled
+def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
+    """Return the same from the line of centres."""
+    if not (is_mixed(first) or is_mixed(second)):
+        found: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
+        return found
+    one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
+    g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, x, y, z)
+    found = (g, x, y, z, nx, ny, nz)
+    if g == g:
+        # from the normal of the ellipsoids with their semi-axes
+        found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
+    return found
+
+
+@compiled
 def _from_start(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
     """Return the same from one direction to begin with."""
     if is_mixed(first) or is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, 0)
+        mixed: Answer = _by_parts(first, second, turn, x, y, z, sx, sy, sz, 0)
         return mixed
     if is_boxy(first):
         if is_boxy(second):
@@ -125,20 +181,43 @@ def _from_start(
 
 @compiled
 def _in_charts(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same where one is flat one way and sharp another; beginning where both are ellipsoids.
+
+    The gap to a circle that is largest along the axis is that to its middle, and none of the circle's own.
+    """
+    one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
+    found: Answer = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
+    if found[0] == found[0]:
+        found = _by_parts(first, second, turn, x, y, z, found[4], found[5], found[6], 0)
+    if found[0] != found[0] and first[0] > 0.0 and first[2] == 0.0:
+        length = math.sqrt(sx * sx + sy * sy + sz * sz)
+        nx, ny, nz = sx / length, sy / length, sz / length
+        start = gap_along(first, second, turn, x, y, z, nx, ny, nz), nx, ny, nz
+        g, nx, ny, nz = uphill(first, second, turn, x, y, z, start, _NEXT_TO)
+        shallow = g >= -_SUNK * _thickness(first, second)
+        if shallow and max(abs(nx), abs(ny)) < _ON_AXIS:
+            return math.nan, x, y, z, nx, ny, nz
+        if shallow:
+            found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
+    if found[0] != found[0]:
+        found = _by_parts(first, second, turn, x, y, z, sx, sy, sz, _FEW_PARTS)
+    if found[0] != found[0] and x * x + y * y + z * z > 0.0:
+        found = _by_parts(first, second, turn, x, y, z, x, y, z, _PARTS)
+    return found
+
+
+@compiled
+def _by_parts(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float, parts: int
 ) -> Answer:
-    """Return the same where one is flat one way and sharp another; beginning where both are ellipsoids."""
-    ax, ay, az, bx, by, bz = first[0], first[1], first[2], second[0], second[1], second[2]
-    one, two = (ax, ay, az, 2.0, 2.0), (bx, by, bz, 2.0, 2.0)
-    norm, other = (ax, ay, az, first[3], first[4]), (bx, by, bz, second[3], second[4])
-    g, px, py, pz, nx, ny, nz = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
-    if g == g:
-        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, nx, ny, nz, 0)
-    for last in range(2):
-        if g == g:
-            break
-        wx, wy, wz = (x, y, z) if last == 1 and x * x + y * y + z * z > 0.0 else (sx, sy, sz)
-        g, px, py, pz, nx, ny, nz = meet_in_charts(norm, other, turn, x, y, z, wx, wy, wz, parts if last == 1 else 4)
+    """Return the same from a direction, if it fails by so many steps from the powers of ellipsoids."""
+    one, two = (
+        (first[0], first[1], first[2], first[3], first[4]),
+        (second[0], second[1], second[2], second[3], second[4]),
+    )
+    g, px, py, pz, nx, ny, nz = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, parts)
     return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
 
 
@@ -148,7 +227,7 @@ def widest_of_round(
 ) -> Answer:
     """Return the same where the first core is not boxy; it may be a point, or flat, if the second is not."""
     if is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz, _PARTS)
+        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz)
         return mixed
     if is_boxy(second):
         other = first[0], first[1], first[2], first[3], first[4]

@@ -13,10 +13,9 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import BoxBody, Cylinder, EllipsoidBody, Plate, Superellipsoid, SuperellipsoidBody, TriangleMesh, Triangles
+from bodies import BoxBody, Cylinder, EllipsoidBody, Superellipsoid, SuperellipsoidBody, TriangleMesh, Triangles
 from bodies.contacts.boxy_newton import place_on
 from bodies.contacts.smooth_newton import widest
-from bodies.inertia import tensor_of
 from bodies.shapes.support_function import boxy_gauge_of, support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.kernel import PLAIN
@@ -137,39 +136,6 @@ def test_it_finds_a_surface_that_is_not_convex(build: Any) -> None:
     np.testing.assert_allclose(points, [[0.01, 0.012, 0.007], [0.013, 0.01, 0.007]], atol=1e-15)
 
 
-def _fall(body: Any, friction: Any, restitution: float, t_end: float, **start: Any) -> ns.Solution:
-    plate = Plate()
-    system = ns.System([plate, body], gravity=9.81)
-    system.contact(plate, body, normal=Unilateral(), friction=friction, impact=EnergeticImpact(restitution))
-    system.place(body, **start)
-    return ns.simulate(system, t_end)
-
-
-@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
-def test_lasting_contact_over_the_flat_places() -> None:
-    """Exponents from 0.8: it falls, comes to rest in contact, slides and rocks over its faces; the books balance."""
-    rng = np.random.default_rng(3)
-    for exponent in (0.8, 0.9):
-        for friction in (Frictionless(), Coulomb(0.3)):
-            body, turn = SuperellipsoidBody(0.01, 0.012, 0.008, exponent, exponent), rng.normal(size=4)
-            start = {"velocity": (0.1, 0.0, 0.0), "angular_velocity": tuple((3.0 * rng.normal(size=3)).tolist())}
-            solution = _fall(
-                body, friction, 0.5, 1.0, position=(0.0, 0.0, 0.03), orientation=turn / np.linalg.norm(turn), **start
-            )
-            assert solution.energy.residual <= 1e-8
-            assert solution.counters.impacts > 3
-
-
-def test_what_lies_on_its_middle_stays() -> None:
-    """At rest on a flat point, and sliding on it without friction, at any exponent."""
-    for exponent in (0.2, 0.5, 0.8):
-        body = SuperellipsoidBody(0.01, 0.012, 0.008, exponent, exponent)
-        at_rest = _fall(body, Coulomb(0.3), 0.5, 0.1, position=(0.0, 0.0, 0.008))
-        np.testing.assert_allclose(at_rest.q_end[:3], [0.0, 0.0, 0.008], rtol=0, atol=1e-15)
-        slides = _fall(body, Frictionless(), 0.5, 0.1, position=(0.0, 0.0, 0.008), velocity=(0.1, 0.0, 0.0))
-        np.testing.assert_allclose(slides.q_end[:3], [0.01, 0.0, 0.008], rtol=0, atol=1e-12)
-
-
 def _on_cylinder(cylinder: Cylinder, body: Any, friction: Any, t_end: float, **start: Any) -> ns.Solution:
     stand = Stand((cylinder,))
     system = ns.System([stand, body], gravity=9.81)
@@ -206,41 +172,3 @@ def test_it_rolls_and_slides_off_a_log() -> None:
         assert solution.energy.residual <= 1e-8
         # it is off the log
         assert solution.q_end[2] < 0.0
-
-
-@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
-def test_collisions_conserve_momentum_and_energy() -> None:
-    """Boxy bodies among each other, with an ellipsoid, a superellipsoid and a box, elastic and without friction."""
-    bodies = [
-        SuperellipsoidBody(0.02, 0.03, 0.05, 0.2, 0.2),
-        SuperellipsoidBody(0.03, 0.02, 0.02, 0.5, 1.0),
-        SuperellipsoidBody(0.03, 0.02, 0.04, 1.4, 1.2),
-        EllipsoidBody(0.02, 0.03, 0.03),
-        BoxBody(0.03, 0.02, 0.025),
-    ]
-    system, rng = ns.System(bodies, gravity=0.0), np.random.default_rng(4)
-    laws: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(1.0)}
-    for i, one in enumerate(bodies):
-        for other in bodies[i + 1 :]:
-            system.contact(one, other, **laws)
-        place = 0.2 * np.array([np.cos(i), np.sin(i), 0.3 * rng.normal()])
-        turn = np.roll(Rotation.random(random_state=i).as_quat(), 1)
-        spin = tuple(rng.normal(size=3).tolist())
-        system.place(one, position=place, orientation=turn, velocity=-3.0 * place, angular_velocity=spin)
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-12))
-    assert solution.counters.impacts >= 5
-
-    def totals(q: Array, u: Array) -> tuple[float, Array]:
-        energy: Any = 0.0
-        momenta = np.zeros(6)
-        for body, x, v in zip(bodies, q.reshape(-1, 7), u.reshape(-1, 6), strict=True):
-            own = tensor_of(body.inertia, body.products) @ v[3:]
-            energy += 0.5 * body.total_mass * v[:3] @ v[:3] + 0.5 * v[3:] @ own
-            momenta[:3] += body.total_mass * v[:3]
-            turn = Rotation.from_quat(np.roll(x[3:], -1))
-            momenta[3:] += np.cross(x[:3], body.total_mass * v[:3]) + turn.apply(own)
-        return float(energy), momenta
-
-    before, after = totals(solution.q[0], solution.u[0]), totals(solution.q_end, solution.u_end)
-    assert after[0] == pytest.approx(before[0], rel=1e-9)
-    np.testing.assert_allclose(after[1], before[1], rtol=0, atol=1e-9 * np.max(np.abs(before[1])))

@@ -11,13 +11,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-import nonsmooth as ns
-from bodies import BoxBody, CapsuleBody, EllipsoidBody, Plate, Superellipsoid, SuperellipsoidBody
+from bodies import Superellipsoid
 from bodies.contacts.chart import chart_of, start_of
 from bodies.contacts.smooth_newton import widest
-from bodies.inertia import tensor_of
 from bodies.shapes.support_function import gauge_of, support_of
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.kernel import PLAIN
 
 Array = NDArray[np.float64]
@@ -81,75 +78,3 @@ def test_a_ball_over_the_third_axis(exponents: Any) -> None:
     ball = np.array(Superellipsoid(0.004, 0.004, 0.004).core)
     found = widest(_core(exponents), ball, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), 0.0, 0.0, 0.012)
     np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.008, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
-
-
-def _fall(body: Any, friction: Any, t_end: float, **start: Any) -> ns.Solution:
-    plate = Plate()
-    system = ns.System([plate, body], gravity=9.81)
-    system.contact(plate, body, normal=Unilateral(), friction=friction, impact=EnergeticImpact(0.5))
-    system.place(body, **start)
-    return ns.simulate(system, t_end)
-
-
-def test_it_lies_and_slides_on_its_flat_place() -> None:
-    """Flat along the third axis: at rest, and without friction at constant speed."""
-    body = SuperellipsoidBody(0.01, 0.012, 0.008, 0.5, 1.3)
-    at_rest = _fall(body, Coulomb(0.3), 0.1, position=(0.0, 0.0, 0.008))
-    np.testing.assert_allclose(at_rest.q_end[:3], [0.0, 0.0, 0.008], rtol=0, atol=1e-15)
-    slides = _fall(body, Frictionless(), 0.1, position=(0.0, 0.0, 0.008), velocity=(0.1, 0.0, 0.0))
-    np.testing.assert_allclose(slides.q_end[:3], [0.01, 0.0, 0.008], rtol=0, atol=1e-12)
-
-
-@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
-@pytest.mark.parametrize("exponents", [(0.85, 1.2), (1.2, 0.85)])
-def test_it_falls_and_rolls(exponents: Any) -> None:
-    """Over flat and sharp places; the books balance."""
-    rng = np.random.default_rng(3)
-    for friction in (Frictionless(), Coulomb(0.3)):
-        body, turn = SuperellipsoidBody(0.01, 0.012, 0.008, *exponents), rng.normal(size=4)
-        start = {"velocity": (0.1, 0.0, 0.0), "angular_velocity": tuple((3.0 * rng.normal(size=3)).tolist())}
-        place = {"position": (0.0, 0.0, 0.03), "orientation": turn / np.linalg.norm(turn)}
-        solution = _fall(body, friction, 0.5, **place, **start)
-        assert solution.status == "done"
-        assert solution.energy.residual <= 1e-8
-        assert solution.counters.impacts > 3
-
-
-@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
-def test_collisions_conserve_momentum_and_energy() -> None:
-    """Both kinds among each other and with all kinds of others, elastic and without friction."""
-    bodies = [
-        SuperellipsoidBody(0.02, 0.03, 0.05, 0.3, 1.3),
-        SuperellipsoidBody(0.03, 0.02, 0.02, 1.3, 0.5),
-        SuperellipsoidBody(0.03, 0.02, 0.04, 0.4, 0.6),
-        EllipsoidBody(0.02, 0.03, 0.03),
-        BoxBody(0.03, 0.02, 0.025),
-        CapsuleBody(0.015, 0.03),
-    ]
-    system, rng = ns.System(bodies, gravity=0.0), np.random.default_rng(4)
-    laws: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(1.0)}
-    for i, one in enumerate(bodies):
-        # of the others each with these two only
-        for other in bodies[i + 1 :] if i < 2 else []:
-            system.contact(one, other, **laws)
-        place = 0.2 * np.array([np.cos(i), np.sin(i), 0.3 * rng.normal()])
-        turn = np.roll(Rotation.random(random_state=i).as_quat(), 1)
-        spin = tuple(rng.normal(size=3).tolist())
-        system.place(one, position=place, orientation=turn, velocity=-3.0 * place, angular_velocity=spin)
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-12))
-    assert solution.counters.impacts >= 5
-
-    def totals(q: Array, u: Array) -> tuple[float, Array]:
-        energy: Any = 0.0
-        momenta = np.zeros(6)
-        for body, x, v in zip(bodies, q.reshape(-1, 7), u.reshape(-1, 6), strict=True):
-            own = tensor_of(body.inertia, body.products) @ v[3:]
-            energy += 0.5 * body.total_mass * v[:3] @ v[:3] + 0.5 * v[3:] @ own
-            momenta[:3] += body.total_mass * v[:3]
-            turn = Rotation.from_quat(np.roll(x[3:], -1))
-            momenta[3:] += np.cross(x[:3], body.total_mass * v[:3]) + turn.apply(own)
-        return float(energy), momenta
-
-    before, after = totals(solution.q[0], solution.u[0]), totals(solution.q_end, solution.u_end)
-    assert after[0] == pytest.approx(before[0], rel=1e-9)
-    np.testing.assert_allclose(after[1], before[1], rtol=0, atol=1e-9 * np.max(np.abs(before[1])))

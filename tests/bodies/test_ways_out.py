@@ -1,0 +1,167 @@
+"""Smooth bodies that overlap, and a frustum under its cap: no direction is a shorter way out than the answer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from bodies import Cone, Cylinder, Disc, Superellipsoid
+from bodies.contacts.frustum import HIGH_CAP, LOW_CAP
+from bodies.contacts.frustum_smooth import is_over_cap
+from bodies.contacts.frustum_stops import on_cap
+from bodies.contacts.inscribed import no_shorter_way
+from bodies.contacts.smooth_newton import widest
+from bodies.contacts.smooth_starts import gap_along, starts_of, uphill
+from bodies.shapes.support_function import support_of
+from nonsmooth.engine.kernel import PLAIN
+
+Array = NDArray[np.float64]
+SAME = 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0
+EXPONENTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
+    "ellipsoid": ((1.0, 1.0), (1.0, 1.0)),
+    "round": ((1.05, 1.6), (1.05, 1.6)),
+    "boxy": ((0.2, 0.9), (0.2, 0.9)),
+    "flat along": ((0.2, 0.9), (1.1, 1.6)),
+    "flat across": ((1.1, 1.6), (0.2, 0.9)),
+}
+
+
+def _core(rng: np.random.Generator, kind: str, low: float = 0.004) -> Any:
+    exponents = [float(rng.uniform(*bounds)) for bounds in EXPONENTS[kind]]
+    return np.array(Superellipsoid(*rng.uniform(low, 0.01, 3).tolist(), *exponents).core)
+
+
+def _directions(rng: np.random.Generator, count: int) -> Array:
+    n = rng.normal(size=(count, 3))
+    # next to flat and sharp places as well
+    n[::2] *= 10.0 ** rng.uniform(-6.0, 0.0, (len(n[::2]), 3))
+    return np.asarray(n / np.linalg.norm(n, axis=1)[:, None])
+
+
+def _heights(core: Array, n: Array) -> Array:
+    """Return the support function along rows of unit vectors, by its definition."""
+    a, b, c, p, q = core[:5]
+    r = ((a * np.abs(n[:, 0])) ** q + (b * np.abs(n[:, 1])) ** q) ** (1.0 / q)
+    return np.asarray((r**p + (c * np.abs(n[:, 2])) ** p) ** (1.0 / p))
+
+
+def _pose(rng: np.random.Generator, kinds: Any, gap: float) -> tuple[Array, Array, Array, Array, Array]:
+    """Return two cores, rotation and centre of the second, and a normal along which their gap is stationary."""
+    one, two = _core(rng, kinds[0]), _core(rng, kinds[1])
+    turn, n = Rotation.random(random_state=rng).as_matrix(), _directions(rng, 2)[int(rng.integers(2))]
+    p, q = np.array(support_of(one, *n)[1:4]), np.array(support_of(two, *(-turn.T @ n))[1:4])
+    return one, two, turn, p + gap * n - turn @ q, n
+
+
+@pytest.mark.parametrize("first", EXPONENTS)
+@pytest.mark.parametrize("second", EXPONENTS)
+def test_no_direction_is_a_shorter_way_out(first: str, second: str) -> None:
+    """Overlaps up to a fifth of the bodies: of many directions and of those near the best; proofs are right."""
+    rng, proofs, count = np.random.default_rng(5), 0, 2 if PLAIN else 8
+    for gap in (-1e-5, -1e-4, -5e-4, -2e-3):
+        for _ in range(count):
+            one, two, turn, x, n = _pose(rng, (first, second), gap)
+            g, _, _, _, nx, ny, nz = widest(one, two, tuple(turn.ravel()), *x)
+            assert g >= gap - 1e-12
+            ways = np.vstack([_directions(rng, 2000), np.array([nx, ny, nz]) + 0.1 * rng.normal(size=(200, 3))])
+            ways /= np.linalg.norm(ways, axis=1)[:, None]
+            most = np.max(ways @ x - _heights(one, ways) - _heights(two, -ways @ turn))
+            assert g >= most - 1e-12
+            # the pose's own answer, whether or not it is the shortest
+            stationary = gap, *(x + turn @ np.array(support_of(two, *(-turn.T @ n))[1:4])), *n
+            proved = no_shorter_way(one, two, tuple(turn.ravel()), *x, stationary)
+            proofs += proved
+            assert not proved or most <= gap + 1e-12
+    assert proofs >= count
+
+
+def test_a_long_way_out_is_not_proved() -> None:
+    """Through the middle of an ellipsoid along any of its axes but the shortest; half a micrometre deep it is."""
+    large, small = np.array(Superellipsoid(0.03, 0.02, 0.01).core), np.array(Superellipsoid(0.003, 0.002, 0.001).core)
+    for n in np.eye(3):
+        reach = float(support_of(large, *n)[0])
+        inside = -reach - float(support_of(small, *n)[0])
+        assert not no_shorter_way(large, small, SAME, 0.0, 0.0, 0.0, (inside, *(-(reach + inside) * n), *n))
+        deep = -5e-7
+        x = -(inside - deep) * n
+        assert no_shorter_way(large, small, SAME, *x, (deep, *((reach + deep) * n), *n))
+
+
+def test_tips_against_tips() -> None:
+    """Poses of known gaps at which Newton's method fails from everywhere but right next to the top."""
+    for gap, sizes, exponents, others, powers, turned, way in (
+        (
+            1e-7,
+            (0.0075241, 0.0097565, 0.0097698),
+            (1.6631, 1.5859),
+            (0.0091397, 0.0070767, 0.0078155),
+            (1.7919, 0.22574),
+            (0.7158, 0.065808, -0.19123, 0.66838),
+            (0.019094, 0.99506, 0.097384),
+        ),
+        (
+            1e-9,
+            (0.0044563, 0.0099504, 0.0053246),
+            (1.7576, 0.25982),
+            (0.0078857, 0.0042377, 0.0053751),
+            (0.64967, 1.7402),
+            (0.32081, 0.90874, 0.071378, -0.25725),
+            (0.22701, 3.0605e-05, -0.97389),
+        ),
+    ):
+        one, two = (np.array(Superellipsoid(*s, *e).core) for s, e in ((sizes, exponents), (others, powers)))
+        turn, n = Rotation.from_quat(turned).as_matrix(), np.array(way) / np.linalg.norm(way)
+        p, q = np.array(support_of(one, *n)[1:4]), np.array(support_of(two, *(-turn.T @ n))[1:4])
+        found = np.array(widest(one, two, tuple(turn.ravel()), *(p + gap * n - turn @ q)))
+        assert abs(found[0] - gap) <= 1e-12
+        np.testing.assert_allclose(found[4:7], n, rtol=0, atol=1e-9)
+
+
+def test_uphill_the_gap_grows() -> None:
+    """From every start, and none nearby is larger at the end; the starts are apart from each other."""
+    rng = np.random.default_rng(6)
+    for kinds in (("boxy", "round"), ("flat along", "flat across")):
+        one, two, turn, x, _ = _pose(rng, kinds, -1e-3)
+        given: Any = (one, two, tuple(turn.ravel()), *x)
+        starts = starts_of(*given)
+        ways = np.array(starts)[:, 1:]
+        assert np.max(ways @ ways.T - np.eye(4)) <= 0.95
+        for start in starts:
+            assert gap_along(*given, *start[1:]) == pytest.approx(start[0], abs=1e-15)
+            top = uphill(*given, start, 1e-4)
+            assert top[0] >= start[0]
+            nearby = np.array(top[1:]) + 1e-4 * rng.normal(size=(20, 3))
+            nearby /= np.linalg.norm(nearby, axis=1)[:, None]
+            assert max(gap_along(*given, *n) for n in nearby) <= top[0] + 1e-6
+
+
+@pytest.mark.parametrize("kind", EXPONENTS)
+@pytest.mark.parametrize(
+    "frustum", [Cylinder(0.006, 0.005), Cone(0.007, 0.01), Disc(0.008)], ids=lambda f: type(f).__name__
+)
+def test_under_a_cap_no_direction_is_a_shorter_way_out(frustum: Any, kind: str) -> None:
+    """Where a cap's stop is proved to be the nearest, in all directions; of most bodies it is."""
+    rng, numbers, proofs = np.random.default_rng(8), np.array(frustum.frustum), 0
+    for gap in (1e-3, -1e-7, -1e-4, -1e-3):
+        for _ in range(3 if PLAIN else 12):
+            core, turn = _core(rng, kind, 0.002), Rotation.random(random_state=rng).as_matrix()
+            part, up = (HIGH_CAP, 1.0) if numbers[1] > 0.0 and rng.uniform() < 0.5 else (LOW_CAP, -1.0)
+            level, radius = (numbers[3], numbers[1]) if up > 0.0 else (numbers[2], numbers[0])
+            q = turn @ np.array(support_of(core, *(-turn.T @ np.array([0.0, 0.0, up])))[1:4])
+            angle, away = rng.uniform(0.0, 2.0 * np.pi), radius * rng.uniform()
+            x = np.array([away * np.cos(angle), away * np.sin(angle), level + up * gap]) - q
+            found = on_cap(numbers, core, tuple(turn.ravel()), *x, part, 1e-14)
+            assert found[0] == pytest.approx(gap, abs=1e-15)
+            proved = is_over_cap(numbers, part, *x, found)
+            proofs += proved
+            ways = _directions(rng, 2000)
+            radial = np.hypot(ways[:, 0], ways[:, 1])
+            ends = ((numbers[0], numbers[2]), (numbers[1], numbers[3]))
+            height = np.max([r * radial + h * ways[:, 2] for r, h in ends], axis=0)
+            most = np.max(ways @ x - height - _heights(core, -ways @ turn))
+            assert not proved or most <= gap + 1e-12
+    assert proofs >= (6 if PLAIN else 24)
