@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.smooth_core import Axes, back, bend, forth
+from bodies.contacts.smooth_core import RADIUS, Axes, back, bend, forth
 from bodies.contacts.tangents import tangent_of
 from bodies.shapes.support_function import boxy_gauge_of, support_by
 from nonsmooth.compiled import compiled
@@ -148,7 +148,7 @@ def climb_boxy(
 
 @compiled
 def write_boxy(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: float, z: float) -> None:
-    """Write slide K and turn 1 at the point (x, y, z) of a boxy core's surface, in its own axes.
+    """Write slide K and turn 1, without the radius, at the point (x, y, z) of a boxy core's surface, in its own axes.
 
     Normal and first tangent stand in ``out`` already; ``axes`` are those of the core in the world.
     """
@@ -167,5 +167,6 @@ def write_boxy(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: fl
     out[side] = c11 * (k11 * c11 + k12 * c12) + c12 * (k12 * c11 + k22 * c12)
     out[side + 1] = out[side + 2] = c11 * (k11 * c21 + k12 * c22) + c12 * (k12 * c21 + k22 * c22)
     out[side + 3] = c21 * (k11 * c21 + k12 * c22) + c22 * (k12 * c21 + k22 * c22)
-    out[side + 4] = out[side + 7] = 1.0
-    out[side + 5] = out[side + 6] = 0.0
+    # with a radius r the turn grows by r times the slide
+    out[side + 4], out[side + 7] = 1.0 + core[RADIUS] * out[side], 1.0 + core[RADIUS] * out[side + 3]
+    out[side + 5] = out[side + 6] = core[RADIUS] * out[side + 1]

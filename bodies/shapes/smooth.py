@@ -114,32 +114,47 @@ def moments_in_body(core: tuple[float, ...], second: tuple[float, float, float])
 
 
 @functools.lru_cache(maxsize=64)
-def integrals_over_normals(core: tuple[float, ...]) -> tuple[float, float, float, float]:
+def integrals_with_radius(core: tuple[float, ...]) -> tuple[float, float, float, float]:
     """Return the integrals of 1, x^2, y^2 and z^2 over a core with its radius, in its own axes [m^3], [m^5].
 
-    The cones from the centre to the elements dA of the surface have the volume h dA / 3 and the integral h x^2 dA / 5,
-    and dA is the determinant of the radii of curvature times the solid angle of the normals.  The normals are those of
-    :func:`drawn`; powers of sines and cosines at the ends of an eighth ask for the rule of Takahasi and Mori.
+    The cones from the centre to the elements dA of the surface at P have the volume P . dA / 3 and the integral
+    x^2 P . dA / 5.  The two angles are a superellipsoid's usual ones, as in :func:`drawn`; powers of their sines and
+    cosines, singular at the ends of an eighth of the surface, ask for the rule of Takahasi and Mori.
     """
     t = np.arange(-_LAST_NODE, _LAST_NODE + 0.5 * _STEP, _STEP)
     far = 1.0 / (1.0 + np.exp(math.pi * np.sinh(t)))
     sines, cosines = np.sin(0.5 * math.pi * far[::-1]), np.sin(0.5 * math.pi * far)
     weights = 0.5 * math.pi * _STEP * math.pi * np.cosh(t) * far * far[::-1]
-    semi, radius, (p, q) = np.array(core[:3]), core[5], core[3:5]
-    # powers and the Jacobian of the turn that they make
-    (low, high), (one, two) = (sines ** (2.0 / p), cosines ** (2.0 / p)), (cosines ** (2.0 / q), sines ** (2.0 / q))
-    along = weights * 2.0 / p * (sines * cosines) ** (2.0 / p - 1.0) * low
-    around = weights * 2.0 / q * (sines * cosines) ** (2.0 / q - 1.0)
-    sums = np.zeros(4)
-    for i, first in enumerate(along):
-        for j, second in enumerate(around):
-            n = np.array([low[i] * one[j], low[i] * two[j], high[i]]) / semi
-            length = float(np.linalg.norm(n))
-            n /= length
-            h, *point, xx, yy, zz, yz, xz, xy = support_of(core, *n.tolist())
-            curve = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-            curve += radius * np.eye(3) + (1.0 - radius) * np.outer(n, n)
-            area = first * second / (length**3 * float(np.prod(semi))) * float(np.linalg.det(curve))
-            sums += area * (h + radius) * np.array([1.0 / 3.0, *(point + radius * n) ** 2 / 5.0])
-    volume, x, y, z = (8.0 * sums).tolist()
-    return volume, x, y, z
+    semi, radius, along, across = np.array(core[:3]), core[5], 2.0 - 2.0 / core[3], 2.0 - 2.0 / core[4]
+    point, point_up, point_round = _of_angles(sines, cosines, along, across, semi)
+    normal, normal_up, normal_round = _of_angles(sines, cosines, 2.0 - along, 2.0 - across, 1.0 / semi)
+    length = np.linalg.norm(normal, axis=-1, keepdims=True)
+    normal = normal / length
+    normal_up, normal_round = (
+        (d - normal * np.sum(normal * d, axis=-1, keepdims=True)) / length for d in (normal_up, normal_round)
+    )
+    place = point + radius * normal
+    area = np.cross(point_round + radius * normal_round, point_up + radius * normal_up)
+    parts = 8.0 * np.outer(weights, weights) * np.sum(place * area, axis=-1)
+    x, y, z = np.sum(parts[..., None] * place**2, axis=(0, 1)).tolist()
+    return float(np.sum(parts)) / 3.0, x / 5.0, y / 5.0, z / 5.0
+
+
+def _of_angles(
+    sines: Vector, cosines: Vector, along: float, across: float, factors: Vector
+) -> tuple[Vector, Vector, Vector]:
+    """Return factors times (c^e C^f, c^e S^f, s^e) and its derivatives by the two angles, shape [n, n, 3]."""
+    (s, c), (high, wide) = (sines[:, None], cosines[:, None]), (sines[None, :], cosines[None, :])
+    one, none = np.ones_like(high), np.zeros_like(s * high)
+    by_up = -along * c ** (along - 1.0) * s
+    rows = (
+        (c**along * wide**across, c**along * high**across, s**along * one),
+        (by_up * wide**across, by_up * high**across, along * s ** (along - 1.0) * c * one),
+        (
+            -across * c**along * wide ** (across - 1.0) * high,
+            across * c**along * high ** (across - 1.0) * wide,
+            none,
+        ),
+    )
+    value, up, around = (factors * np.stack(row, axis=-1) for row in rows)
+    return value, up, around

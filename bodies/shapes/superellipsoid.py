@@ -34,8 +34,7 @@ class Superellipsoid(SmoothShape):
     below 1 the body is boxy: it has flat points in the middle of its faces and flat lines across them, where these
     radii are infinite, and the contacts follow from its gauge, whose curvatures are finite
     (:mod:`bodies.contacts.boxy_newton`).  With one below 1 and one above it has flat lines and sharp ones, and the
-    contacts follow from coordinates in which point and normal have derivatives (:mod:`bodies.contacts.chart`).  A body
-    with flat points takes no rounding.
+    contacts follow from coordinates in which point and normal have derivatives (:mod:`bodies.contacts.chart`).
 
     References
     ----------
@@ -76,13 +75,6 @@ class Superellipsoid(SmoothShape):
                 f"must be at most {THINNEST:g} with an exponent below 1",
                 max(semi) / min(semi),
                 "The gap of thinner boxy bodies is not found at every pose; take a Box, or exponents from 1.",
-            )
-        if min(along, across) < 1.0 and self.rounding > 0.0:
-            raise InvalidInput(
-                "Superellipsoid.rounding",
-                "must be 0 with an exponent below 1",
-                self.rounding,
-                "Take smaller exponents for sharper edges, larger ones for rounder ones.",
             )
 
     @property
@@ -127,7 +119,7 @@ class Superellipsoid(SmoothShape):
     @property
     def _integrals(self) -> tuple[float, float, float, float]:
         """Of 1, x^2, y^2 and z^2, in its own axes."""
-        return smooth.integrals_over_normals(self.core) if self.rounding > 0.0 else self._closed()
+        return smooth.integrals_with_radius(self.core) if self.rounding > 0.0 else self._closed()
 
     def _closed(self) -> tuple[float, float, float, float]:
         """By Dirichlet's integrals over the sections across the third axis, and beta functions along it."""

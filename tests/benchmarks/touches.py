@@ -46,15 +46,19 @@ def superellipsoid(rng: Generator) -> ConvexShape:
 
 
 def boxy(rng: Generator) -> ConvexShape:
-    """Return a boxy superellipsoid."""
-    return Superellipsoid(*_sizes(rng), *rng.uniform(0.2, 0.9, 2).tolist(), **_place(rng))
+    """Return a boxy superellipsoid, in half of the cases a rounded one."""
+    (a, b, c), (along, across) = _sizes(rng), rng.uniform(0.2, 0.9, 2).tolist()
+    return Superellipsoid(a, b, c, along, across, float(rng.choice([0.0, 1e-3])), **_place(rng))
 
 
 def mixed(rng: Generator) -> ConvexShape:
-    """Return a superellipsoid with flat places along its third axis and sharp ones across, or the other way round."""
+    """Return a superellipsoid with flat places along its third axis and sharp ones across, or the other way round.
+
+    In half of the cases it is a rounded one.
+    """
     exponents = [float(rng.uniform(0.2, 0.9)), float(rng.uniform(1.1, 1.5))]
     (a, b, c), (along, across) = _sizes(rng), exponents if rng.uniform() < 0.5 else exponents[::-1]
-    return Superellipsoid(a, b, c, along, across, **_place(rng))
+    return Superellipsoid(a, b, c, along, across, float(rng.choice([0.0, 1e-3])), **_place(rng))
 
 
 def sphere(rng: Generator) -> ConvexShape:

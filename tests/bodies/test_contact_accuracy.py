@@ -18,8 +18,10 @@ OVER_FLAT_PLACES = ("box-boxy, edge", "hull-boxy, edge", "rounded box-boxy, edge
 @pytest.mark.parametrize("pair", NAMES)
 def test_errors_stay_within_what_is_promised(pair: str) -> None:
     """Gaps from 0.1 m to a penetration of 0.1 mm of bodies of 1 cm."""
-    # next to an apex features change in most draws
-    errors = measure(pair, 2 if not PLAIN or "apex" in pair else 1, seed=1)
+    errors = measure(pair, 1 if PLAIN else 2, seed=1)
+    if errors.differences < 3:
+        # next to an apex or a corner features change in most draws
+        errors = measure(pair, 4, seed=1)
     assert errors.gap <= 1e-12
     assert errors.normal <= 1e-9
     assert errors.witness <= (1e-10 if pair in OVER_FLAT_PLACES else 1e-12)

@@ -45,11 +45,13 @@ SHAPES: dict[str, ConvexShape] = {
     "mixed superellipsoid": Superellipsoid(0.2, 0.35, 0.5, 0.6, 1.3, **PLACE, **AXES),
     "superellipsoid mixed the other way": Superellipsoid(0.2, 0.35, 0.5, 1.3, 0.6, **PLACE, **AXES),
     "rounded superellipsoid": Superellipsoid(0.2, 0.35, 0.3, 1.4, 1.3, 0.1, **PLACE, **AXES),
+    "rounded boxy superellipsoid": Superellipsoid(0.2, 0.35, 0.3, 0.5, 0.8, 0.1, **PLACE, **AXES),
+    "rounded mixed superellipsoid": Superellipsoid(0.2, 0.35, 0.3, 0.5, 1.3, 0.1, **PLACE, **AXES),
     "rounded ellipsoid": Superellipsoid(0.2, 0.35, 0.3, rounding=0.1, **PLACE, **AXES),
 }
 EXACT = ("box",)
 """Their drawing is the shape."""
-SHARP = ("rounded superellipsoid",)
+SHARP = ("rounded superellipsoid", "rounded mixed superellipsoid")
 """Their drawing has few vertices where the core bends most."""
 
 

@@ -122,7 +122,7 @@ def test_an_ellipsoid_rolls_over_a_box_and_its_edge() -> None:
 
 
 def test_exponents_without_curvatures_are_refused() -> None:
-    """Too flat, a curvature that jumps, points too sharp, thin with flat points, and a radius about flat points."""
+    """Too flat, a curvature that jumps, points too sharp, thin with flat points."""
     for along, across, told in ((0.1, 1.0, ">= 0.2"), (1.0, 0.5, "across must be 1"), (1.9, 1.2, "<= 1.8")):
         with pytest.raises(ns.InvalidInput, match=told):
             Superellipsoid(0.1, 0.2, 0.3, along, across)
@@ -130,9 +130,6 @@ def test_exponents_without_curvatures_are_refused() -> None:
         SuperellipsoidBody(0.1, 0.2, 0.3, 1.0, 1.2)
     with pytest.raises(ns.InvalidInput, match=r"ratio of the longest semi-axis.* at most 10 .*it is 31"):
         Superellipsoid(0.31, 0.2, 0.01, 0.5, 0.5)
-    for across in (0.5, 1.3):
-        with pytest.raises(ns.InvalidInput, match=r"Superellipsoid\.rounding must be 0 with an exponent below 1"):
-            Superellipsoid(0.1, 0.2, 0.3, 0.5, across, 0.01)
 
 
 @settings(max_examples=50, deadline=None)
