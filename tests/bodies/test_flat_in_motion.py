@@ -28,14 +28,17 @@ def _fall(body: Any, friction: Any, t_end: float, **start: Any) -> ns.Solution:
 
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize(
-    ("bodies", "t_end"), [([(0.8, 0.8), (0.9, 0.9)], 1.0), ([(0.85, 1.2)], 0.5), ([(1.2, 0.85)], 0.5)], ids=str
+    ("bodies", "t_end"),
+    [([(0.8, 0.8, 0.0), (0.9, 0.9, 0.002)], 1.0), ([(0.85, 1.2, 0.0)], 0.5), ([(1.2, 0.85, 0.002)], 0.5)],
+    ids=str,
 )
 def test_lasting_contact_over_flat_and_sharp_places(bodies: Any, t_end: float) -> None:
     """Exponents from 0.8: it falls, comes to rest in contact, slides and rocks over its faces; the books balance."""
     rng = np.random.default_rng(3)
-    for exponents in bodies:
+    for along, across, rounding in bodies:
+        semi = (np.array([0.01, 0.012, 0.008]) - rounding).tolist()
         for friction in (Frictionless(), Coulomb(0.3)):
-            body, turn = SuperellipsoidBody(0.01, 0.012, 0.008, *exponents), rng.normal(size=4)
+            body, turn = SuperellipsoidBody(*semi, along, across, rounding=rounding), rng.normal(size=4)
             start = {"velocity": (0.1, 0.0, 0.0), "angular_velocity": tuple((3.0 * rng.normal(size=3)).tolist())}
             place = {"position": (0.0, 0.0, 0.03), "orientation": turn / np.linalg.norm(turn)}
             solution = _fall(body, friction, t_end, **place, **start)
@@ -45,9 +48,10 @@ def test_lasting_contact_over_flat_and_sharp_places(bodies: Any, t_end: float) -
 
 
 @pytest.mark.parametrize("exponents", [(0.2, 0.2), (0.5, 0.5), (0.8, 0.8), (0.5, 1.3)], ids=str)
-def test_what_lies_on_its_middle_stays(exponents: Any) -> None:
+@pytest.mark.parametrize("rounding", [0.0, 0.001])
+def test_what_lies_on_its_middle_stays(exponents: Any, rounding: float) -> None:
     """At rest on a flat point, and sliding on it without friction, at any exponent."""
-    body = SuperellipsoidBody(0.01, 0.012, 0.008, *exponents)
+    body = SuperellipsoidBody(0.01, 0.012, 0.008 - rounding, *exponents, rounding=rounding)
     at_rest = _fall(body, Coulomb(0.3), 0.1, position=(0.0, 0.0, 0.008))
     np.testing.assert_allclose(at_rest.q_end[:3], [0.0, 0.0, 0.008], rtol=0, atol=1e-15)
     slides = _fall(body, Frictionless(), 0.1, position=(0.0, 0.0, 0.008), velocity=(0.1, 0.0, 0.0))
@@ -57,7 +61,7 @@ def test_what_lies_on_its_middle_stays(exponents: Any) -> None:
 def _among_boxy() -> list[Any]:
     return [
         SuperellipsoidBody(0.02, 0.03, 0.05, 0.2, 0.2),
-        SuperellipsoidBody(0.03, 0.02, 0.02, 0.5, 1.0),
+        SuperellipsoidBody(0.025, 0.015, 0.015, 0.5, 0.9, rounding=0.005),
         SuperellipsoidBody(0.03, 0.02, 0.04, 1.4, 1.2),
         EllipsoidBody(0.02, 0.03, 0.03),
         BoxBody(0.03, 0.02, 0.025),
@@ -67,7 +71,7 @@ def _among_boxy() -> list[Any]:
 def _among_mixed() -> list[Any]:
     return [
         SuperellipsoidBody(0.02, 0.03, 0.05, 0.3, 1.3),
-        SuperellipsoidBody(0.03, 0.02, 0.02, 1.3, 0.5),
+        SuperellipsoidBody(0.025, 0.015, 0.015, 1.3, 0.5, rounding=0.005),
         SuperellipsoidBody(0.03, 0.02, 0.04, 0.4, 0.6),
         EllipsoidBody(0.02, 0.03, 0.03),
         BoxBody(0.03, 0.02, 0.025),
