@@ -15,7 +15,7 @@ from __future__ import annotations
 import ctypes
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -271,16 +271,17 @@ def measure(pair: str, draws: int, seed: int = 0) -> Errors:
     )
 
 
-def table(draws: int = 40) -> str:
-    """Return the table of all pairs in Markdown."""
+def table(draws: int = 40) -> Iterator[str]:
+    """Yield the lines of the table of all pairs in Markdown, each as soon as it is measured."""
     titles = "pair", "gap [m]", "normal [rad]", "witness [m]", "$g'$", "$g''$", "query [µs]"
-    lines = ["| " + " | ".join(titles) + " |", "|---" * len(titles) + "|"]
+    yield "| " + " | ".join(titles) + " |"
+    yield "|---" * len(titles) + "|"
     for name in NAMES:
         e = measure(name, draws)
         numbers = [f"{x:.0e}" for x in (e.gap, e.normal, e.witness, e.rate, e.acceleration)]
-        lines.append("| " + " | ".join([name, *numbers, f"{e.cost:.1f}"]) + " |")
-    return "\n".join(lines)
+        yield "| " + " | ".join([name, *numbers, f"{e.cost:.1f}"]) + " |"
 
 
 if __name__ == "__main__":
-    print(table())
+    for line in table():
+        print(line, flush=True)
