@@ -36,9 +36,9 @@ def test_lasting_contact_over_flat_and_sharp_places(bodies: Any, t_end: float) -
     """Exponents from 0.8: it falls, comes to rest in contact, slides and rocks over its faces; the books balance."""
     rng = np.random.default_rng(3)
     for along, across, rounding in bodies:
-        semi = (np.array([0.01, 0.012, 0.008]) - rounding).tolist()
+        a, b, c = (size - rounding for size in (0.01, 0.012, 0.008))
         for friction in (Frictionless(), Coulomb(0.3)):
-            body, turn = SuperellipsoidBody(*semi, along, across, rounding=rounding), rng.normal(size=4)
+            body, turn = SuperellipsoidBody(a, b, c, along, across, rounding=rounding), rng.normal(size=4)
             start = {"velocity": (0.1, 0.0, 0.0), "angular_velocity": tuple((3.0 * rng.normal(size=3)).tolist())}
             place = {"position": (0.0, 0.0, 0.03), "orientation": turn / np.linalg.norm(turn)}
             solution = _fall(body, friction, t_end, **place, **start)
@@ -51,7 +51,8 @@ def test_lasting_contact_over_flat_and_sharp_places(bodies: Any, t_end: float) -
 @pytest.mark.parametrize("rounding", [0.0, 0.001])
 def test_what_lies_on_its_middle_stays(exponents: Any, rounding: float) -> None:
     """At rest on a flat point, and sliding on it without friction, at any exponent."""
-    body = SuperellipsoidBody(0.01, 0.012, 0.008 - rounding, *exponents, rounding=rounding)
+    along, across = exponents
+    body = SuperellipsoidBody(0.01, 0.012, 0.008 - rounding, along, across, rounding=rounding)
     at_rest = _fall(body, Coulomb(0.3), 0.1, position=(0.0, 0.0, 0.008))
     np.testing.assert_allclose(at_rest.q_end[:3], [0.0, 0.0, 0.008], rtol=0, atol=1e-15)
     slides = _fall(body, Frictionless(), 0.1, position=(0.0, 0.0, 0.008), velocity=(0.1, 0.0, 0.0))
