@@ -49,9 +49,9 @@ def _join(S: Scalars, w: Floats, k: Integers) -> int:
 
 @kernel("f8(S, F, I)")
 def _shut(S: Scalars, w: Floats, k: Integers) -> float:
-    """Bring the marked contacts and those of their islands that rest to rest together; return the energy it takes [J].
+    """Bring the marked contacts to rest together with those that rest; return the energy that it takes [J].
 
-    Contacts of other islands are left alone.
+    Others are left alone, unless they are drawn in.
     """
     loss = 0.0
     for c in range(S.n_contacts):
