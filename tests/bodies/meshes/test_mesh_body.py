@@ -126,7 +126,7 @@ def test_a_mesh_of_a_block_rocks_as_the_block(direction: float) -> None:
     assert one.counters.impacts == two.counters.impacts >= 3
     np.testing.assert_allclose(two.events.time, one.events.time, rtol=0, atol=1e-9)
     np.testing.assert_allclose(two.q_end, one.q_end, rtol=0, atol=1e-9)
-    np.testing.assert_allclose(two.u_end, one.u_end, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(two.u_end, one.u_end, rtol=0, atol=1e-9)
 
 
 def test_nothing_heavy_is_imported_at_the_start() -> None:
