@@ -21,8 +21,8 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-_STEEP = 0.5
-"""Cosine of the angle between the two axes beyond which only the nearest point of the rim is looked at."""
+_STEEP = math.pi / 6.0
+"""Angle between the plane of the rim and the side beyond which only the nearest point of the rim is looked at."""
 _SAMPLES, _STEPS = 12, 60
 _BEYOND = 3e-8
 """So far past its end, in units of the size, a side at a distance holds a rim."""
@@ -117,7 +117,9 @@ def _evaluate(
     # h in the plane of the rim towards the side's axis, g across both
     hx, hy, hz = -az * ax, -az * ay, 1.0 - az * az
     length = math.sqrt(hx * hx + hy * hy + hz * hz)
-    steep = abs(az) > _STEEP
+    # axes that are nearly at right angles leave a line of the side near the plane of the rim, too, if not along it
+    lean = math.asin(min(abs(az), 1.0))
+    steep = lean > _STEEP and abs(lean - math.asin(second[SIN])) > _STEEP
     if length > 1e-9:
         hx, hy, hz = hx / length, hy / length, hz / length
     else:
