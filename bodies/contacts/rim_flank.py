@@ -117,7 +117,8 @@ def _evaluate(
     # h in the plane of the rim towards the side's axis, g across both
     hx, hy, hz = -az * ax, -az * ay, 1.0 - az * az
     length = math.sqrt(hx * hx + hy * hy + hz * hz)
-    # axes that are nearly at right angles leave a line of the side near the plane of the rim, too, if not along it
+    # a line of the side lies in the plane of the rim where the rim's axis leans as the side's normal does; the halves
+    # serve axes nearly at right angles as well, where one of them has no minimum
     lean = math.asin(min(abs(az), 1.0))
     steep = lean > _STEEP and abs(lean - math.asin(second[SIN])) > _STEEP
     if length > 1e-9:

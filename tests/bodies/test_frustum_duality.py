@@ -91,10 +91,20 @@ PASSING = (
     "rounded flat cone-rounded disc",
     "rounded disc-rounded disc",
 )
-_PATHS = {"rounded cone-rounded flat cone": (21, 46), "rounded flat cone-rounded disc": (21, 50)}
-"""Seed, and paths passed over: a side nearly parallel to a cap is over its rim at two places."""
+_FURTHER = {"rounded cone-rounded flat cone": 46, "rounded flat cone-rounded disc": 50}
+"""Where, on a second seed, the paths begin on which a side nearly parallel to a cap is over its rim at two places."""
 _CLOSE = 1e-11
 """Gap at which bodies are moved past each other [m]."""
+
+
+def _paths(seed: int, first: int, count: int) -> list[Any]:
+    """Return direction, spin [rad], orientations at the middle and way of paths past each other."""
+    rng, paths = np.random.default_rng(seed), []
+    for _ in range(first + count):
+        start, spin = rng.normal(size=3), 2.0 * rng.normal(size=3)
+        turns, way = Rotation.random(2, random_state=rng), np.cross(start, rng.normal(size=3))
+        paths.append((start / np.linalg.norm(start), spin, turns, way))
+    return paths[first:]
 
 
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
@@ -104,15 +114,11 @@ def test_features_hand_over_without_a_hole(build: Any, name: str) -> None:
 
     Where another one takes over, which is looked at to 1e-12 of the way, the normal does not jump.
     """
-    shapes, (seed, passed) = PAIRS[name], _PATHS.get(name, (9, 0))
-    rig, rng = Rig(shapes, build.laws()), np.random.default_rng(seed)
+    shapes = PAIRS[name]
+    rig = Rig(shapes, build.laws())
     changes = 0
-    for _ in range(passed):
-        rng.normal(size=3), rng.normal(size=3), Rotation.random(2, random_state=rng), rng.normal(size=3)
-    for _ in range(4):
-        start, spin = rng.normal(size=3), 2.0 * rng.normal(size=3)
-        turns, way = Rotation.random(2, random_state=rng), np.cross(start, rng.normal(size=3))
-        start /= np.linalg.norm(start)
+    further = _paths(21, _FURTHER[name], 4) if name in _FURTHER else ()
+    for start, spin, turns, way in (*_paths(9, 0, 4), *further):
 
         def at(t: float, start: Any = start, spin: Any = spin, turns: Any = turns, way: Any = way) -> tuple[int, Any]:
             turned = Rotation.from_rotvec(t * spin) * turns[1]
