@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -110,6 +111,12 @@ class System:
     def guards(self) -> tuple[Guard, ...]:
         """The guards of the scenario's own, in the order declared."""
         return tuple(self._guards)
+
+    def about(self, body: Body) -> System:
+        """Return the same system with no contacts but those of a body, in the order declared."""
+        made = copy.copy(self)
+        made._contacts = [contact for contact in self._contacts if contact.first is body or contact.second is body]
+        return made
 
     def guard(self, guard: Guard) -> None:
         """Watch a condition of the scenario's own; its events carry its number, in the order declared.
@@ -369,6 +376,7 @@ class System:
                     one.body,
                     two.body,
                     (one.frame, two.frame),
+                    (one.shape, two.shape),
                     geometry,
                     (one.shape.extent, two.shape.extent),
                     normal,
