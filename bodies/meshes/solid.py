@@ -39,6 +39,11 @@ class MeshSolid(Solid):
         """Contacts see the surface itself."""
         return 0.0
 
+    @property
+    def hollow(self) -> bool:
+        """There is nothing between the triangles."""
+        return True
+
     @functools.cached_property
     def _corners(self) -> Vector:
         return self.vertices[self.faces]

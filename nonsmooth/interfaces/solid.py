@@ -36,8 +36,7 @@ class Solid(ABC):
 
     The contract:
 
-    1. The pieces cover the boundary, and lie within the solid.  Where they do not fill it, ``inner`` has points of what
-       they leave out.
+    1. The pieces lie within the solid and cover its boundary; they fill it unless it is ``hollow``.
     2. The surface that contacts see is nowhere farther than ``set_back`` from the boundary.
     """
 
@@ -45,6 +44,11 @@ class Solid(ABC):
     @abstractmethod
     def set_back(self) -> float:
         """How far what contacts see may lie off the boundary [m]."""
+
+    @property
+    @abstractmethod
+    def hollow(self) -> bool:
+        """Whether the pieces leave out what is inside."""
 
     @property
     @abstractmethod
@@ -62,4 +66,4 @@ class Solid(ABC):
 
     @abstractmethod
     def holds(self, point: Vector, margin: float) -> bool:
-        """Tell whether a point is inside, deeper than a margin under the boundary [m]."""
+        """Tell whether a hollow one goes round a point that lies deeper than a margin under its boundary [m]."""

@@ -10,7 +10,6 @@ from typing import final
 import numpy as np
 
 from nonsmooth.interfaces.solid import Piece, Solid, Vector
-from nonsmooth.solids.overlap import depth
 
 
 @final
@@ -28,6 +27,11 @@ class ConvexSolid(Solid):
 
     support: Callable[[Vector], Vector]
     set_back: float = 0.0
+
+    @property
+    def hollow(self) -> bool:
+        """It is all of one piece."""
+        return False
 
     @functools.cached_property
     def _extremes(self) -> Vector:
@@ -53,5 +57,5 @@ class ConvexSolid(Solid):
         return self._whole.place[None, :]
 
     def holds(self, point: Vector, margin: float) -> bool:
-        """Tell whether a point and the solid can be parted by a margin [m]."""
-        return depth(self._whole, Piece(lambda direction: point, point), margin) > 0.0
+        """Tell nothing that the piece does not tell."""
+        return False

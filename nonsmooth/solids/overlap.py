@@ -9,7 +9,7 @@ Bergen, "Proximity queries and penetration depth computation on 3D game objects"
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -26,7 +26,7 @@ _Face = tuple[float, _Point, int, int, int]
 """Height over the origin, outward normal, corners counter-clockwise seen from outside."""
 
 
-def depth(one: Piece, two: Piece, tolerance: float) -> float:
+def depth(one: Piece, two: Piece, tolerance: float, normals: Sequence[Vector] = ()) -> float:
     """Return how far two convex sets must be moved at least to part them [m], or 0 if that is within a tolerance [m].
 
     Parameters
@@ -35,6 +35,8 @@ def depth(one: Piece, two: Piece, tolerance: float) -> float:
         The sets, in the same axes.
     tolerance : float
         By how much sets that touch may overlap [m].
+    normals : sequence of Vector
+        Unit vectors from the first to the second that may be across a plane between them, shape [3] each.
     """
 
     def farthest(direction: Vector) -> Vector:
@@ -43,6 +45,8 @@ def depth(one: Piece, two: Piece, tolerance: float) -> float:
     def parted(direction: Vector) -> bool:
         return float(direction @ farthest(direction)) <= tolerance
 
+    if any(parted(normal) for normal in normals):
+        return 0.0
     apart = two.place - one.place
     away = float(np.linalg.norm(apart))
     if away > 0.0 and parted(apart / away):
@@ -114,7 +118,8 @@ def _expanded(corners: list[_Point], farthest: Callable[[Vector], Vector], toler
 def _pushed_out(points: list[_Point], faces: list[_Face], least: float) -> list[_Face]:
     """Return the faces of the hull of a polytope and the last of the points, which lies over one of its faces."""
     top = points[-1]
-    kept, rims = [], set()
+    kept: list[_Face] = []
+    rims: set[tuple[int, int]] = set()
     for face in faces:
         if _dot(face[1], top) - face[0] <= least:
             kept.append(face)
