@@ -86,7 +86,7 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
         fields |= {"oriented": 1, "axis": heap.store(((0.0, 1.0)[law.body == "second"], *law.axis, *law.ratios))}
     for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
         place = places[id(body)]
-        fields |= {f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
+        fields |= {f"body_{side}": place.number, f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
         fields |= {f"shift_{side}": place.shift, f"linkage_{side}": place.linkage}
     if isinstance(impact, ImpactMap):
         fields["map_parameters"] = _lay_map(memory, heap, impact)
