@@ -356,6 +356,7 @@ class System:
                     (one.frame, two.frame),
                     geometry,
                     (one.shape.extent, two.shape.extent),
+                    (one.shape.lever, two.shape.lever),
                     normal,
                     friction,
                     impact,
