@@ -74,6 +74,7 @@ def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) ->
 @room("i8(S, F, I, i8, i8)")
 def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     """Run the impact law on the touching contacts, island by island, book and record it; return the status."""
+    S.painleve = 1 if cause == PAINLEVE else 0
     remember(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
@@ -251,9 +252,7 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
         return NO_CONTACT_SOLUTION
     if S.policy == REFUSE:
         return PARADOX_REFUSED
-    S.painleve = 1
     status = collide(S, w, k, PAINLEVE, contact)
-    S.painleve = 0
     S.impact_seed = 0.0
     return status
 

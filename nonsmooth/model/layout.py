@@ -226,6 +226,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "impact_z": _per(3, "n_slots"),
     "impact_guard": _per(3, "n_slots"),
     "impact_guard_first": _per(3, "n_slots"),
+    "rest_slip": _per(1, "n_slots"),
     "impact_x_scale": _per(1, "n_slots"),
     "impact_f_scale": _per(1, "n_slots"),
     "impact_energy_scale": _per(1, "n_slots"),
