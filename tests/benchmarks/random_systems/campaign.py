@@ -7,6 +7,7 @@ import collections
 import json
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -22,6 +23,7 @@ _ENDS = ("refused", "done", "failed", "time-out", "hang", "crash", "exception")
 
 def work(what: str, case_of: Callable[[int], Case], seed: int, seconds: float, script: Path) -> Outcome:
     """Run the case of a number, or make it smaller and write it as a script; called in a worker process."""
+    warnings.simplefilter("ignore")
     case = case_of(seed)
     outcome = run(case, seconds, repeat=seed % _REPEATED == 0)
     if what == "minimise":

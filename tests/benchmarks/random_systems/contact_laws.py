@@ -103,7 +103,7 @@ def _compliant(random: Random) -> NormalLaw:
     made: tuple[Callable[[], NormalLaw], ...] = (
         lambda: LinearCompliant(stiffness, number(random, 0.0, 5.0)),
         lambda: HertzCompliant(1e2 * stiffness),
-        lambda: HuntCrossley(1e2 * stiffness, number(random, 0.0, 1.0)),
+        lambda: HuntCrossley(1e2 * stiffness, number(random, 0.01, 1.0)),
         lambda: LankaraniNikravesh(1e2 * stiffness, number(random, 0.5, 1.0)),
         lambda: Cohesive(stiffness, number(random, 0.0, 0.5), number(random, 0.0, 5.0)),
     )

@@ -13,7 +13,7 @@ from nonsmooth.interfaces.body import Vector
 from tests.benchmarks.random_systems import convex
 from tests.benchmarks.random_systems.pieces import Piece, is_plate, pieces_of
 
-_LOOKED_AT = 8
+_LOOKED_AT = 12
 """Poses of a pair, of those that no plane proves apart, whose depth is measured: the first ones and some later."""
 Poses = tuple[Vector, Vector]
 

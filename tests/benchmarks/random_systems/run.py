@@ -93,7 +93,7 @@ def run(case: Case, seconds: float = 20.0, repeat: bool = False) -> Outcome:
 
     stage = "build"
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)
+        warnings.simplefilter("ignore")
         try:
             system = case.build()
             stage = "run"

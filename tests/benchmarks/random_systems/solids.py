@@ -59,7 +59,8 @@ def triangles(random: Random, size: float) -> Triangles:
     flat = np.column_stack([outline, np.zeros(n)])
     solid = np.vstack([flat, flat + np.array([0.0, 0.0, number(random, 0.3, 1.0)])])
     shear = np.diag(random.uniform(0.7, 1.3, 3)) + (random.random() < 0.5) * random.uniform(-0.2, 0.2, (3, 3))
-    corners = np.round(1.5 * size * solid @ shear.T, 6)
+    # not rounded: the faces stay flat, so that the convex pieces are the body
+    corners = 1.5 * size * solid @ np.round(shear, 2).T
     cuts = {"L": ((0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5)), "dart": ((0, 1, 2), (0, 2, 3))}[name]
     faces = [(a, c, b) for a, b, c in cuts] + [(a + n, b + n, c + n) for a, b, c in cuts]
     faces += [face for i in turns for j in ((i + 1) % n,) for face in ((i, j, j + n), (i, j + n, i + n))]
