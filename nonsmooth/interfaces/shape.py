@@ -35,6 +35,14 @@ class Shape(Component, ABC):
         return self.length
 
     @property
+    def lever(self) -> float:
+        """Largest arm with which a turn about the origin of the body frame moves the surface along its normal [m].
+
+        It bounds how fast a gap can close; the extent always does, and a ball about the origin has none.
+        """
+        return self.extent
+
+    @property
     def advice(self) -> str:
         """What to do where no kinematics is known for a pair with this shape; part of the message, may be empty."""
         return ""

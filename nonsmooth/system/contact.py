@@ -35,6 +35,8 @@ class Contact:
         Geometry of the pair of shapes.
     extents : tuple of float
         Radius about its frame's origin that holds either shape [m].
+    levers : tuple of float
+        Arm about its frame's origin with which a turn moves either surface along its normal [m].
     normal, friction : NormalLaw, TangentialLaw
         The laws of sustained contact.
     impact : ImpactLaw or None
@@ -48,6 +50,7 @@ class Contact:
     shapes: tuple[Shape, Shape]
     kinematics: ContactKinematics
     extents: tuple[float, float]
+    levers: tuple[float, float]
     normal: NormalLaw
     friction: TangentialLaw
     impact: ImpactLaw | None

@@ -379,6 +379,7 @@ class System:
                     (one.shape, two.shape),
                     geometry,
                     (one.shape.extent, two.shape.extent),
+                    (one.shape.lever, two.shape.lever),
                     normal,
                     friction,
                     impact,
