@@ -13,12 +13,12 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies import evaluate_bodies
+from nonsmooth.engine.bodies import evaluate_body
 from nonsmooth.engine.guards import grown, has_fired
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN
-from nonsmooth.engine.runge_kutta import dense_state
+from nonsmooth.engine.runge_kutta import dense_part
 from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END, SECTOR, SECTORS
 
 _CURVED = 4.0
@@ -81,8 +81,7 @@ def _frame_acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, d
     """Write the acceleration of the origin of a frame and its angular acceleration."""
     frame = k[S.frame_a + c] if side == 0 else k[S.frame_b + c]
     n_u = k[S.nu_a + c] if side == 0 else k[S.nu_b + c]
-    linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-    first = du + k[S.linkage_u + linkage] + (k[S.shift_a + c] if side == 0 else k[S.shift_b + c])
+    first = du + k[S.body_u + (k[S.body_a + c] if side == 0 else k[S.body_b + c])]
     for r in range(6):
         total = w[frame + 18 + r]
         for j in range(n_u):
@@ -147,25 +146,36 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     return astray
 
 
-@kernel("void(S, F, I, f8)")
-def _bound_falls(S: Scalars, w: Floats, k: Integers, h: float) -> None:
-    """Write how fast the rates of the doubtful gaps can fall within the step."""
-    for theta in range(2):
-        state = S.y if theta == 0 else S.y_new
-        evaluate_bodies(S, w, k, S.t + theta * h, state)
-        for i in range(S.n_doubtful):
-            c = k[S.doubtful + i]
-            evaluate_geometry(S, w, k, c)
-            fall = fall_of_rate(S, w, k, c, h, S.slopes + 6 * theta * S.n_y + S.n_q)
-            w[S.fall + c] = fall if theta == 0 else max(fall, w[S.fall + c]) + abs(fall - w[S.fall + c])
+@kernel("void(S, F, I, f8, f8, i8)")
+def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
+    """Put the two bodies of a contact where they are at a fraction of the step, and evaluate its geometry."""
+    for side in range(2):
+        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        state = S.y if theta == 0.0 else S.y_new
+        if 0.0 < theta < 1.0:
+            state = S.y_stage
+            for part in range(2):
+                i = k[S.body_q + body] if part == 0 else S.n_q + k[S.body_u + body]
+                n = k[S.body_nq + body] if part == 0 else k[S.body_nu + body]
+                dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, state + i)
+        evaluate_body(S, w, k, S.t + theta * h, state, body)
+    evaluate_geometry(S, w, k, c)
+
+
+@kernel("f8(S, F, I, f8, i8)")
+def _largest_fall(S: Scalars, w: Floats, k: Integers, h: float, c: int) -> float:
+    """Return how fast the rate of the gap of ``c`` can fall within the step, from how fast it can at its ends."""
+    _put(S, w, k, h, 1.0, c)
+    end = fall_of_rate(S, w, k, c, h, S.slopes + 6 * S.n_y + S.n_q)
+    _put(S, w, k, h, 0.0, c)
+    start = fall_of_rate(S, w, k, c, h, S.slopes + S.n_q)
+    return float(max(start, end) + abs(end - start))
 
 
 @kernel("void(S, F, I, f8, f8, i8, i8)")
 def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
     """Evaluate the gap of ``c`` at a fraction of the step and write an end of a part of it."""
-    dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
-    evaluate_bodies(S, w, k, S.t + theta * h, S.y_stage)
-    evaluate_geometry(S, w, k, c)
+    _put(S, w, k, h, theta, c)
     evaluate_rates(S, w, k, c)
     gap = w[S.geometry + GEOMETRY * c]
     w[S.gap_rate + c] = w[S.rate + 3 * c]
@@ -214,11 +224,11 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     else:
         w[right], w[right + 2], w[right + 3] = 1.0, w[S.gap_rate_end + c], w[S.past_end + c]
         w[right + 1] = w[S.gap_end + c] - (w[S.guard_start + 2 * c] if deflated else 0.0)
-    speed = w[S.speed_first + c] + w[S.speed_end + c]
+    speed, fall = w[S.speed_first + c] + w[S.speed_end + c], _largest_fall(S, w, k, h, c)
     while n > 0:
         right = left + SECTOR * n
         span = w[right] - w[left]
-        proved = stays_open(w, left, right, h, speed, w[S.fall + c], S.gap_tolerance)
+        proved = stays_open(w, left, right, h, speed, fall, S.gap_tolerance)
         if proved == 0 and n < SECTORS:
             gaps, rates = max(abs(w[left + 1]), abs(w[right + 1])), max(abs(w[left + 2]), abs(w[right + 2]))
             rests = gaps <= _RESTS * S.gap_tolerance and rates <= _RESTS * S.velocity_tolerance
@@ -239,12 +249,14 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
 def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
 
-    No other one has closed before it, as far as bodies, geometry and guards stand at the fractions looked at last.
+    If they do the bodies that were looked at stand at the end of the step again.
     """
-    _bound_falls(S, w, k, h)
     found = 0.0
     for i in range(S.n_doubtful):
         theta = _first_dip(S, w, k, h, k[S.doubtful + i], high)
         if theta > 0.0:
             found = high = theta
+        _put(S, w, k, h, 1.0, k[S.doubtful + i])
+    # driven bodies may stand elsewhere than all others
+    S.driven_t = -math.inf
     return found

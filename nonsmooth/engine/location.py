@@ -201,7 +201,8 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             return theta
     if looks == 0:
         return 1.0 if fired >= 0 else 0.0
-    evaluate_bodies(S, w, k, S.t + h, S.y_new)
+    if forces + S.n_own_guards + S.astray > 0:
+        evaluate_bodies(S, w, k, S.t + h, S.y_new)
     for i in range(3 * S.n_contacts + S.n_own_guards):
         w[S.guard + i] = w[S.guard_end + i]
     for c in range(S.n_contacts):
@@ -315,20 +316,20 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
         # a gap that closes slower than what counts as rest does not tell where
         if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
             return step
-        if value > 0.0:
-            early = step
-        else:
-            late = step
         correction = min(0.2 * root, max(-0.2 * root, -value / slope))
-        if not early < step + correction < late:
-            if late == 1e300 or early == 0.0:
-                return -1.0
-            correction = 0.5 * (early + late) - step
         if abs(correction) <= _SHORT * h:
             # so short a way is straight
             for j in range(S.n_y):
                 w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
             return float(step + correction)
+        if value > 0.0:
+            early = step
+        else:
+            late = step
+        if not early < step + correction < late:
+            if late == 1e300 or early == 0.0:
+                return -1.0
+            correction = 0.5 * (early + late) - step
         step += correction
     return -1.0
 

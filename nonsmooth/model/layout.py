@@ -65,6 +65,8 @@ JOINT_ROW = 14
 LOAD = 9
 """Floats that a load writes."""
 CATALOGUE = (
+    "body_a",
+    "body_b",
     "frame_a",
     "frame_b",
     "nu_a",
@@ -176,7 +178,6 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "past_first": _per(1, "n_slots"),
     "speed_end": _per(1, "n_slots"),
     "speed_first": _per(1, "n_slots"),
-    "fall": _per(1, "n_slots"),
     "small_force_of": _per(1, "n_slots"),
     "lever_a": _per(1, "n_slots"),
     "lever_b": _per(1, "n_slots"),

@@ -11,6 +11,7 @@ from nonsmooth.interfaces import (
     Joint,
     Load,
     NormalLaw,
+    Shape,
     TangentialLaw,
 )
 from nonsmooth.system.materials import ContactLaws
@@ -28,6 +29,8 @@ class Contact:
         The bodies; the normal points from the first to the second.
     frames : tuple of int
         Number of the frame on either body.
+    shapes : tuple of Shape
+        The shape on either.
     kinematics : ContactKinematics
         Geometry of the pair of shapes.
     extents : tuple of float
@@ -44,6 +47,7 @@ class Contact:
     first: Body
     second: Body
     frames: tuple[int, int]
+    shapes: tuple[Shape, Shape]
     kinematics: ContactKinematics
     extents: tuple[float, float]
     levers: tuple[float, float]

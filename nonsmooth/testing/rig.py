@@ -116,7 +116,7 @@ class Rig:
         name = type(kinematics).__name__
         # not by System.contact, which looks for kinematics among those installed
         system._contacts.append(
-            Contact(name, *self._bodies, (0, 0), kinematics, extents, levers, Rigid(), Constant(), Spring())
+            Contact(name, *self._bodies, (0, 0), shapes, kinematics, extents, levers, Rigid(), Constant(), Spring())
         )
         self._model = lay_out(system, Options())
 
