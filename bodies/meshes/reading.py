@@ -51,6 +51,14 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
                 np.array(loaded.vertices, dtype=float).reshape(-1, 3),
                 np.array(loaded.faces, dtype=np.int64).reshape(-1, 3),
             )
+    except ModuleNotFoundError as error:
+        # asked for by formats that need more, and by readers that take a broken file for another format
+        raise InvalidInput(
+            thing,
+            "must be a mesh that trimesh can read",
+            f"broken, or of a format that needs the package {error.name!r}",
+            "Is the file whole, and its ending right? STL, OBJ, PLY, OFF and GLB need no further package.",
+        ) from error
     except Exception as error:
         # readers of a dozen formats raise whatever they like at broken files
         formats = ", ".join(sorted(trimesh.available_formats()))
