@@ -32,7 +32,10 @@ def read_file(path: Path, largest: int = LARGEST) -> tuple[Vector, Integers]:
     vertices, faces = _loaded(thing, path)
     if len(faces) == 0:
         raise InvalidInput(
-            thing, "must have triangles", 0, "Is it a cloud of points or a curve? Export a surface of triangles."
+            thing,
+            "must have triangles",
+            0,
+            "Is the file whole? Is it a cloud of points or a curve? Export a surface of triangles.",
         )
     if told is None:
         check_number(thing, len(faces), largest)

@@ -162,5 +162,7 @@ def reading(n: int, delassus: Any, rates: Any, out: Any, friction: Any, restitut
 def test_machine_code_that_leaves_its_block_is_never_called(function: Callable[..., None]) -> None:
     """It would end the process, or read what is anybody's."""
     system = _landing(normal=Unilateral(), impact=impact_dummies.Map(function=function), friction=Coulomb(0.2))
-    with pytest.raises(ns.PluginError, match=rf"^Map: {function.__name__} in .* reaches for number -?\d+ of a block of 3"):
+    with pytest.raises(
+        ns.PluginError, match=rf"^Map: {function.__name__} in .* reaches for number -?\d+ of a block of 3"
+    ):
         ns.simulate(system, 0.05)
