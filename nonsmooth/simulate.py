@@ -16,6 +16,7 @@ from nonsmooth.model.assembly import assemble
 from nonsmooth.model.model import Model
 from nonsmooth.model.options import Options
 from nonsmooth.plugins import interpreted
+from nonsmooth.plugins.blocks import written_past
 from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
@@ -97,11 +98,10 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     except KeyboardInterrupt:
         _drain(model, chunks)
         word = "interrupted"
-    if status not in (DONE, STOPPED, PAUSED):
+    message, past = REASONS[status], written_past(model)
+    if past or status not in (DONE, STOPPED, PAUSED):
         word = "failed"
-    message = REASONS[status]
-    if word == "failed":
-        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {culprit(model, status)}".strip()
+        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {past or culprit(model, status)}".strip()
     wall = time.perf_counter() - began
     solution = _solution(model, start, chunks, word, message, wall)
     if word == "failed":

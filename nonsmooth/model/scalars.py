@@ -53,6 +53,7 @@ INTEGER_SCALARS = (
     "culprit",
     "impact_map",
     "painleve",
+    "map_past",
     "singular",
     "joints_apart",
     "policy",
