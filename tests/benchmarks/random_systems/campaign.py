@@ -44,7 +44,8 @@ def _kept(path: Path) -> dict[int, Outcome]:
     if path.is_file():
         for line in path.read_text(encoding="utf-8").splitlines():
             row = json.loads(line)
-            rows[row.pop("seed")] = Outcome(**{**row, "found": tuple(row["found"])})
+            seed = row.pop("seed")
+            rows[seed] = Outcome(**{**row, "found": tuple(row["found"])})
     return rows
 
 
@@ -58,7 +59,7 @@ def collect(
     tasks = (("run", case_of, seed, seconds, folder) for seed in seeds if seed not in kept)
     last = time.monotonic()
     with path.open("a", encoding="utf-8") as file:
-        for (_, _, seed, *_), word, value in spread(work, tasks, workers, 2.0 * seconds + 10.0):
+        for (_, _, seed, *_), word, value in spread(work, tasks, workers, 10.0 * seconds + 30.0):
             kept[seed] = value if word == "back" else Outcome(word, seconds=seconds)
             print(json.dumps({"seed": seed, **kept[seed].row()}), file=file, flush=True)
             if time.monotonic() - last > 10.0:
