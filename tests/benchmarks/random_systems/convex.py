@@ -231,7 +231,7 @@ def _plane(kinds: Vector, numbers: Vector, one: Vector, two: Vector, axes: Vecto
     """Return the gap of two cores along a direction [m]."""
     w = np.empty(3)
     _difference(kinds, numbers, one, two, axes, between, 0.0, d, w)
-    return _dot(d, w)
+    return float(_dot(d, w))
 
 
 @numba.njit(cache=True)  # type: ignore[untyped-decorator]
