@@ -73,6 +73,9 @@ INTEGER_SCALARS = (
     "recorded",
     "approaching",
     "sample_index",
+    "n_doubtful",
+    "astray",
+    "calls",
 )
 FLOAT_SCALARS = (
     "t",
@@ -91,6 +94,7 @@ FLOAT_SCALARS = (
     "rtol",
     "impact_rtol",
     "time_tolerance",
+    "time_resolution",
     "gap_tolerance",
     "velocity_tolerance",
     "sample_interval",
