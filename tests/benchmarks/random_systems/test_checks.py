@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
-import os
-import time
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +33,7 @@ from tests.benchmarks.random_systems.case import Case, Start
 from tests.benchmarks.random_systems.checks import findings
 from tests.benchmarks.random_systems.gaps import distance, overlaps
 from tests.benchmarks.random_systems.minimise import minimise
+from tests.benchmarks.random_systems.misbehaving import task
 from tests.benchmarks.random_systems.pool import spread
 from tests.benchmarks.random_systems.run import Outcome, run
 
@@ -157,25 +157,15 @@ def test_minimise_leaves_what_is_at_fault() -> None:
     assert run(smallest).kind == outcome.kind
 
 
-def _task(what: str) -> str:
-    if what == "hang":
-        time.sleep(1000.0)
-    if what == "crash":
-        os._exit(3)
-    return what
-
-
 def test_what_hangs_or_crashes_is_ended_and_the_rest_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tests.benchmarks.random_systems.pool.LOADING", 30.0)
     tasks = [("one",), ("crash",), ("two",), ("hang",), ("three",)]
-    ends = {task[0]: (word, value) for task, word, value in spread(_task, tasks, 1, 0.5)}
+    ends = {name: (word, value) for (name,), word, value in spread(task, tasks, 1, 0.5)}
     expected = {name: ("back", name) for name in ("one", "two", "three")}
     assert ends == {**expected, "crash": ("crash", None), "hang": ("hang", None)}
 
 
 def test_results_are_read_back_and_counted(tmp_path: Path) -> None:
-    import json
-
     outcomes = {1: Outcome("done", found=("inside: by 1 mm",)), 2: Outcome("done"), 3: Outcome("failed", "no step", ())}
     path = tmp_path / "results.jsonl"
     path.write_text("\n".join(json.dumps({"seed": seed, **o.row()}) for seed, o in outcomes.items()), encoding="utf-8")
