@@ -28,7 +28,7 @@ def _smaller(case: Case) -> Iterator[Case]:
     for laws in _SIMPLE:
         if any(row[2] != laws for row in case.contacts):
             yield replace(case, contacts=tuple((i, j, laws) for i, j, _ in case.contacts))
-    for part in (0.3, 0.7):
+    for part in (0.3, 0.7) if case.t_end > 2.0 * case.sample_interval else ():
         yield replace(case, t_end=float(f"{part * case.t_end:.2g}"))
     for k, start in enumerate(case.starts):
         if start is not None:
