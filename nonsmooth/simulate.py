@@ -28,7 +28,7 @@ _SECONDS_AT_ONCE = 0.2
 """Longer than this the engine shall not keep from progress and interruption."""
 _DEFAULT_SAMPLES = 2000
 Progress = Callable[[float, float], None]
-_Chunks: TypeAlias = dict[tuple[int, int], tuple[np.ndarray, np.ndarray, np.ndarray]]
+_Chunks: TypeAlias = dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 def simulate(
@@ -112,12 +112,12 @@ def _run(model: Model, progress: Progress | None) -> Solution:
 
 
 def _drain(model: Model, chunks: _Chunks) -> None:
-    """Empty the engine's buffers into a chunk of events, codes and samples, keyed by the steps taken.
+    """Empty the engine's buffers into a chunk of events, codes and samples, keyed by the number of the engine's call.
 
     An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
     """
     scalars, memory = model.memory.scalars, model.memory
-    key = int(scalars["steps"][0]), int(scalars["impacts"][0])
+    key = int(scalars["calls"][0])
     if key not in chunks:
         n_samples = int(scalars["n_samples"][0])
         width = model.n_y + 1

@@ -72,7 +72,7 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
             w[guard + 1] = w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
             if a == S.lone or lost > 0.0:
                 w[guard + 1] = (w[y + STRIDE * a + 6] - lost) / w[S.impact_energy_scale + a]
-        if phase == IDLE:
+        if phase == IDLE or (k[S.tangent_held + a] == 0 and w[S.mu + a] == 0.0):
             w[guard + 2] = 1.0
         elif k[S.tangent_held + a] == 1:
             w[guard + 2] = NOISE + w[S.margin + a] / force_scale
@@ -229,7 +229,7 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         speed = math.sqrt(max(0.0, square)) - first
         if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:
             shortest, S.aimed = 2.0 * energy / speed, 3 * a + 1
-    if k[S.tangent_held + a] == 0 and slip > 0.0 and slip_growth < 0.0:
+    if k[S.tangent_held + a] == 0 and w[S.mu + a] > 0.0 and slip > 0.0 and slip_growth < 0.0:
         root = -slip / slip_growth
         if root < shortest:
             shortest, S.aimed = root, 3 * a + 2

@@ -46,7 +46,8 @@ class AnisotropicFrictionLaw(FrictionLaw, ABC):
     The contract: that of :class:`FrictionLaw` for mu(|s|), and
 
     3. ``body`` says which body of the contact the axis is fixed to, and ``axis`` its direction in that body's frame;
-       what counts is its projection on the tangent plane.
+       what counts is its projection on the tangent plane.  Where it stands along the normal, to 1e-7 rad, it has none:
+       the axis x, y or z of the body's frame that is least along it takes its place, the first of equals.
     4. ``ratios`` are r forward, backward and across, positive, the largest of them 1.
     5. The certificate takes slip and force along the axis and across it.
     """

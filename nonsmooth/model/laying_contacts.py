@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
+
+import numpy as np
 
 from nonsmooth.engine.modes import OPEN
 from nonsmooth.errors import InvalidInput
@@ -82,11 +85,12 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
         fields |= {"state": first_state, "n_state": len(start), "state_start": heap.store(start)}
         fields |= {"traction_out": heap.block(_FORCE_AND_MOMENT + len(start)), "rates_out": heap.block(len(start))}
     if isinstance(contact.friction, AnisotropicFrictionLaw):
-        law = contact.friction
-        fields |= {"oriented": 1, "axis": heap.store(((0.0, 1.0)[law.body == "second"], *law.axis, *law.ratios))}
+        law, side = contact.friction, (0.0, 1.0)[contact.friction.body == "second"]
+        axis = np.divide(law.axis, math.hypot(*law.axis))
+        fields |= {"oriented": 1, "axis": heap.store((side, *axis, *law.ratios))}
     for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
         place = places[id(body)]
-        fields |= {f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
+        fields |= {f"body_{side}": place.number, f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
         fields |= {f"shift_{side}": place.shift, f"linkage_{side}": place.linkage}
     if isinstance(impact, ImpactMap):
         fields["map_parameters"] = _lay_map(memory, heap, impact)
@@ -94,7 +98,7 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
     for name, value in fields.items():
         row[CATALOGUE.index(name)] = value
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * (number + 1))[CATALOGUE_FLOATS * number :]
-    floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach, 0.0
+    floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach, 0.0, *contact.levers
 
 
 def _friction_functions(law: TangentialLaw) -> list[_Function]:

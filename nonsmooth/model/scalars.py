@@ -75,6 +75,9 @@ INTEGER_SCALARS = (
     "recorded",
     "approaching",
     "sample_index",
+    "n_doubtful",
+    "astray",
+    "calls",
 )
 FLOAT_SCALARS = (
     "t",
@@ -93,6 +96,7 @@ FLOAT_SCALARS = (
     "rtol",
     "impact_rtol",
     "time_tolerance",
+    "time_resolution",
     "gap_tolerance",
     "velocity_tolerance",
     "sample_interval",

@@ -27,7 +27,17 @@ from nonsmooth.plugins.unexplained import unexplained
 
 
 def culprit(model: Model, status: int) -> str:
-    """Return a sentence that names the first function found to raise or to return a non-finite number."""
+    """Return a sentence that names the first function found to raise or to return a non-finite number.
+
+    It raises nothing: what was computed matters more than why it ended, and functions that fail are called here.
+    """
+    try:
+        return _culprit(model, status)
+    except (Exception, SystemExit, KeyboardInterrupt) as error:
+        return f"Looking for the cause came to nothing: {error!r}."
+
+
+def _culprit(model: Model, status: int) -> str:
     if status in (GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return unexplained(model, status)
     found = (_in_the_map(model) if status == NOT_FINITE else "") or _in_the_blocks(model)
@@ -103,7 +113,8 @@ def _in_the_map(model: Model) -> str:
         what = "gives impulses that are not finite"
     except Exception as error:
         what = raised(law.impulses, error)
-    among = [model.system.contacts[int(i)].name for i in memory.array("identity", n)[memory.array("active", n)]]
+    listed = memory.array("identity", int(memory.scalars["n_contacts"][0]))
+    among = [model.system.contacts[int(i)].name for i in listed[memory.array("active", n)]]
     before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
     return (
         f"{type(law).__name__}: {described(law.impulses)}, {what} for the rates {before} m/s "
