@@ -21,6 +21,7 @@ from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
+from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
 
 _STEPS_AT_ONCE = 2000
@@ -57,7 +58,8 @@ def simulate(
     Returns
     -------
     Solution
-        With status "done", or "interrupted" after Ctrl-C.
+        With status "done", "suspect" where its own checks found something (the message says what), or "interrupted"
+        after Ctrl-C.
 
     Raises
     ------
@@ -158,10 +160,16 @@ def _solution(
         impact_steps=int(scalars["impact_steps"][0]),
         wall_seconds=wall,
     )
+    t, q = table[:, 0], table[:, 1 : 1 + n_q]
+    worst = float(scalars["open_t"][0]), float(scalars["open_energy"][0]), float(scalars["open_share"][0])
+    tolerances = float(scalars["rtol"][0]), float(scalars["impact_rtol"][0])
+    found = suspicions(worst, energy, model.system.bodies, (t, q), tolerances) if word == "done" else ""
+    if found:
+        word, message = "suspect", f"{message}, but {found}"
     return Solution(
         model.system,
-        table[:, 0],
-        table[:, 1 : 1 + n_q],
+        t,
+        q,
         table[:, 1 + n_q : 1 + n_q + n_u],
         Events.from_buffers(all_rows, all_codes, len(model.system.contacts), n_q, n_u),
         energy,
