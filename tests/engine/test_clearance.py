@@ -43,7 +43,7 @@ def first_touch(height: float, overlap: float, speed: float, z: float, held: boo
 
 @pytest.mark.parametrize("held", [True, False])
 def test_a_ball_that_falls_past_another_one_onto_a_plate_misses_it_iff_it_does(held: bool) -> None:
-    """On both sides of grazing the first collision is that of the closed form, though the plate fires in the same step."""
+    """On both sides of grazing the first collision is that of the closed form, though the plate fires, too."""
     rng = np.random.default_rng(11)
     met = 0
     for _ in range(150):
