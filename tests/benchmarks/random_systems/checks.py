@@ -91,7 +91,8 @@ def _energies(case: Case, q: Vector, u: Vector) -> Vector:
 
 def _inertia(body: Any) -> Vector:
     yz, xz, xy = body.products
-    return np.diag(body.inertia) + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
+    principal = np.diag(body.inertia)
+    return np.asarray(principal + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]]))
 
 
 def _indentation(case: Case, records: Records, stiffness: float, exponent: float) -> float:
@@ -155,7 +156,7 @@ def _jumps(case: Case, records: Records) -> Iterator[str]:
 def _angles(q: Vector) -> Vector:
     unit = q / np.linalg.norm(q, axis=1)[:, None]
     same = np.sign(np.sum(unit[1:] * unit[:-1], axis=1))[:, None] * unit[:-1]
-    return 4.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(unit[1:] - same, axis=1), 0.0, 1.0))
+    return np.asarray(4.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(unit[1:] - same, axis=1), 0.0, 1.0)))
 
 
 def _joints(case: Case, records: Records) -> Iterator[str]:
