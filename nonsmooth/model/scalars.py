@@ -77,7 +77,7 @@ INTEGER_SCALARS = (
     "approaching",
     "sample_index",
     "n_doubtful",
-    "astray",
+    "n_astray",
     "calls",
 )
 FLOAT_SCALARS = (
