@@ -76,6 +76,10 @@ INTEGER_SCALARS = (
     "n_doubtful",
     "astray",
     "calls",
+    "work",
+    "patience",
+    "watch",
+    "stopped",
 )
 FLOAT_SCALARS = (
     "t",
