@@ -79,6 +79,10 @@ INTEGER_SCALARS = (
     "n_doubtful",
     "n_astray",
     "calls",
+    "work",
+    "patience",
+    "watch",
+    "stopped",
 )
 FLOAT_SCALARS = (
     "t",
