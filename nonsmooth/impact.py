@@ -36,7 +36,8 @@ class ImpactResult:
     tangential_impulse : array
         [N s], shape [n, 2].
     stored, returned : array
-        Energy stored in compression and returned in expansion [J], shape [n].
+        Energy stored in compression and returned in expansion [J], shape [n].  What a contact keeps that ends wedged,
+        at rest under load because joints or other contacts hold its point, is not returned.
     friction_loss : array
         Energy lost to friction [J], shape [n].
     phases : int
@@ -75,6 +76,9 @@ def solve_impact(
     tolerance: float = 1e-10,
 ) -> ImpactResult:
     """Solve one multiple impact with friction, Eqs. (19)-(28).
+
+    The matrices may be those of jointed bodies in coordinates that keep the joints; a contact's own three rows of
+    [W N]^T M^-1 [W N] may be singular then.
 
     Parameters
     ----------

@@ -21,6 +21,7 @@ from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
+from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
 
 _STEPS_AT_ONCE = 2000
@@ -28,7 +29,7 @@ _SECONDS_AT_ONCE = 0.2
 """Longer than this the engine shall not keep from progress and interruption."""
 _DEFAULT_SAMPLES = 2000
 Progress = Callable[[float, float], None]
-_Chunks: TypeAlias = dict[tuple[int, int], tuple[np.ndarray, np.ndarray, np.ndarray]]
+_Chunks: TypeAlias = dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 def simulate(
@@ -57,7 +58,8 @@ def simulate(
     Returns
     -------
     Solution
-        With status "done", or "interrupted" after Ctrl-C.
+        With status "done", "suspect" where its own checks found something (the message says what), or "interrupted"
+        after Ctrl-C.
 
     Raises
     ------
@@ -110,12 +112,12 @@ def _run(model: Model, progress: Progress | None) -> Solution:
 
 
 def _drain(model: Model, chunks: _Chunks) -> None:
-    """Empty the engine's buffers into a chunk of events, codes and samples, keyed by the steps taken.
+    """Empty the engine's buffers into a chunk of events, codes and samples, keyed by the number of the engine's call.
 
     An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
     """
     scalars, memory = model.memory.scalars, model.memory
-    key = int(scalars["steps"][0]), int(scalars["impacts"][0])
+    key = int(scalars["calls"][0])
     if key not in chunks:
         n_samples = int(scalars["n_samples"][0])
         width = model.n_y + 1
@@ -158,10 +160,16 @@ def _solution(
         impact_steps=int(scalars["impact_steps"][0]),
         wall_seconds=wall,
     )
+    t, q = table[:, 0], table[:, 1 : 1 + n_q]
+    worst = float(scalars["open_t"][0]), float(scalars["open_energy"][0]), float(scalars["open_share"][0])
+    tolerances = float(scalars["rtol"][0]), float(scalars["impact_rtol"][0])
+    found = suspicions(worst, energy, model.system.bodies, (t, q), tolerances) if word == "done" else ""
+    if found:
+        word, message = "suspect", f"{message}, but {found}"
     return Solution(
         model.system,
-        table[:, 0],
-        table[:, 1 : 1 + n_q],
+        t,
+        q,
         table[:, 1 + n_q : 1 + n_q + n_u],
         Events.from_buffers(all_rows, all_codes, len(model.system.contacts), n_q, n_u),
         energy,

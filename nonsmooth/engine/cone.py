@@ -35,7 +35,6 @@ def _update_normal(S: Scalars, w: Floats, k: Integers, a: int) -> None:
             rest -= w[g + i] * w[S.f + line + i]
             own -= w[S.mu + a] * w[S.d + 2 * a + i - 1] * w[g + i]
         if own <= 0.0:
-            S.painleve = 1
             return
     w[S.f + line] = max(0.0, -rest / own)
 

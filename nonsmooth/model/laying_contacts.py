@@ -98,7 +98,7 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
         fields |= {"oriented": 1, "axis": heap.store((on_second, *axis, *law.ratios))}
     for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
         place = places[id(body)]
-        fields |= {f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
+        fields |= {f"body_{side}": place.number, f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
         fields |= {f"shift_{side}": place.shift, f"linkage_{side}": place.linkage}
     if isinstance(impact, ImpactMap):
         fields["map_parameters"] = _lay_map(memory, heap, impact)
@@ -106,7 +106,7 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
     for name, value in fields.items():
         row[CATALOGUE.index(name)] = value
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * (number + 1))[CATALOGUE_FLOATS * number :]
-    floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach, 0.0
+    floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach, 0.0, *contact.levers
 
 
 def _friction_functions(law: TangentialLaw) -> list[_Function]:

@@ -73,6 +73,8 @@ LOAD = 9
 FORCE_AND_MOMENT = 5
 """Floats that a law of traction writes before the rates of its states."""
 CATALOGUE = (
+    "body_a",
+    "body_b",
     "frame_a",
     "frame_b",
     "nu_a",
@@ -107,8 +109,12 @@ CATALOGUE = (
     "mode",
 )
 """Integers of a declared contact; in a slot each of them is an array of its own."""
-CATALOGUE_FLOATS = 5
-"""Floats of a declared contact: contact time, slip direction, reach, rate at which it closed."""
+CATALOGUE_FLOATS = 7
+"""Floats of a declared contact: contact time, slip direction, reach, rate at which it closed, levers of the shapes."""
+SECTORS = 48
+"""Halvings of a step in search of a gap that closes: as many as its fractions can be told apart."""
+SECTOR = 4
+"""Floats of an end of a part of a step: fraction, gap, gap rate, how far past the end of the features."""
 ORIENTED = 7
 """Numbers of an anisotropic law: side of the body, its axis, friction forward, backward and across."""
 N_ACCOUNTS = 4
@@ -174,10 +180,17 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "guard_start": _guards,
     "gap_rate": _per(1, "n_slots"),
     "gap_rate_first": _per(1, "n_slots"),
-    "gap_rate_middle": _per(1, "n_slots"),
     "gap_rate_end": _per(1, "n_slots"),
-    "gap_middle": _per(1, "n_slots"),
     "gap_end": _per(1, "n_slots"),
+    "past_end": _per(1, "n_slots"),
+    "past_first": _per(1, "n_slots"),
+    "speed_end": _per(1, "n_slots"),
+    "speed_first": _per(1, "n_slots"),
+    "small_force_of": _per(1, "n_slots"),
+    "lever_a": _per(1, "n_slots"),
+    "lever_b": _per(1, "n_slots"),
+    "relative": lambda n: 24,
+    "sectors": lambda n: SECTOR * (SECTORS + 1),
     "guard_end": _guards,
     "rate_end": _per(3, "n_slots"),
     "map_block": lambda n: n["map_width"] * n["n_slots"],
@@ -221,6 +234,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "impact_z": _per(3, "n_slots"),
     "impact_guard": _per(3, "n_slots"),
     "impact_guard_first": _per(3, "n_slots"),
+    "rest_slip": _per(1, "n_slots"),
     "impact_x_scale": _per(1, "n_slots"),
     "impact_f_scale": _per(1, "n_slots"),
     "impact_energy_scale": _per(1, "n_slots"),
@@ -343,6 +357,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "own_guard_spent": _per(1, "n_own_guards"),
     "event_codes": _per(1, "event_integers"),
     "identity": _per(1, "n_slots"),
+    "doubtful": _per(1, "n_slots"),
     "member": _per(1, "n_slots"),
     "grouped": _per(1, "n_slots"),
     "group_of": _per(1, "n_slots"),

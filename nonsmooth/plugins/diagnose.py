@@ -8,7 +8,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from nonsmooth.engine.kernel import call_room
-from nonsmooth.engine.modes import NOT_FINITE, STEP_TOO_SMALL
+from nonsmooth.engine.modes import (
+    GAP_UNEXPLAINED,
+    MOTION_UNEXPLAINED,
+    NOT_FINITE,
+    QUATERNION_UNEXPLAINED,
+    STEP_TOO_SMALL,
+)
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.layout import CATALOGUE, N_ACCOUNTS
@@ -18,6 +24,7 @@ from nonsmooth.plugins.blocks import blocks
 from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.plugins.law_failure import REMEDY, Finding, first_without_value, law_functions, without_value
 from nonsmooth.plugins.source import described, raised
+from nonsmooth.plugins.unexplained import unexplained
 
 
 def culprit(model: Model, status: int) -> str:
@@ -32,6 +39,8 @@ def culprit(model: Model, status: int) -> str:
 
 
 def _culprit(model: Model, status: int) -> str:
+    if status in (GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
+        return unexplained(model, status)
     found = (_in_the_map(model) if status == NOT_FINITE else "") or _in_the_blocks(model)
     if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
         return found

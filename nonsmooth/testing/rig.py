@@ -111,11 +111,12 @@ class Rig:
     def __init__(self, kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -> None:
         self._bodies = _Carrier(shapes[0]), _Carrier(shapes[1])
         system = System(self._bodies)
-        extents = (shapes[0].extent, shapes[1].extent)
+        extents = shapes[0].extent, shapes[1].extent
+        levers = shapes[0].lever, shapes[1].lever
         name = type(kinematics).__name__
         # not by System.contact, which looks for kinematics among those installed
         system._contacts.append(
-            Contact(name, *self._bodies, (0, 0), kinematics, extents, Rigid(), Constant(), Spring())
+            Contact(name, *self._bodies, (0, 0), shapes, kinematics, extents, levers, Rigid(), Constant(), Spring())
         )
         self._model = lay_out(system, Options())
 

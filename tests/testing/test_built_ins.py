@@ -134,7 +134,7 @@ LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
     (check_normal_law, HuntCrossley(1e8, 0.3)),
     (check_normal_law, LankaraniNikravesh(1e8, 0.7)),
     (check_normal_law, Cohesive(1e4, 1.0, 2.0)),
-    (check_traction_law, Bristle(0.3, 0.4, damping=1.0)),
+    (check_traction_law, Bristle(0.3, 0.4, damping=1.0, viscosity=0.5)),
     (check_traction_law, CoulombContensou(0.3, 0.01, 1e-3, relaxation=1e-4)),
     (check_impact_law, MonoStiffnessImpact(0.6)),
     (check_impact_law, JohnsonImpact()),
