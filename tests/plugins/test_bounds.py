@@ -27,7 +27,7 @@ from tests.testing import (
     traction_dummies,
 )
 
-RIGID = {"normal": Unilateral(), "impact": NewtonImpact(0.5)}
+RIGID: dict[str, Any] = {"normal": Unilateral(), "impact": NewtonImpact(0.5)}
 
 
 def _landing(**laws: Any) -> ns.System:
@@ -140,8 +140,10 @@ def test_a_run_in_which_a_block_is_left_is_not_done(where: int) -> None:
         return
     with pytest.raises(ns.RunFailed, match=rf"Late.*_late in .*test_bounds.py.* to out\[{where}\]") as caught:
         ns.simulate(system, 0.03)
-    assert caught.value.solution.status == "failed"
-    assert np.all(np.isfinite(caught.value.solution.q))
+    solution = caught.value.solution
+    assert isinstance(solution, ns.Solution)
+    assert solution.status == "failed"
+    assert np.all(np.isfinite(solution.q))
 
 
 def far(n: int, delassus: Any, rates: Any, out: Any, friction: Any, restitution: Any) -> None:
