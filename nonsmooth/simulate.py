@@ -16,10 +16,12 @@ from nonsmooth.model.assembly import assemble
 from nonsmooth.model.model import Model
 from nonsmooth.model.options import Options
 from nonsmooth.plugins import interpreted
+from nonsmooth.plugins.blocks import written_past
 from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
+from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
 
 _STEPS_AT_ONCE = 2000
@@ -56,7 +58,8 @@ def simulate(
     Returns
     -------
     Solution
-        With status "done", or "interrupted" after Ctrl-C.
+        With status "done", "suspect" where its own checks found something (the message says what), or "interrupted"
+        after Ctrl-C.
 
     Raises
     ------
@@ -97,11 +100,10 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     except KeyboardInterrupt:
         _drain(model, chunks)
         word = "interrupted"
-    if status not in (DONE, STOPPED, PAUSED):
+    message, past = REASONS[status], written_past(model)
+    if past or status not in (DONE, STOPPED, PAUSED):
         word = "failed"
-    message = REASONS[status]
-    if word == "failed":
-        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {culprit(model, status)}".strip()
+        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {past or culprit(model, status)}".strip()
     wall = time.perf_counter() - began
     solution = _solution(model, start, chunks, word, message, wall)
     if word == "failed":
@@ -158,10 +160,16 @@ def _solution(
         impact_steps=int(scalars["impact_steps"][0]),
         wall_seconds=wall,
     )
+    t, q = table[:, 0], table[:, 1 : 1 + n_q]
+    worst = float(scalars["open_t"][0]), float(scalars["open_energy"][0]), float(scalars["open_share"][0])
+    tolerances = float(scalars["rtol"][0]), float(scalars["impact_rtol"][0])
+    found = suspicions(worst, energy, model.system.bodies, (t, q), tolerances) if word == "done" else ""
+    if found:
+        word, message = "suspect", f"{message}, but {found}"
     return Solution(
         model.system,
-        table[:, 0],
-        table[:, 1 : 1 + n_q],
+        t,
+        q,
         table[:, 1 + n_q : 1 + n_q + n_u],
         Events.from_buffers(all_rows, all_codes, len(model.system.contacts), n_q, n_u),
         energy,

@@ -63,6 +63,10 @@ class MeshSolid(Solid):
         """Those of its corners [m]."""
         return np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)
 
+    def support(self, direction: Vector) -> Vector:
+        """Return the corner that lies farthest along a direction [m]."""
+        return np.asarray(self.vertices[int(np.argmax(self.vertices @ direction))])
+
     def pieces(self, low: Vector, high: Vector) -> Sequence[Piece]:
         """Return the triangles whose boxes meet the box."""
         meets = np.all((self._boxes[0] <= high) & (self._boxes[1] >= low), axis=1)

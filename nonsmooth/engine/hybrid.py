@@ -24,7 +24,6 @@ from nonsmooth.engine.modes import (
     GUARD,
     IMPACT,
     JAM,
-    JOINTS_APART,
     LIFT_OFF,
     NO_SLOT,
     NOT_FINITE,
@@ -47,6 +46,7 @@ from nonsmooth.engine.projection import (
 )
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS, record_event, record_samples, remember
 from nonsmooth.engine.runge_kutta import step_factor
+from nonsmooth.engine.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.settle import settle
 from nonsmooth.model.layout import GEOMETRY, PAST_END
 
@@ -224,6 +224,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         S.choosing = 1
         slope(S, w, k, S.t, S.y, S.slopes)
         S.choosing = 0
+        close_account(S, w, k)
         watch_features(S, w, k)
         write_guards(S, w, k, S.t, S.y, 1)
         keep_end(S, w, k)
@@ -237,6 +238,9 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         S.h_listed = longest_step(S, w, k)
         if S.h_listed == 0.0:
             return RUNNING if list_contacts(S, w, k) == 1 else NO_SLOT
+    check_gaps(S, w, k)
+    if S.failed != RUNNING:
+        return int(S.failed)
     for c in range(S.n_contacts):
         w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
         w[S.past_first + c], w[S.speed_first + c] = w[S.past_end + c], w[S.speed_end + c]
@@ -362,7 +366,8 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
         if S.t_end - S.t <= S.time_tolerance:
             S.t = S.t_end
-            return DONE
+            check_end(S, w, k)
+            return DONE if S.failed == RUNNING else int(S.failed)
         row = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * S.n_contacts
         floats_left, integers_left = S.event_floats - S.floats_used, S.event_integers - S.integers_used
         if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * S.n_contacts):
@@ -370,8 +375,8 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
         if 2 * S.n_samples > S.sample_capacity:
             return PAUSED
         status = _step(S, w, k)
-        if status == RUNNING and S.joints_apart == 1:
-            status = JOINTS_APART
+        if status == RUNNING:
+            status = int(S.failed)
         if S.crowded == 1:
             status = NO_SLOT
         if status != RUNNING:

@@ -39,6 +39,7 @@ from nonsmooth.engine.modes import (
 )
 from nonsmooth.engine.projection import project_closed
 from nonsmooth.engine.record import MOST_EVENTS, amend_last, code, impact_code, record_event, remember
+from nonsmooth.engine.self_check import open_account
 from nonsmooth.engine.touching import slip_speed, touch
 
 _ATTEMPTS = MOST_EVENTS - 4
@@ -275,6 +276,7 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     S.recorded = 0
     resting = projected = 0
     approaching = touch(S, w, k)
+    open_account(S, w, k)
     if cause == JAM:
         if S.policy == REFUSE:
             return PARADOX_REFUSED

@@ -56,6 +56,10 @@ class Solid(ABC):
         """Lowest and highest coordinates [m], shape [3] each."""
 
     @abstractmethod
+    def support(self, direction: Vector) -> Vector:
+        """Return a point that lies farthest along a direction of any length [m], both of shape [3]."""
+
+    @abstractmethod
     def pieces(self, low: Vector, high: Vector) -> Sequence[Piece]:
         """Return the pieces that may reach into the box between two corners [m], shape [3] each."""
 

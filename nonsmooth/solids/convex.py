@@ -19,14 +19,18 @@ class ConvexSolid(Solid):
 
     Attributes
     ----------
-    support : callable
+    farthest : callable
         Returns a point that lies farthest along a direction [m], both of shape [3].
     set_back : float
         How far what contacts see may lie off the boundary [m].
     """
 
-    support: Callable[[Vector], Vector]
+    farthest: Callable[[Vector], Vector]
     set_back: float = 0.0
+
+    def support(self, direction: Vector) -> Vector:
+        """Return what the function returns."""
+        return self.farthest(direction)
 
     @property
     def hollow(self) -> bool:
@@ -40,7 +44,7 @@ class ConvexSolid(Solid):
     @functools.cached_property
     def _whole(self) -> Piece:
         # in the middle of what is extreme, and so inside
-        return Piece(self.support, np.mean(self._extremes, axis=0))
+        return Piece(self.farthest, np.mean(self._extremes, axis=0))
 
     @property
     def bounds(self) -> tuple[Vector, Vector]:

@@ -9,7 +9,7 @@ Bergen, "Proximity queries and penetration depth computation on 3D game objects"
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -26,7 +26,7 @@ _Face = tuple[float, _Point, int, int, int]
 """Height over the origin, outward normal, corners counter-clockwise seen from outside."""
 
 
-def depth(one: Piece, two: Piece, tolerance: float, normals: Sequence[Vector] = ()) -> float:
+def depth(one: Piece, two: Piece, tolerance: float) -> float:
     """Return how far two convex sets must be moved at least to part them [m], or 0 if that is within a tolerance [m].
 
     Parameters
@@ -35,8 +35,6 @@ def depth(one: Piece, two: Piece, tolerance: float, normals: Sequence[Vector] = 
         The sets, in the same axes.
     tolerance : float
         By how much sets that touch may overlap [m].
-    normals : sequence of Vector
-        Unit vectors from the first to the second that may be across a plane between them, shape [3] each.
     """
 
     def farthest(direction: Vector) -> Vector:
@@ -45,8 +43,6 @@ def depth(one: Piece, two: Piece, tolerance: float, normals: Sequence[Vector] = 
     def parted(direction: Vector) -> bool:
         return float(direction @ farthest(direction)) <= tolerance
 
-    if any(parted(normal) for normal in normals):
-        return 0.0
     apart = two.place - one.place
     away = float(np.linalg.norm(apart))
     if away > 0.0 and parted(apart / away):

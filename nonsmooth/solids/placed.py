@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -40,6 +40,10 @@ class Placed:
         """Corners of a box along the axes that holds it [m], shape [3] each."""
         return _box(*self.solid.bounds, self.rotation, self.position)
 
+    def support(self, direction: Vector) -> Vector:
+        """Return a point that lies farthest along a direction [m], shape [3]."""
+        return np.asarray(self.position + self.rotation @ self.solid.support(direction @ self.rotation))
+
     @property
     def inner(self) -> Vector:
         """Points inside [m], shape [n, 3]."""
@@ -64,13 +68,23 @@ class Placed:
         return Piece(turned, place + axes @ piece.place, tuple(axes @ normal for normal in piece.normals))
 
 
-def overlap(one: Placed, two: Placed, tolerance: float, normals: Sequence[Vector] = ()) -> float:
+def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float:
     """Return how deep at least two solids reach into each other [m]; 0 if a tolerance covers it.
 
-    Unit vectors from the first to the second that may be across a plane between them save time, shape [3] each.
+    Parameters
+    ----------
+    one, two : Placed
+        The solids.
+    tolerance : float
+        By how much they may overlap [m].
+    normal : Vector
+        Unit vector from the first to the second across which there may be a plane between them, shape [3]: if there is,
+        nothing else is looked at.
     """
+    if float(normal @ (one.support(normal) - two.support(-normal))) <= tolerance:
+        return 0.0
     for a, b in near_pairs(one, two):
-        found = depth(a, b, tolerance, normals)
+        found = depth(a, b, tolerance)
         if found > 0.0:
             return found
     return nested(one, two, tolerance)

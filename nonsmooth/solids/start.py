@@ -43,7 +43,7 @@ def check_overlaps(model: Model) -> None:
         contact = contacts[numbers[0]]
         allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
         nearest = min((slots[number] for number in numbers), key=lambda slot: abs(float(blocks[slot, 0])))
-        found = overlap(one, two, allowed, (blocks[nearest, 1:4],))
+        found = overlap(one, two, allowed, blocks[nearest, 1:4])
         if found > 0.0:
             kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
             raise InvalidInput(

@@ -35,13 +35,21 @@ def angle(size: float) -> MeshBody:
     return MeshBody(Triangles(corners, tuple(faces)), density=2700.0)
 
 
+def _length(rng: np.random.Generator) -> float:
+    return float(rng.uniform(4e-3, 1.2e-2))
+
+
+def _box(rng: np.random.Generator, rounding: float) -> BoxBody:
+    return BoxBody(_length(rng), _length(rng), _length(rng), rounding=rounding)
+
+
 KINDS: dict[str, Callable[[np.random.Generator], Body]] = {
-    "box": lambda rng: BoxBody(*rng.uniform(4e-3, 1.2e-2, 3).tolist()),
-    "rounded box": lambda rng: BoxBody(*rng.uniform(4e-3, 1.2e-2, 3).tolist(), rounding=2e-3),
+    "box": lambda rng: _box(rng, 0.0),
+    "rounded box": lambda rng: _box(rng, 2e-3),
     "angle": lambda rng: angle(8e-3),
     "hull": lambda rng: HullBody(tuple(map(tuple, rng.normal(0.0, 8e-3, (8, 3)).tolist()))),
-    "cylinder": lambda rng: CylinderBody(*rng.uniform(4e-3, 1.2e-2, 2).tolist(), foot_height=0.0),
-    "ball": lambda rng: Ball(float(rng.uniform(4e-3, 1.2e-2))),
+    "cylinder": lambda rng: CylinderBody(_length(rng), _length(rng), foot_height=0.0),
+    "ball": lambda rng: Ball(_length(rng)),
     "ellipsoid": lambda rng: EllipsoidBody(*rng.uniform(5e-3, 1.2e-2, 3).tolist()),
     "capsule": lambda rng: CapsuleBody(*rng.uniform(4e-3, 1e-2, 2).tolist()),
 }

@@ -13,7 +13,8 @@ from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.solid import Piece
 from nonsmooth.solids.overlap import depth
-from nonsmooth.solids.placed import Placed, overlap
+from nonsmooth.solids.placed import Placed
+from nonsmooth.solids.placed import overlap as overlap_of
 from nonsmooth.solids.separation import separation
 from tests.solids.kinds import KINDS, angle
 
@@ -23,6 +24,11 @@ CONVEX = sorted(set(KINDS) - {"angle"})
 def _placed(shape: Shape, position: object = (0.0, 0.0, 0.0), rotation: Vector | None = None) -> Placed:
     assert shape.solid is not None
     return Placed(shape.solid, np.array(position, dtype=float), np.eye(3) if rotation is None else rotation)
+
+
+def overlap(one: Placed, two: Placed, tolerance: float) -> float:
+    """Return the overlap, looked at first across a vector that is none."""
+    return overlap_of(one, two, tolerance, np.array([1.0, 0.0, 0.0]))
 
 
 def _piece(placed: Placed) -> Piece:
