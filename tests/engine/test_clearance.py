@@ -160,7 +160,7 @@ def test_contacts_that_close_together_hide_none_that_closed_before() -> None:
 
 
 def test_rims_that_face_each_other_for_an_instant_of_a_long_step_collide() -> None:
-    """A cone falls past the rim of a held cone: their rims overlap by 24 micrometres for less than a thousandth of it."""
+    """A cone falls past the rim of a held cone whose rim it grazes by 24 micrometres."""
     cone = ConeBody(0.007446, 0.017683, 7800.0, foot_height=0.0)
     over = Rest(position=(0.009508, -0.015472, 0.028888), orientation=(0.0, 1.0, 0.0, 0.0))
     held = DrivenBody(over, (Cone(0.009528, 0.019882),))
