@@ -107,7 +107,7 @@ from nonsmooth.testing import (
     check_shape,
     check_traction_law,
 )
-from nonsmooth.testing.registered import check_registered, make
+from nonsmooth.testing.registered import check_class, make
 from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.tippe_top.friction import SpinningCoulomb
 from tests.bodies.meshes import parts
@@ -252,7 +252,7 @@ def _all() -> Iterator[Property]:
     yield from _of_pairs()
     for group in ("guards", "scenarios"):
         for name in registry.names(group):
-            yield from check_registered(group, name, {})
+            yield from check_class(registry.load(group, name), name, {})
     for shape in {type(one): one for pair in SHAPES for one in pair}.values():
         yield from check_shape(shape)
 
@@ -267,7 +267,7 @@ def test_built_in(prop: Property) -> None:
 @pytest.mark.parametrize(("group", "name"), [(g, n) for g in registry.GROUPS for n in registry.names(g)])
 def test_every_built_in_can_be_checked(group: str, name: str) -> None:
     """There are properties of it by its name alone: what numbers cannot give is in the example of its class."""
-    assert len(check_registered(group, name, {})) > 3
+    assert len(check_class(registry.load(group, name), name, {})) > 3
 
 
 def test_all_are_there() -> None:
