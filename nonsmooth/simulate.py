@@ -9,25 +9,24 @@ from typing import TypeAlias
 
 import numpy as np
 
-from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.model import Model
 from nonsmooth.model.options import Options
-from nonsmooth.plugins import interpreted
+from nonsmooth.plugins.blocks import written_past
 from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
+from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
+from nonsmooth.watch import Watch
 
 _STEPS_AT_ONCE = 2000
-_SECONDS_AT_ONCE = 0.2
-"""Longer than this the engine shall not keep from progress and interruption."""
 _DEFAULT_SAMPLES = 2000
 Progress = Callable[[float, float], None]
-_Chunks: TypeAlias = dict[tuple[int, int], tuple[np.ndarray, np.ndarray, np.ndarray]]
+_Chunks: TypeAlias = dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 def simulate(
@@ -51,12 +50,14 @@ def simulate(
     options : Options, optional
         Tolerances.
     progress : callable, optional
-        Called now and then with the time reached and the end time [s].
+        Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
+        raises ends the run and is raised.
 
     Returns
     -------
     Solution
-        With status "done", or "interrupted" after Ctrl-C.
+        With status "done", "suspect" where its own checks found something (the message says what), or "interrupted"
+        after Ctrl-C.
 
     Raises
     ------
@@ -80,28 +81,23 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     start = model.energy()
     chunks: _Chunks = {}
     began = time.perf_counter()
-    status, word, steps = PAUSED, "done", _STEPS_AT_ONCE
-    interpreted.forget()
+    status, word = PAUSED, "done"
+    t_end = float(scalars["t_end"][0])
+    report = None if progress is None else lambda t: progress(t, t_end)
     try:
-        while status == PAUSED:
-            called = time.perf_counter()
-            status = int(call_room("advance", model.memory, steps))
-            if interpreted.let_go():
-                status = PAUSED
-                raise KeyboardInterrupt
-            slow = time.perf_counter() - called > _SECONDS_AT_ONCE
-            steps = max(1, steps // 4) if slow else min(2 * steps, _STEPS_AT_ONCE)
-            _drain(model, chunks)
-            if progress is not None:
-                progress(float(scalars["t"][0]), float(scalars["t_end"][0]))
+        with Watch(model.memory, report) as watch:
+            while status == PAUSED:
+                status = int(watch.call("advance", _STEPS_AT_ONCE))
+                _drain(model, chunks)
+                if progress is not None:
+                    progress(float(scalars["t"][0]), t_end)
     except KeyboardInterrupt:
         _drain(model, chunks)
-        word = "interrupted"
-    if status not in (DONE, STOPPED, PAUSED):
+        status, word = PAUSED, "interrupted"
+    message, past = REASONS[status], written_past(model)
+    if past or status not in (DONE, STOPPED, PAUSED):
         word = "failed"
-    message = REASONS[status]
-    if word == "failed":
-        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {culprit(model, status)}".strip()
+        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {past or culprit(model, status)}".strip()
     wall = time.perf_counter() - began
     solution = _solution(model, start, chunks, word, message, wall)
     if word == "failed":
@@ -110,12 +106,12 @@ def _run(model: Model, progress: Progress | None) -> Solution:
 
 
 def _drain(model: Model, chunks: _Chunks) -> None:
-    """Empty the engine's buffers into a chunk of events, codes and samples, keyed by the steps taken.
+    """Empty the engine's buffers into a chunk of events, codes and samples, keyed by the number of the engine's call.
 
     An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
     """
     scalars, memory = model.memory.scalars, model.memory
-    key = int(scalars["steps"][0]), int(scalars["impacts"][0])
+    key = int(scalars["calls"][0])
     if key not in chunks:
         n_samples = int(scalars["n_samples"][0])
         width = model.n_y + 1
@@ -158,10 +154,16 @@ def _solution(
         impact_steps=int(scalars["impact_steps"][0]),
         wall_seconds=wall,
     )
+    t, q = table[:, 0], table[:, 1 : 1 + n_q]
+    worst = float(scalars["open_t"][0]), float(scalars["open_energy"][0]), float(scalars["open_share"][0])
+    tolerances = float(scalars["rtol"][0]), float(scalars["impact_rtol"][0])
+    found = suspicions(worst, energy, model.system.bodies, (t, q), tolerances) if word == "done" else ""
+    if found:
+        word, message = "suspect", f"{message}, but {found}"
     return Solution(
         model.system,
-        table[:, 0],
-        table[:, 1 : 1 + n_q],
+        t,
+        q,
         table[:, 1 + n_q : 1 + n_q + n_u],
         Events.from_buffers(all_rows, all_codes, len(model.system.contacts), n_q, n_u),
         energy,

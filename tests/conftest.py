@@ -1,8 +1,17 @@
-"""Systems that many tests start from."""
+"""Systems that many tests start from, and how the tests run.
+
+They run on all processors, spread by pytest-xdist (``-n auto`` in pyproject.toml; ``-n 0`` is one process, for
+``--pdb`` and for a few tests): each worker has a stretch of them, in order, and takes from the stretch of another when
+its own is done, so that what neighbours share, a module's fixtures or a full run of a scenario, is mostly made once.
+The process that spreads them compiles the engine before its workers start, which then find it in the cache.  The
+workers must collect the same tests under the same names: a name without an address in memory is asked of every test.
+"""
 
 from __future__ import annotations
 
 import math
+import re
+import signal
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,6 +19,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 from numpy.typing import NDArray
+from xdist import is_xdist_worker
 
 import nonsmooth as ns
 from bodies import Dumbbell, Plate, Rest
@@ -20,6 +30,23 @@ settings.register_profile("tests", deadline=None, derandomize=True, print_blob=F
 settings.load_profile("tests")
 
 GRAVITY = 9.81
+_ADDRESS = re.compile(r"\b0x[0-9a-f]{6,}")
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile the engine once, before the workers of pytest-xdist start and before the time of any test runs."""
+    if not is_xdist_worker(session):
+        room_addresses()
+    # under nohup and in the background of a script Ctrl-C is ignored, by the processes that tests start, too
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Refuse names of tests that are other ones in the next process."""
+    for item in items:
+        if _ADDRESS.search(item.name):
+            raise pytest.UsageError(f"{item.nodeid}: its name has an address; give the parameters ids")
 
 
 class Builders:
@@ -73,12 +100,6 @@ class Builders:
             "velocity": v1 + np.cross(omega, arm),
             "angular_velocity": axes.T @ omega,
         }
-
-
-@pytest.fixture(scope="session", autouse=True)
-def engine() -> None:
-    """Compile the engine before the first test, so that none has to see the message."""
-    room_addresses()
 
 
 @pytest.fixture(scope="session")

@@ -100,6 +100,14 @@ class GeneralisedBody(Body):
             )
         check_signatures("GeneralisedBody", self._equations, self.constants)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the fields; a read-only view of constants cannot be pickled."""
+        fields = {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+        return fields | {"constants": dict(self.constants)}
+
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        vars(self).update(state, constants=MappingProxyType(state["constants"]))
+
     @functools.cached_property
     def _equations(self) -> Equations:
         bare = tuple(dataclasses.replace(frame, carried=()) for frame in self.moving_frames)

@@ -46,6 +46,14 @@ class Frustum(ConvexShape):
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:
         """Radius and centre in the body frame of the rims over flat faces [m], set back by the feet."""
 
+    @property
+    @final
+    def set_back(self) -> float:
+        """By how much feet let the rims be set back along the side [m]; those of a disc stand out by their height."""
+        numbers = self.frustum
+        height = numbers[HIGH] - numbers[LOW]
+        return numbers[FEET] * (numbers[SIDE] / height if height > 0.0 else 1.0)
+
     @final
     def _rounded(self, direction: Vector) -> Vector:
         if self.rounding == 0.0:

@@ -6,8 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import final
 
+import numpy as np
+
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
+from nonsmooth.solids.convex import ConvexSolid
 
 
 @final
@@ -23,3 +26,9 @@ class Point(Shape):
     def length(self) -> float:
         """The distance from the origin of the frame [m]."""
         return math.hypot(self.x, self.y, self.z)
+
+    @property
+    def solid(self) -> ConvexSolid:
+        """The point."""
+        place = np.array([self.x, self.y, self.z])
+        return ConvexSolid(lambda direction: place)

@@ -31,6 +31,11 @@ class Sphere(SmoothShape):
         return self.radius + math.hypot(self.x, self.y, self.z)
 
     @property
+    def lever(self) -> float:
+        """The distance of the centre [m]: a turn about it moves no surface."""
+        return math.hypot(self.x, self.y, self.z)
+
+    @property
     def core(self) -> tuple[float, ...]:
         """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
         return core_numbers((0.0, 0.0, 0.0), (2.0, 2.0), self.radius, (self.x, self.y, self.z), (1.0, 0.0, 0.0, 0.0))

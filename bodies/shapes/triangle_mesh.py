@@ -10,6 +10,7 @@ from typing import Any, final
 import numpy as np
 
 from bodies.meshes.features import Features, features_of
+from bodies.meshes.solid import MeshSolid
 from bodies.meshes.surface import Surface
 from bodies.meshes.topology import Integers
 from bodies.meshes.triangles import Triangles
@@ -76,6 +77,12 @@ class TriangleMesh(Shape):
         """Flat faces, convex edges and corners in the body frame."""
         mesh = self.surface.mesh
         return features_of(self._placed(mesh.vertices), mesh.faces)
+
+    @functools.cached_property
+    def solid(self) -> MeshSolid:
+        """What its surface encloses, in the body frame."""
+        mesh = self.surface.mesh
+        return MeshSolid(self._placed(mesh.vertices), mesh.faces)
 
     @property
     def length(self) -> float:

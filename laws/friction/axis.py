@@ -10,7 +10,10 @@ from nonsmooth.parameters import parameter
 
 
 def axis_parameter() -> Any:
-    """Declare a direction in the frame of a body, which is projected on the tangent plane."""
+    """Declare a direction in the frame of a body, which is projected on the tangent plane.
+
+    Where it stands along the normal, the axis of the body's frame that is least along it takes its place.
+    """
     return parameter((1.0, 0.0, 0.0), doc="axis in the frame of the body, projected on the tangent plane", unit="")
 
 

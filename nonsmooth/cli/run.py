@@ -122,6 +122,8 @@ def _compute(job: request.Job, system: System) -> tuple[Solution | None, str, st
         return None, "interrupted", "interrupted before the run began"
     finally:
         progress.finish()
+    if solution.status == "suspect":
+        complain(f"suspect: {solution.message}")
     return solution, solution.status, solution.message
 
 

@@ -1,7 +1,8 @@
 """Friction that is not the same in all directions: tangents fixed to a body, so stretched that its bound is a disc.
 
 Of such a contact the tangential rows of ``axes`` are r_1 e1 and r_2 e2, with e1 forward along the law's axis, e2 across
-it, and r the law's ratios.  Slip velocities, forces and impulses along them are those that the solvers see, and powers
+it, and r the law's ratios.  Where the axis stands along the normal, the axis of the body's frame that is least along
+it takes its place.  Slip velocities, forces and impulses along them are those that the solvers see, and powers
 stay what they are.  The geometry keeps its own tangents, of unit length; ``skew`` leads from these to the rows.
 """
 
@@ -10,6 +11,17 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
+
+_UPRIGHT = 1e-7
+"""Sine of the angle to the normal below which an axis has no direction in the tangent plane, but that of round-off."""
+
+
+@kernel("i8(f8, f8, f8)")
+def _least(x: float, y: float, z: float) -> int:
+    """Return the number of the axis of the body's frame that is least along a vector, the first of equals."""
+    if abs(x) <= abs(y) and abs(x) <= abs(z):
+        return 0
+    return 1 if abs(y) <= abs(z) else 2
 
 
 @kernel("void(S, F, I, i8, i8)")
@@ -27,9 +39,12 @@ def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, tangents: int) 
         p1 += world * w[tangents + i]
         p2 += world * w[tangents + 3 + i]
     length = math.sqrt(p1 * p1 + p2 * p2)
-    if length == 0.0:
-        # an axis along the normal has no direction in the tangent plane
-        length = math.nan
+    if length < _UPRIGHT:
+        # another axis of the body in its place: a direction that turns with the body, whoever looks on
+        r = frame + 3 + _least(w[law + 1], w[law + 2], w[law + 3])
+        p1 = w[r] * w[tangents] + w[r + 3] * w[tangents + 1] + w[r + 6] * w[tangents + 2]
+        p2 = w[r] * w[tangents + 3] + w[r + 3] * w[tangents + 4] + w[r + 6] * w[tangents + 5]
+        length = math.sqrt(p1 * p1 + p2 * p2)
     e1, e2 = p1 / length, p2 / length
     v1, v2 = w[S.slip + 2 * c], w[S.slip + 2 * c + 1]
     forward = e1 * v1 + e2 * v2

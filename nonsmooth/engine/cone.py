@@ -10,6 +10,7 @@ import math
 
 from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.watch import interrupted
 
 SWEEPS = 4000
 _SETTLED = 1e-15
@@ -35,7 +36,6 @@ def _update_normal(S: Scalars, w: Floats, k: Integers, a: int) -> None:
             rest -= w[g + i] * w[S.f + line + i]
             own -= w[S.mu + a] * w[S.d + 2 * a + i - 1] * w[g + i]
         if own <= 0.0:
-            S.painleve = 1
             return
     w[S.f + line] = max(0.0, -rest / own)
 
@@ -102,6 +102,8 @@ def gauss_seidel(S: Scalars, w: Floats, k: Integers, sweeps: int) -> int:
     """
     settled = 0
     for _sweep in range(sweeps):
+        if interrupted(S, S.n_active) == 1:
+            break
         change = size = 0.0
         for a in range(S.n_active):
             f = S.f + 3 * a

@@ -95,7 +95,6 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     The kinematics of the active contacts must be evaluated and :func:`set_up` called.  A past mode of -1 is none.  On
     return ``mode_tried``, ``f`` and ``d`` describe the solution.
     """
-    S.painleve = 0
     S.effort = 0.0
     past = 1
     for a in range(S.n_active):

@@ -25,8 +25,12 @@ from nonsmooth.model.layout import FEATURE, GEOMETRY, PAST_END
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
-_WRONG = -1e-9
-"""A guard that is not armed fires below this all the same."""
+_WRONG_GAP = -1e3
+"""A gap that is not armed fires below so many gap tolerances all the same,"""
+_WRONG_SLIP = -0.05
+"""a slip, or the growth of a gap, below so many velocity tolerances,"""
+_WRONG_FORCE = -2.0
+"""and a force below so many times what its contact problem took for zero."""
 _LATE = 2.0
 """A closed contact ends so many gap tolerances past the end of its features; up to one it may close."""
 
@@ -95,6 +99,18 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
     deflate(S, w, k, elapsed)
 
 
+@kernel("f8(S, F, I, i8, f8, f8)")
+def grown(S: Scalars, w: Floats, k: Integers, i: int, value: float, elapsed: float) -> float:
+    """Return guard ``i`` of this value, or, if it started from zero, its growth divided by the time elapsed."""
+    if k[S.guard_deflated + i] == 0:
+        return value
+    rate = w[S.guard_first + i]
+    separates = i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and rate > S.velocity_tolerance
+    if separates and rate * elapsed <= _ROUND_OFF * S.gap_tolerance:
+        return rate
+    return float((value - w[S.guard_start + i]) / elapsed)
+
+
 @kernel("void(S, F, I, f8)")
 def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
     """Divide the growth of the guards that started from zero, or below it by round-off, by the time elapsed.
@@ -102,13 +118,7 @@ def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
     As long as a gap has not grown beyond round-off its rate at the start stands.
     """
     for i in range(2 * S.n_contacts + S.n_own_guards):
-        if k[S.guard_deflated + i] == 1:
-            rate = w[S.guard_first + i]
-            separates = i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and rate > S.velocity_tolerance
-            if separates and rate * elapsed <= _ROUND_OFF * S.gap_tolerance:
-                w[S.guard + i] = rate
-                continue
-            w[S.guard + i] = (w[S.guard + i] - w[S.guard_start + i]) / elapsed
+        w[S.guard + i] = grown(S, w, k, i, w[S.guard + i], elapsed)
 
 
 @kernel()
@@ -117,6 +127,7 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
     for c in range(S.n_contacts):
         w[S.gap_rate_end + c] = w[S.gap_rate + c]
         w[S.gap_end + c] = w[S.geometry + GEOMETRY * c]
+        w[S.past_end + c] = w[S.geometry + GEOMETRY * c + PAST_END]
         for i in range(2):
             w[S.guard_end + 2 * c + i] = w[S.guard + 2 * c + i]
         for r in range(3):
@@ -187,21 +198,26 @@ def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     return 1 if w[S.geometry + GEOMETRY * c + PAST_END] != 0.0 and rests else 0
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> int:
-    """Return the first guard that has fired, other than ``but``, or -1."""
-    for i in range(2 * S.n_contacts):
-        if forces == 0 and k[S.mode + i // 2] != OPEN:
-            continue
-        value = w[S.guard + i]
-        if i != but and ((value < 0.0 and k[S.guard_armed + i] == 1) or value < _WRONG):
-            if value < 0.0 and _slides_on(S, w, k, i) == 1:
-                continue
-            return i
-    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
-        if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
-            return i
-    return -1
+@kernel("f8(S, F, I, i8)")
+def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
+    """Return below what guard ``i`` of a contact fires though it is not armed."""
+    c = i // 2
+    if k[S.guard_deflated + i] == 1:
+        return float(_WRONG_SLIP * S.velocity_tolerance)
+    if i == 2 * c and (k[S.mode + c] == OPEN or k[S.normal_function + c] != 0):
+        return float(_WRONG_GAP * S.gap_tolerance)
+    if i == 2 * c or (k[S.mode + c] == STICK and k[S.holds + c] == 1):
+        return _WRONG_FORCE * w[S.small_force_of + c]
+    return float(_WRONG_SLIP * S.velocity_tolerance)
+
+
+@kernel("i8(S, F, I, i8)")
+def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` of a contact has fired."""
+    value = w[S.guard + i]
+    if (value < 0.0 and k[S.guard_armed + i] == 1) or value < _wrong(S, w, k, i):
+        return 1 - _slides_on(S, w, k, i)
+    return 0
 
 
 @kernel("i8(S, F, I, i8)")
@@ -210,3 +226,27 @@ def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     if i >= 2 * S.n_contacts or k[S.mode + i // 2] != OPEN:
         return 0
     return 1 if w[S.geometry + GEOMETRY * (i // 2) + PAST_END] <= 0.0 else 0
+
+
+@kernel("i8(S, F, I, i8)")
+def _closes_now(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is a gap that has closed no longer ago than instants are told apart."""
+    late = max(S.gap_tolerance, S.time_tolerance * abs(w[S.gap_rate + i // 2]))
+    return 1 if is_gap(S, w, k, i) == 1 and w[S.geometry + GEOMETRY * (i // 2)] >= -late else 0
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> int:
+    """Return the first guard that has fired, or -1; at the root of guard ``but`` those that fired before it.
+
+    A gap that closes at the same instant did not.
+    """
+    for i in range(2 * S.n_contacts):
+        if forces == 0 and k[S.mode + i // 2] != OPEN:
+            continue
+        if i != but and has_fired(S, w, k, i) == 1 and (but < 0 or _closes_now(S, w, k, i) == 0):
+            return i
+    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
+        if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
+            return i
+    return -1

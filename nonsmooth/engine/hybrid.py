@@ -6,6 +6,7 @@ import math
 
 from nonsmooth.engine.anisotropy import turn_facing
 from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
+from nonsmooth.engine.clearance import bound_speeds
 from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import right_hand_side, slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, watch_features, write_guards
@@ -23,7 +24,6 @@ from nonsmooth.engine.modes import (
     GUARD,
     IMPACT,
     JAM,
-    JOINTS_APART,
     LIFT_OFF,
     NO_SLOT,
     NOT_FINITE,
@@ -44,18 +44,19 @@ from nonsmooth.engine.projection import (
     project_closed,
     project_joints,
 )
-from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, record_event, record_samples, remember
+from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS, record_event, record_samples, remember
 from nonsmooth.engine.runge_kutta import step_factor
+from nonsmooth.engine.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.settle import settle
 from nonsmooth.model.layout import GEOMETRY, PAST_END
 
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
 _DRIFT = 0.3
+_SPACINGS = 4.0 * 2.0**-52
+"""Times closer than this part of the time are not told apart."""
 _NO_STEP = 1e-3
 """A step below this part of the time tolerance in which guards crowd or the error grows leads nowhere."""
-_ROOM = 64
-"""Free rows that an instant may need in the event buffer."""
 
 
 @kernel("void(S, F, I)")
@@ -77,16 +78,20 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             closed = 1
-    h = min(S.h_closed if closed == 1 else S.h_free, S.h_max, S.t_end - S.t, S.h_listed)
+    wanted = min(S.h_closed if closed == 1 else S.h_free, S.h_max)
+    h = min(wanted, S.t_end - S.t, S.h_listed)
     if S.fresh == 0:
         h = min(h, S.h_first)
     if S.sample_interval > 0.0:
         h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
     for _attempt in range(200):
+        if S.stopped == 1:
+            return NOT_FINITE
         error = try_step(S, w, k, h)
         if error <= 1.0 and S.singular >= 0:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
             h *= 0.5
+            wanted = 0.0
             if h < S.time_tolerance:
                 return STEP_TOO_SMALL
             continue
@@ -100,12 +105,19 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         if error <= 1.0:
             S.h = h
             S.step_error = error
+            # the touch-down that was due is behind it, or is an event of it
+            S.h_first = 1e300
+            # what cut a step short says nothing of the next one
+            following = h * step_factor(error)
+            if h < wanted:
+                following = max(following, wanted)
             if closed == 1:
-                S.h_closed = h * step_factor(error)
+                S.h_closed = following
             else:
-                S.h_free = h * step_factor(error)
+                S.h_free = following
             return RUNNING
         S.rejected += 1
+        wanted = 0.0
         if not error < 1e300:
             if h < S.time_tolerance:
                 return NOT_FINITE
@@ -214,9 +226,11 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         S.choosing = 1
         slope(S, w, k, S.t, S.y, S.slopes)
         S.choosing = 0
+        close_account(S, w, k)
         watch_features(S, w, k)
         write_guards(S, w, k, S.t, S.y, 1)
         keep_end(S, w, k)
+        bound_speeds(S, w, k)
     else:
         watch_features(S, w, k)
         for i in range(S.n_y):
@@ -226,8 +240,12 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         S.h_listed = longest_step(S, w, k)
         if S.h_listed == 0.0:
             return RUNNING if list_contacts(S, w, k) == 1 else NO_SLOT
+    check_gaps(S, w, k)
+    if S.failed != RUNNING:
+        return int(S.failed)
     for c in range(S.n_contacts):
         w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
+        w[S.past_first + c], w[S.speed_first + c] = w[S.past_end + c], w[S.speed_end + c]
     # a gap that closes exactly where the last step ended is an event of that step
     for c in range(S.n_contacts):
         arrived = w[S.guard_end + 2 * c] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance
@@ -344,18 +362,23 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
             return NO_SLOT
         if status != RUNNING:
             return status
+    S.calls += 1
     for _index in range(most_steps):
+        # late in a run doubles are farther apart than the tolerance
+        S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
         if S.t_end - S.t <= S.time_tolerance:
-            return DONE
+            S.t = S.t_end
+            check_end(S, w, k)
+            return DONE if S.failed == RUNNING else int(S.failed)
         row = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * S.n_contacts
         floats_left, integers_left = S.event_floats - S.floats_used, S.event_integers - S.integers_used
-        if floats_left < _ROOM * row or integers_left < _ROOM * (CODE_HEAD + 2 * S.n_contacts):
+        if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * S.n_contacts):
             return PAUSED
         if 2 * S.n_samples > S.sample_capacity:
             return PAUSED
         status = _step(S, w, k)
-        if status == RUNNING and S.joints_apart == 1:
-            status = JOINTS_APART
+        if status == RUNNING:
+            status = int(S.failed)
         if S.crowded == 1:
             status = NO_SLOT
         if status != RUNNING:

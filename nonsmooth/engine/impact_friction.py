@@ -69,7 +69,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         speed = math.sqrt(v1 * v1 + v2 * v2)
         w[S.mu_static + a] = friction_coefficient(S, w, k, k[S.active + a], 0.0)
-        slow = speed <= S.rest_speed or k[S.tangent_held + a] == 1
+        slow = speed <= w[S.rest_slip + a] or k[S.tangent_held + a] == 1
         # without friction nothing can stop a slip, however slow
         k[S.at_rest + a] = 1 if slow and (w[S.mu_static + a] > 0.0 or speed == 0.0) else 0
         open_question = max(open_question, k[S.at_rest + a])

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.delassus import add_product, own_block
-from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.delassus import add_product
 from nonsmooth.engine.impact_clock import change_clock
+from nonsmooth.engine.impact_end import account, cut_short, empty, end_trapped, faded, finish, finished
 from nonsmooth.engine.impact_friction import break_away, choose_friction
 from nonsmooth.engine.impact_guards import (
     TOGETHER,
@@ -28,24 +28,23 @@ from nonsmooth.engine.impact_rates import (
     HELD,
     IDLE,
     NOISE,
-    REST,
     STRIDE,
     efficiency,
     evaluate_impact_forces,
-    evaluate_impact_rates,
     try_impact_step,
     try_linear_step,
     write_impact_slope,
 )
-from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
+from nonsmooth.engine.impact_scales import impulse_scale, scale_impact
+from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import step_factor
+from nonsmooth.engine.watch import interrupted
 
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
 """How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
 
 _MOST_STEPS = 100000
 _LARGEST = 1e6
-_CIRCLING = 30.0
 _PATIENCE = 20
 """Steps that a slip may take next to rest without slowing down."""
 _LONG = 6
@@ -71,52 +70,6 @@ _NO_RETURN = 2e-16
 """Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
 
 
-@kernel("f8(S, F, I)")
-def scale_impact(S: Scalars, w: Floats, k: Integers) -> float:
-    """Set the scales of speed, deformation and force; return the shortest time of a compression."""
-    m = S.n_active
-    S.speed_scale = S.impact_seed
-    for a in range(m):
-        S.speed_scale = max(S.speed_scale, -w[S.impact_z0 + 3 * a])
-    # a slip that circles round zero does so within the tolerance of its impulse
-    slack = 1.0
-    for a in range(m):
-        g = own_block(S, k, a)
-        for r in range(1, 3):
-            slack = max(slack, w[g + 4 * r] / w[g])
-    S.rest_speed = max(REST, _CIRCLING * slack * S.impact_rtol) * S.speed_scale
-    shortest = _UNUSED
-    for a in range(m):
-        energy = S.speed_scale * S.speed_scale / w[own_block(S, k, a)]
-        x = 1.0
-        w[S.impact_energy_scale + a] = energy
-        if a != S.lone:
-            c = k[S.active + a]
-            for _iteration in range(4):
-                force = call_scalar(k[S.force_function + c], x, at(w, k[S.force_parameters + c]))
-                double = call_scalar(k[S.force_function + c], 2.0 * x, at(w, k[S.force_parameters + c]))
-                if not (force > 0.0 and double > 0.5001 * force):
-                    S.culprit = c
-                    return -1.0
-                x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
-        w[S.impact_x_scale + a] = x
-        w[S.impact_f_scale + a] = energy / x
-        shortest = min(shortest, (energy if a == S.lone else x) / S.speed_scale)
-    return shortest
-
-
-@kernel("void(S, F, I, i8)")
-def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
-    """Book the work of the phase that ends at the active contact ``a``."""
-    work = w[S.impact_y + STRIDE * a + 4]
-    done = work - w[S.impact_mark + a]
-    if k[S.phase + a] == COMPRESSION:
-        w[S.stored + a] -= done
-    else:
-        w[S.returned + a] += done
-    w[S.impact_mark + a] = work
-
-
 @kernel("void(S, F, I, f8)")
 def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     """Change the phases whose guards have come to zero; they are evaluated."""
@@ -131,12 +84,15 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
             k[S.phase + a] = IDLE
             # a contact that opens under load leaves the others with forces that they did not have
             friction += 1 if w[S.impact_y + STRIDE * a + 7] > 0.0 else 0
-            _empty(S, w, a)
+            empty(S, w, a)
             k[S.tangent_held + a] = 0
             S.phases += 1
-        elif S.trigger == 3 * a or w[guard] < TOGETHER:
+            continue
+        if S.trigger == 3 * a or w[guard] < TOGETHER:
             friction += _turn(S, w, k, a)
             S.phases += 1
+            # where joints leave a line to move on, slip and approach come to rest together
+            friction += _rests(S, w, k, a)
         elif S.trigger == 3 * a + 2 or w[guard + 2] < TOGETHER:
             S.phases += 1
             if k[S.tangent_held + a] == 1:
@@ -146,7 +102,7 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
                 v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
                 speed = math.sqrt(v1 * v1 + v2 * v2)
                 c = k[S.active + a]
-                if speed > S.rest_speed:
+                if speed > w[S.rest_slip + a]:
                     w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
                 else:
                     friction = 1
@@ -155,11 +111,13 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     prepare_guards(S, w, k)
 
 
-@kernel("void(S, F, i8)")
-def _empty(S: Scalars, w: Floats, a: int) -> None:
-    """Take the energy that is left of the active contact ``a``."""
-    state = S.impact_y + STRIDE * a
-    w[state + 3] = w[state + 6] = w[state + 7] = 0.0
+@kernel("i8(S, F, I, i8)")
+def _rests(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+    """Return 1 if the active contact ``a``, which slides, has come to rest."""
+    if k[S.tangent_held + a] == 1 or w[S.mu + a] == 0.0:
+        return 0
+    v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+    return 1 if math.sqrt(v1 * v1 + v2 * v2) <= w[S.rest_slip + a] else 0
 
 
 @kernel("i8(S, F, I, i8)")
@@ -174,7 +132,7 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
             w[S.impact_y + STRIDE * a + 7] = (1.0 - share) * w[S.impact_y + STRIDE * a + 6]
             return 0
         # without restitution the stored energy is lost at once and the contact stays closed
-        _empty(S, w, a)
+        empty(S, w, a)
         k[S.phase + a] = HELD
         evaluate_impact_forces(S, w, k, S.impact_y)
         if w[S.f + 3 * a] < 0.0:
@@ -189,19 +147,6 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
         k[S.waves + k[S.active + a]] += 1
     k[S.phase + a] = COMPRESSION
     return 1 if phase == IDLE else 0
-
-
-@kernel("f8(S, F, I, i8)")
-def _impulse_scale(S: Scalars, w: Floats, k: Integers, a: int) -> float:
-    return float(S.speed_scale) / w[own_block(S, k, a)]
-
-
-@kernel("i8(S, F, I)")
-def _finished(S: Scalars, w: Floats, k: Integers) -> int:
-    for a in range(S.n_active):
-        if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
-            return 0
-    return 1
 
 
 @kernel("void(S, F, I, f8)")
@@ -241,7 +186,7 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.phase + a] == IDLE or k[S.tangent_held + a] == 1 or w[S.mu + a] == 0.0:
             continue
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-        if v1 * v1 + v2 * v2 > S.rest_speed * S.rest_speed:
+        if math.sqrt(v1 * v1 + v2 * v2) > w[S.rest_slip + a]:
             continue
         power = v1 * add_product(S, w, k, 0.0, a, 1, S.f) + v2 * add_product(S, w, k, 0.0, a, 2, S.f)
         slow = 1
@@ -252,37 +197,6 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
         return 0
     S.slow_steps = 0
     return 1
-
-
-@kernel("i8(S, F, I)")
-def _faded(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if what is left of the impact, stored or about to be, is below the tolerance."""
-    small = max(S.impact_rtol, 1e-11)
-    for a in range(S.n_active):
-        stored = w[S.impact_y + STRIDE * a + 6]
-        if k[S.phase + a] == IDLE:
-            stored = 0.0
-        if w[S.impact_z + 3 * a] < -small * S.speed_scale or stored > small * small * w[S.impact_energy_scale + a]:
-            return 0
-        if w[S.impact_z + 3 * a] > small * S.speed_scale and stored > 0.0 and k[S.phase + a] == EXPANSION:
-            return 0
-    return 1
-
-
-@kernel()
-def _cut_short(S: Scalars, w: Floats, k: Integers) -> None:
-    """End a cascade of ever smaller compressions: stop the approach that is left, by the impulses that do so."""
-    for a in range(S.n_active):
-        k[S.normal_held + a] = 1 if w[S.impact_z + 3 * a] < 0.0 else 0
-        k[S.tangent_held + a] = 0
-        w[S.f + 3 * a] = w[S.mu + a] = 0.0
-        for r in range(3):
-            w[S.b + 3 * a + r] = w[S.impact_z + 3 * a + r]
-        k[S.phase + a] = IDLE
-    resolve(S, w, k)
-    for a in range(S.n_active):
-        w[S.impact_y + STRIDE * a] += w[S.f + 3 * a]
-    S.truncated = 1
 
 
 @kernel()
@@ -301,7 +215,7 @@ def _fade(S: Scalars, w: Floats, k: Integers) -> None:
             k[S.waves + k[S.active + a]] += 1
             k[S.phase + a] = IDLE
             k[S.tangent_held + a] = 0
-            _empty(S, w, a)
+            empty(S, w, a)
             S.phases += 1
     prepare_guards(S, w, k)
 
@@ -352,8 +266,10 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
     prepare_guards(S, w, k)
     write_impact_slope(S, w, k, S.impact_slopes)
     for _step in range(_MOST_STEPS):
-        if _finished(S, w, k) == 1:
-            _finish(S, w, k)
+        if interrupted(S, 8 * m) == 1:
+            return ENDLESS
+        if finished(S, w, k) == 1:
+            finish(S, w, k)
             return FINISHED
         S.aimed = -1
         h = aim(S, w, k, h) if S.lone >= 0 else _graded(S, w, k, h)
@@ -391,21 +307,23 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
         if fired == 1:
             grown = max(h, shortest * S.impact_rtol**_FIRST)
             if S.lone >= 0:
-                grown = _FAR * _impulse_scale(S, w, k, S.lone)
+                grown = _FAR * impulse_scale(S, w, k, S.lone)
         for i in range(n):
             w[S.impact_y + i] = w[S.impact_new + i]
         if fired == 0 and _stopping(S, w, k) == 1:
             # close to rest the direction of the slip is stiff, and what is left of it below the tolerance
             choose_friction(S, w, k, 1e-2 * shortest)
             prepare_guards(S, w, k)
+            end_trapped(S, w, k)
             write_impact_slope(S, w, k, S.impact_slopes)
             S.phases += 1
         elif fired == 1:
             _switch(S, w, k, 1e-2 * shortest)
             if m > 1 and change_clock(S, w, k) == 1:
-                grown = shortest if S.lone < 0 else _FAR * _impulse_scale(S, w, k, S.lone)
-            if S.phases > _LONG * (S.n_colliding if S.windowed == 1 else m) and _faded(S, w, k) == 1:
-                _cut_short(S, w, k)
+                grown = shortest if S.lone < 0 else _FAR * impulse_scale(S, w, k, S.lone)
+            if S.phases > _LONG * (S.n_colliding if S.windowed == 1 else m) and faded(S, w, k) == 1:
+                cut_short(S, w, k)
+            end_trapped(S, w, k)
             if S.windowed == 1:
                 _fade(S, w, k)
             if S.windowed == 1 and S.lone < 0 and _leaves(S, w, k) == 1:
@@ -442,7 +360,7 @@ def _orient(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         speed = math.sqrt(v1 * v1 + v2 * v2)
-        if k[S.phase + a] != IDLE and k[S.tangent_held + a] == 0 and speed > S.rest_speed:
+        if k[S.phase + a] != IDLE and k[S.tangent_held + a] == 0 and speed > w[S.rest_slip + a]:
             c = k[S.active + a]
             w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
             w[S.impact_guard + 3 * a + 2] = NOISE + speed / S.speed_scale
@@ -457,14 +375,3 @@ def _graded(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if k[S.phase + a] == EXPANSION and x > small * w[S.impact_x_scale + a] and h * rate < -_SHARE * x:
             h = -_SHARE * x / rate
     return h
-
-
-@kernel("void(S, F, I)")
-def _finish(S: Scalars, w: Floats, k: Integers) -> None:
-    for a in range(S.n_active):
-        for r in range(3):
-            w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + r]
-        done = w[S.impact_y + STRIDE * a + 4] - w[S.impact_mark + a]
-        w[S.returned + a] += done
-        w[S.rubbed + a] = w[S.impact_y + STRIDE * a + 5]
-    evaluate_impact_rates(S, w, k, S.impact_y)

@@ -13,8 +13,8 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact_problem import friction_coefficient
-from nonsmooth.engine.delassus import own_block
 from nonsmooth.engine.forces import resolve
+from nonsmooth.engine.impact_scales import impulse_scale
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.modes import COMPLIANT
 from nonsmooth.engine.runge_kutta import stage_state, step_errors
@@ -30,9 +30,6 @@ NOISE = 1e-12
 
 _STRAIGHT = 1e-13
 """Second differences of slopes below this, relative to the slopes, count as zero."""
-
-REST = 1e-9
-"""Slip velocities below this, relative to the impact speed, count as none; so do those within the tolerance."""
 
 
 @kernel("f8(S, F, I, i8, f8)")
@@ -101,7 +98,7 @@ def _slide(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
     v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
     speed = math.sqrt(v1 * v1 + v2 * v2)
-    if speed > S.rest_speed:
+    if speed > w[S.rest_slip + a]:
         inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
         d1, d2 = inverse * v1, inverse * v2
     mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
@@ -150,15 +147,15 @@ def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     step_errors(S, w, S.impact_slopes, n, h, S.impact_stage)
     worst = 0.0
     for a in range(S.n_active):
-        impulse_scale = S.speed_scale / w[own_block(S, k, a)]
+        impulse = impulse_scale(S, w, k, a)
         for r in range(STRIDE):
             error = abs(w[S.impact_stage + STRIDE * a + r])
             if r == 3:
                 error /= w[S.impact_x_scale + a]
             elif r > 3:
-                error /= impulse_scale * S.speed_scale
+                error /= w[S.impact_energy_scale + a]
             else:
-                error /= impulse_scale
+                error /= impulse
             if error > worst or error != error:
                 worst = error
     return worst / float(S.impact_rtol)

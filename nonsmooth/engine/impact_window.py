@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from nonsmooth.engine.blocks import link_active
 from nonsmooth.engine.delassus import add_response, assemble_delassus
+from nonsmooth.engine.impact_end import account
 from nonsmooth.engine.impact_problem import (
     ENDLESS,
     INVALID,
     MOVED,
-    account,
     first_step,
     run_impact,
     scale_impact,

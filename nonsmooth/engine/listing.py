@@ -11,7 +11,7 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, GEOMETRY
+from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, GEOMETRY, PAIR
 
 _WIDTH = len(CATALOGUE)
 _MODE = CATALOGUE.index("mode")
@@ -30,14 +30,15 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     row, floats = S.catalogue + _WIDTH * declared, S.catalogue_floats + CATALOGUE_FLOATS * declared
     # the arrays of the catalogue's entries follow one another
     for i in range(_WIDTH):
-        k[S.frame_a + i * S.n_slots + c] = k[row + i]
+        k[S.body_a + i * S.n_slots + c] = k[row + i]
     w[S.contact_time + c], w[S.reach + c], w[S.closing_rate + c] = w[floats], w[floats + 3], w[floats + 4]
+    w[S.lever_a + c], w[S.lever_b + c] = w[floats + 5], w[floats + 6]
     w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = w[floats + 1], w[floats + 2]
     k[S.facing + c] = 1
     k[S.touching + c] = 0
     k[S.identity + c] = declared
     # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
-    for i in range(GEOMETRY):
+    for i in range(PAIR):
         w[S.geometry + GEOMETRY * c + i] = 0.0
     # Jacobians keep zeros where other bodies of a linkage stand
     for side in range(2):

@@ -1,13 +1,17 @@
 """Finding events within a step, and stepping exactly to the first of them.
 
-Guards are sampled in the middle and at the end of every step, the middle unless all gaps are far from closing;
-between two samples a gap that first falls and then rises, by its rates or by its cubic, is followed to its minimum.
+Open gaps are proved not to close (:mod:`nonsmooth.engine.clearance`).  Forces, slips and the scenario's own guards are
+sampled at the end of a step and in its middle, where a stage of it saw a force dip; features that do not face each
+other are sampled at :data:`_SAMPLES` places of a step, or every :data:`WAY` of their size, and where they should have
+closed.
 """
 
 from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies import evaluate_bodies
+from nonsmooth.engine.clearance import WAY, bound_speeds, find_doubtful, first_closing
 from nonsmooth.engine.flow import try_step
 from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, is_gap, keep_end, write_guards
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
@@ -18,8 +22,6 @@ from nonsmooth.model.layout import GEOMETRY, PAST_END
 _MIDDLE = 0.5
 _NEAR = 0.2
 """A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
-_DEEP = 0.5
-"""A gap whose cubic falls below this part of its ends is looked at more closely."""
 _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
 _NEGLIGIBLE = 0.01
@@ -30,8 +32,8 @@ _MOST_ROOTS = 30
 """So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
 _FEW_ROOTS = 4
 """After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
-_SAMPLES = 8
-"""Parts of half a step, or of the way to an event, at whose ends it is asked whether features face each other."""
+_SAMPLES = 16
+"""Parts of a step, at least, at whose ends it is asked whether features face each other,"""
 _JUMP = 1e-3
 """A guard of which this part of the start value is left next to its root jumps."""
 _WAYS = 14
@@ -44,6 +46,8 @@ _BEHIND = 1e-3
 """later by this part of the time that it takes."""
 _FAR_BEHIND = 10.0
 """Other gaps may be closed by so many gap tolerances at an event: what closes at one instant does to round-off."""
+_CORRECTIONS = 40
+"""Steps to an event, as many as halvings of its bracket need; two or three do unless the guard is not smooth."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -67,69 +71,6 @@ def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, fo
 def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
     guards_within(S, w, k, h, theta, forces)
     return w[S.guard + i]
-
-
-@kernel("f8(S, F, I, f8, f8, f8, i8)")
-def _least_gap(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, c: int) -> float:
-    """Return a fraction of the step between ``low`` and ``high`` where the gap of ``c`` is negative, or 0."""
-    for _iteration in range(40):
-        middle = 0.5 * (low + high)
-        guards_within(S, w, k, h, middle, 0)
-        if w[S.guard + 2 * c] < 0.0:
-            return middle
-        if w[S.gap_rate + c] < 0.0:
-            low = middle
-        else:
-            high = middle
-        # a parabola through the minimum cannot dip below zero any more
-        if w[S.guard + 2 * c] > abs(w[S.gap_rate + c]) * (high - low) * h:
-            break
-    return 0.0
-
-
-@kernel("f8(f8, f8, f8, f8)")
-def _cubic_minimum(g0: float, r0: float, g1: float, r1: float) -> float:
-    """Return where the cubic with these values and slopes at 0 and 1 has a minimum well below both values, or 0."""
-    square, cube = 3.0 * (g1 - g0) - 2.0 * r0 - r1, r0 + r1 - 2.0 * (g1 - g0)
-    discriminant = square * square - 3.0 * cube * r0
-    if discriminant <= 0.0 or (square < 0.0 and cube <= 0.0):
-        return 0.0
-    root = math.sqrt(discriminant)
-    s = (root - square) / (3.0 * cube) if square < 0.0 else -r0 / (root + square)
-    if not 0.0 < s < 1.0 or g0 + s * (r0 + s * (square + s * cube)) > _DEEP * min(g0, g1):
-        return 0.0
-    return s
-
-
-@kernel("f8(S, F, I, f8, f8, f8, i8)")
-def _dip(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float, middle: int) -> float:
-    """Look for a dip of an open gap between two samples; ``middle`` 1 if the later one is the middle of the step."""
-    for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            continue
-        before = w[S.gap_rate_middle + c] if middle == 0 else w[S.gap_rate_first + c]
-        after = w[S.gap_rate_middle + c] if middle == 1 else w[S.gap_rate_end + c]
-        g_before = w[S.gap_middle + c] if middle == 0 else w[S.guard_start + 2 * c]
-        g_after = w[S.gap_middle + c] if middle == 1 else w[S.gap_end + c]
-        start = low
-        if before >= 0.0 or after <= 0.0:
-            # both rates have one sign, and yet the gap may fall and rise between them
-            span = (high - low) * h
-            s = _cubic_minimum(g_before, before * span, g_after, after * span)
-            if s == 0.0:
-                continue
-            start = low + s * (high - low)
-            guards_within(S, w, k, h, start, 0)
-            before = w[S.gap_rate + c]
-        theta = 0.0
-        if start > low and w[S.guard + 2 * c] < 0.0:
-            theta = start
-        elif before < 0.0 and after > 0.0:
-            theta = _least_gap(S, w, k, h, start, high, c)
-        if theta > 0.0:
-            guards_within(S, w, k, h, theta, _any_closed(S, w, k))
-            return theta
-    return 0.0
 
 
 @kernel("f8(S, F, I, f8, i8)")
@@ -173,31 +114,6 @@ def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return 0.0
 
 
-@kernel("i8(S, F, I, f8)")
-def _far(S: Scalars, w: Floats, k: Integers, h: float) -> int:
-    """Return 1 if every open gap is wider, at both ends, than the rates at both ends could close within the step."""
-    for c in range(S.n_contacts):
-        reach = h * (abs(w[S.gap_rate_first + c]) + abs(w[S.gap_rate_end + c]))
-        if k[S.mode + c] == OPEN and min(w[S.guard_start + 2 * c], w[S.gap_end + c]) <= reach:
-            return 0
-    return 1
-
-
-@kernel("i8(S, F, I, f8)")
-def _may_face(S: Scalars, w: Floats, k: Integers, h: float) -> int:
-    """Return 1 if features that do not face each other come near within the step, the guards being at its end.
-
-    Then no rate says whether their gap closes and opens again between two samples.
-    """
-    for c in range(S.n_contacts):
-        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c + PAST_END] > 0.0:
-            v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-            speed = abs(w[S.gap_rate + c]) + math.sqrt(v1 * v1 + v2 * v2)
-            if w[S.geometry + GEOMETRY * c] <= 2.0 * h * speed:
-                return 1
-    return 0
-
-
 @kernel("f8(S, F, I)")
 def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
     """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
@@ -209,25 +125,56 @@ def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
     return soonest
 
 
-@kernel("f8(S, F, I, f8, f8, f8)")
-def _sampled(S: Scalars, w: Floats, k: Integers, h: float, low: float, high: float) -> float:
-    """Return the first of some fractions in between at which a gap has closed, its guards in ``guard``, or 0.
+@kernel("f8(S, F, I, f8)")
+def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Return for how long the features that do not face each other need not be looked at, as they are now [s].
+
+    What they report as their gap is no more than their distance, which closes no faster than their speed.
+    """
+    longest = h / _SAMPLES
+    least = longest
+    for i in range(S.n_astray):
+        c = k[S.astray + i]
+        speed = w[S.speed_first + c] + w[S.speed_end + c]
+        way = max(w[S.geometry + GEOMETRY * c], WAY * min(w[S.lever_a + c], w[S.lever_b + c]))
+        if way < least * speed:
+            least = way / speed
+    return least
+
+
+@kernel("f8(S, F, I, f8, f8)")
+def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
+    """Return the first of some fractions below ``high`` at which a gap has closed, its guards in ``guard``, or 0.
 
     Features that face each other only from one sample to the next are looked at when their gap is to close.
     """
-    for part in range(_SAMPLES):
-        theta, end = low + (high - low) * part / _SAMPLES, low + (high - low) * (part + 1) / _SAMPLES
-        for look in range(_LOOKS):
-            if theta >= end:
-                break
-            # right at the start nothing has grown yet
-            guards_within(S, w, k, h, max(theta, _FAINT), 0)
-            if part + look > 0:
-                if first_fired(S, w, k, 0, -1) >= 0:
-                    guards_within(S, w, k, h, theta, _any_closed(S, w, k))
-                    return theta
-                arm_further(S, w, k, 0)
-            theta += (1.0 + _BEHIND) * _soonest(S, w, k) / h
+    theta, looks = 0.0, 0
+    while theta < high:
+        # right at the start nothing has grown yet
+        guards_within(S, w, k, h, max(theta, _FAINT), 0)
+        if theta > 0.0:
+            if first_fired(S, w, k, 0, -1) >= 0:
+                guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+                return theta
+            arm_further(S, w, k, 0)
+        way, soonest = _advance(S, w, k, h), (1.0 + _BEHIND) * _soonest(S, w, k)
+        looks = looks + 1 if soonest < way and looks < _LOOKS else 0
+        theta += (soonest if looks > 0 else way) / h
+    return 0.0
+
+
+@kernel("f8(S, F, I, f8, f8)")
+def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float) -> float:
+    """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0."""
+    if S.n_astray > 0:
+        found = _sampled(S, w, k, h, theta)
+        if found > 0.0:
+            return found
+    if S.n_doubtful > 0:
+        found = first_closing(S, w, k, h, theta)
+        if found > 0.0:
+            guards_within(S, w, k, h, found, _any_closed(S, w, k))
+            return found
     return 0.0
 
 
@@ -240,53 +187,47 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     closed = _any_closed(S, w, k)
     write_guards(S, w, k, S.t + h, S.y_new, 1)
     keep_end(S, w, k)
-    near = _may_face(S, w, k, h)
+    bound_speeds(S, w, k)
+    find_doubtful(S, w, k, h)
     deflate(S, w, k, h)
     fired = first_fired(S, w, k, 1, -1)
-    # where no stage saw a force or slip that violates its mode or dips, the middle is looked at for gaps only
+    # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + 2 * c], w[S.guard_end + 2 * c]):
             S.suspect = 1
     forces = closed if S.suspect == 1 else 0
-    if forces == 0 and S.n_own_guards == 0 and near == 0 and _far(S, w, k, h) == 1:
-        return 1.0 if fired >= 0 else 0.0
-    if near == 1:
-        theta = _sampled(S, w, k, h, 0.0, _MIDDLE)
-        if theta > 0.0:
-            return theta
-    guards_within(S, w, k, h, _MIDDLE, forces)
-    if first_fired(S, w, k, forces, -1) >= 0:
-        if forces != closed:
-            guards_within(S, w, k, h, _MIDDLE, closed)
-        return _MIDDLE
-    arm_further(S, w, k, forces)
-    for c in range(S.n_contacts):
-        w[S.gap_rate_middle + c] = w[S.gap_rate + c]
-        w[S.gap_middle + c] = w[S.geometry + GEOMETRY * c]
-    for i in range(3 * S.n_contacts + S.n_own_guards):
-        w[S.guard_middle + i] = w[S.guard + i]
-    theta = _dip(S, w, k, h, 0.0, _MIDDLE, 1)
-    if theta > 0.0:
-        return theta
-    if forces == 1 and fired < 0:
-        theta = _force_dip(S, w, k, h)
-        if theta > 0.0:
-            return theta
-    theta = 0.0
-    if near == 1:
-        theta = _sampled(S, w, k, h, _MIDDLE, 1.0)
-    if fired < 0 and theta == 0.0:
-        theta = _dip(S, w, k, h, _MIDDLE, 1.0, 0)
-    if theta == 0.0:
+    looks = forces + S.n_own_guards
+    if looks > 0:
+        guards_within(S, w, k, h, _MIDDLE, forces)
+        if first_fired(S, w, k, forces, -1) >= 0:
+            if forces != closed:
+                guards_within(S, w, k, h, _MIDDLE, closed)
+            return _MIDDLE
+        arm_further(S, w, k, forces)
         for i in range(3 * S.n_contacts + S.n_own_guards):
-            w[S.guard + i] = w[S.guard_end + i]
-        for c in range(S.n_contacts):
-            w[S.gap_rate + c] = w[S.gap_rate_end + c]
-        deflate(S, w, k, h)
-        # guards armed only in the middle of the step count as well
-        if first_fired(S, w, k, 1, -1) >= 0:
-            return 1.0
-    return theta
+            w[S.guard_middle + i] = w[S.guard + i]
+        if forces == 1 and fired < 0:
+            theta = _force_dip(S, w, k, h)
+            if theta > 0.0:
+                return theta
+    # what has fired at the end is located first, and what closes before it searched then
+    if fired < 0 and S.n_astray + S.n_doubtful > 0:
+        looks += 1
+        theta = _closed_before(S, w, k, h, 1.0)
+        if theta > 0.0:
+            return theta
+    if looks == 0:
+        return 1.0 if fired >= 0 else 0.0
+    if forces + S.n_own_guards + S.n_astray > 0:
+        evaluate_bodies(S, w, k, S.t + h, S.y_new)
+    for i in range(3 * S.n_contacts + S.n_own_guards):
+        w[S.guard + i] = w[S.guard_end + i]
+    for c in range(S.n_contacts):
+        w[S.gap_rate + c] = w[S.gap_rate_end + c]
+        w[S.geometry + GEOMETRY * c + PAST_END] = w[S.past_end + c]
+    deflate(S, w, k, h)
+    # guards armed only within the step count as well
+    return 1.0 if first_fired(S, w, k, 1, -1) >= 0 else 0.0
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
@@ -350,19 +291,6 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     return theta
 
 
-@kernel("f8(S, F, I, f8, f8, i8)")
-def _passed(S: Scalars, w: Floats, k: Integers, h: float, theta: float, closed: int) -> float:
-    """Return a fraction of the step before ``theta`` at which a gap has closed that was not looked at so far, or 0."""
-    earlier = _sampled(S, w, k, h, 0.0, theta)
-    if earlier > 0.0:
-        return earlier
-    guards_within(S, w, k, h, theta, closed)
-    for c in range(S.n_contacts):
-        w[S.gap_rate_middle + c] = w[S.gap_rate + c]
-        w[S.gap_middle + c] = w[S.geometry + GEOMETRY * c]
-    return _dip(S, w, k, h, 0.0, theta, 1)
-
-
 @kernel("f8(S, F, I, f8)")
 def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
     """Step to right behind the jump of the guard ``trigger`` that the interpolant has at ``step``; return the step."""
@@ -387,7 +315,9 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
     """Step to where the guard ``trigger`` vanishes, on the interpolant after the time ``root``; return the step."""
     i = S.trigger
     h, step = S.h, root
-    for _iteration in range(10):
+    # the guard is positive before the first and not after the second of these steps
+    early, late = 0.0, 1e300
+    for _iteration in range(_CORRECTIONS):
         S.h = step
         if not try_step(S, w, k, step) <= _TRUSTED:
             return -1.0
@@ -404,19 +334,21 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
         if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
             return step
         correction = min(0.2 * root, max(-0.2 * root, -value / slope))
-        if step + correction <= 0.0:
-            return -1.0
         if abs(correction) <= _SHORT * h:
             # so short a way is straight
             for j in range(S.n_y):
                 w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
             return float(step + correction)
+        if value > 0.0:
+            early = step
+        else:
+            late = step
+        if not early < step + correction < late:
+            if late == 1e300 or early == 0.0:
+                return -1.0
+            correction = 0.5 * (early + late) - step
         step += correction
-    S.h = step
-    if not try_step(S, w, k, step) <= _TRUSTED:
-        return -1.0
-    write_guards(S, w, k, S.t + step, S.y_new, 1)
-    return float(step)
+    return -1.0
 
 
 @kernel("i8(S, F, I)")
@@ -458,8 +390,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         else:
             S.trigger = first
             first = first_fired(S, w, k, closed, S.trigger)
-        if first < 0 and _may_face(S, w, k, h) == 1:
-            earlier = _passed(S, w, k, h, theta, closed)
+        if first < 0 and S.n_astray + S.n_doubtful > 0:
+            earlier = _closed_before(S, w, k, h, theta)
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
             else:

@@ -35,6 +35,7 @@ POLICIES = ("impact", "compliant", "refuse")
 RUNNING, DONE, PAUSED = 0, 1, 2
 STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
 SINGULAR_SLIDING, STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 14)
+GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED = range(14, 17)
 """Status of the engine."""
 
 REASONS = {
@@ -47,6 +48,9 @@ REASONS = {
     NO_CONTACT_SOLUTION: "the contact forces have no solution and the impact without collision did not help",
     SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
     JOINTS_APART: "joints contradict each other: there is no motion that keeps all of them closed",
+    GAP_UNEXPLAINED: "a gap is none that the tolerances explain",
+    MOTION_UNEXPLAINED: "closing contacts or joints would move a body farther than the tolerances explain",
+    QUATERNION_UNEXPLAINED: "a quaternion has left unit length by more than the tolerances explain",
     PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",
     NO_SLOT: "more contacts came near each other than a system of this size has room for",
     SINGULAR_SLIDING: "sliding ran into the Painleve singularity, and no pushing impulse stops it there",

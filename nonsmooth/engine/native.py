@@ -19,7 +19,8 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic, typeof_impl
 
-from nonsmooth.engine.native_build import KEYED, EnginePasses, c_function, cache_folder, numbered, raw, typed_once
+from nonsmooth.engine.native_build import CFunction, EnginePasses, numbered, raw, typed_once
+from nonsmooth.engine.native_cache import Store, folders, say
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
 from nonsmooth.model.memory import Memory
 from nonsmooth.model.rooms import ROOMS
@@ -98,20 +99,16 @@ def _room_caller(signature: Any) -> Any:
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
     importlib.import_module("nonsmooth.engine.hybrid")
-    if not _marker().exists():
-        print(
-            "compiling the engine once for this machine (some 20 s, longer where it is busy) ...",
-            file=sys.stderr,
-            flush=True,
-        )
+    if not all(_store(name).is_filled() for name in ROOMS):
+        say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
         _fill_cache()
-    return tuple(_compiled(name).address for name in ROOMS)
+    return tuple(_compiled(name) for name in ROOMS)
 
 
 def _fill_cache() -> None:
     """Compile all rooms, half of them in a process of its own where there are two processors."""
     middle = len(ROOMS) // 2
-    helper = _helper(middle) if numba.config.NUMBA_DEFAULT_NUM_THREADS > 1 else None
+    helper = _helper(middle) if numba.config.NUMBA_DEFAULT_NUM_THREADS > 1 and folders()[1] else None
     if helper is None:
         compile_rooms(0, len(ROOMS))
     else:
@@ -119,8 +116,6 @@ def _fill_cache() -> None:
             compile_rooms(0, middle)
         if helper.returncode != 0:
             compile_rooms(middle, len(ROOMS))
-    with contextlib.suppress(OSError):
-        _marker().touch()
 
 
 def _helper(start: int) -> subprocess.Popen[bytes] | None:
@@ -171,14 +166,21 @@ def _kernels_of(rooms: tuple[str, ...]) -> list[tuple[Any, Any]]:
 
 
 @functools.cache
-def _compiled(room: str) -> Any:
+def _store(room: str) -> Store:
+    return Store(room)
+
+
+@functools.cache
+def _compiled(room: str) -> int:
+    """Return the address of a room, and let its code live."""
     function, signature = _rooms[room]
-    return c_function(function, _signature(signature), cache=True, pipeline_class=EnginePasses)
+    return _address(CFunction(function, _signature(signature), _store(room), EnginePasses))
 
 
-def _marker() -> Path:
-    """Return the file that says that the cache is complete."""
-    return cache_folder() / "complete"
+def _address(function: CFunction) -> int:
+    function.compile()
+    _alive.append(function)
+    return int(function.address or 0)
 
 
 def call_room(name: str, memory: Memory, *arguments: float) -> Any:
@@ -218,6 +220,28 @@ def _caller(result: Any, arguments: tuple[Any, ...]) -> Any:
 def call_scalar(typingctx: Any, address: Any, x: Any, p: Any) -> Any:
     """Call ``float law(float, parameters)`` at an address."""
     return _caller(types.float64, (types.float64, FLOATS))
+
+
+@intrinsic
+def call_watch(typingctx: Any, address: Any, t: Any) -> Any:
+    """Call ``float watch(float)`` at an address."""
+    return _caller(types.float64, (types.float64,))
+
+
+_watches: dict[int, Any] = {}
+
+
+def watch_address(function: Callable[[float], float]) -> int:
+    """Return the address of a C function that calls ``function``, which is kept alive."""
+    callback = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(function)
+    address = int(ctypes.cast(callback, ctypes.c_void_p).value or 0)
+    _watches[address] = callback
+    return address
+
+
+def forget_watch(address: int) -> None:
+    """Give up the C function."""
+    del _watches[address]
 
 
 @intrinsic
@@ -306,9 +330,6 @@ def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
 
     Equal keys must mean equal functions; without a key nothing is cached.
     """
-    if key:
-        shim.__code__ = shim.__code__.replace(co_filename=KEYED + key)
+    compiled = CFunction(shim, _C_SIGNATURES[form], Store(f"shim-{key}") if key else None)
     with numbered(key) if key else contextlib.nullcontext():
-        compiled = c_function(shim, _C_SIGNATURES[form], cache=bool(key))
-    _alive.append(compiled)
-    return int(compiled.address)
+        return _address(compiled)

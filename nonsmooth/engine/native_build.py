@@ -1,27 +1,19 @@
-"""How numba compiles the engine and the shims of laws, and where it keeps them; all that leans on its private parts."""
+"""How numba compiles the engine and the shims of laws; with the cache all that leans on its private parts."""
 
 from __future__ import annotations
 
 import contextlib
-import functools
 import hashlib
 import itertools
-import os
-import pickle
-import sys
-import tempfile
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any, final
 
-import numba
-import numpy as np
-from llvmlite.binding import get_host_cpu_name
 from numba.core.bytecode import FunctionIdentity
-from numba.core.caching import CacheImpl, _CacheLocator
+from numba.core.ccallback import CFunc
 from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
-from numba.core.compiler import CompilerBase
+from numba.core.compiler import Compiler, CompilerBase
 from numba.core.compiler_machinery import PassManager
+from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import (
     IRLegalization,
     NativeLowering,
@@ -32,60 +24,7 @@ from numba.core.typed_passes import (
 from numba.core.types.functions import BaseFunction
 from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 
-_PACKAGE = Path(__file__).resolve().parents[1]
-KEYED = "shim-"
-"""Begins what stands for the source file of a function that is cached under a key."""
-
-
-def cache_folder() -> Path:
-    """Return the folder of the compiled engine, named after a hash over all of its sources.
-
-    An edit of any source file, another numba, another Python or another kind of processor gives another folder: a
-    stale cache cannot be met.  Falls back to a temporary folder where the user's cache is not writable.
-    """
-    return _cache_folder()
-
-
-@functools.cache
-def _cache_folder() -> Path:
-    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{get_host_cpu_name()}".encode())
-    for folder in ("engine", "model"):
-        for source in sorted((_PACKAGE / folder).glob("*.py")):
-            digest.update(source.name.encode() + source.read_bytes())
-    name = f"engine-{digest.hexdigest()[:16]}"
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    for root in (home / "nonsmooth", Path(tempfile.gettempdir()) / f"nonsmooth-{os.getuid()}"):
-        try:
-            (root / name).mkdir(parents=True, exist_ok=True)
-        except OSError:
-            continue
-        if os.access(root / name, os.W_OK):
-            return root / name
-    raise OSError(f"No folder for the compiled engine: neither {home} nor {tempfile.gettempdir()} can be written to.")
-
-
-class _StampedLocator(_CacheLocator):
-    """Keeps the engine and the shims that have a key in :func:`cache_folder`; leaves other functions alone."""
-
-    def __init__(self, source: str) -> None:
-        self._source = source
-
-    def get_cache_path(self) -> str:
-        return str(cache_folder())
-
-    def get_source_stamp(self) -> str:
-        return cache_folder().name
-
-    def get_disambiguator(self) -> str:
-        return Path(self._source).stem
-
-    @classmethod
-    def from_function(cls, function: Any, source: str) -> _StampedLocator | None:
-        inside = Path(source).resolve().parent == _PACKAGE / "engine"
-        return cls(source) if inside or source.startswith(KEYED) else None
-
-
-CacheImpl._locator_classes.insert(0, _StampedLocator)
+from nonsmooth.engine.native_cache import Store
 
 
 @final
@@ -154,13 +93,32 @@ def raw() -> Iterator[None]:
         yield
 
 
-def c_function(function: Callable[..., Any], signature: Any, cache: bool, **options: Any) -> Any:
-    """Compile a C function, or take it from the cache; a cache that cannot be read or written is done without."""
-    compile_it = functools.partial(numba.cfunc, signature, nopython=True, error_model="numpy", **options)
-    try:
-        return compile_it(cache=cache)(function)
-    except (OSError, EOFError, pickle.UnpicklingError):
-        return compile_it()(function)
+class CFunction(CFunc):
+    """A C function, compiled when asked for or taken from the disk.
+
+    Parameters
+    ----------
+    function : callable
+        What is compiled.
+    signature : numba signature
+        Its types.
+    store : Store, optional
+        Where it is kept on disk, if it is.
+    passes : type
+        The passes of the compiler.
+    """
+
+    def __init__(
+        self,
+        function: Callable[..., Any],
+        signature: Any,
+        store: Store | None,
+        passes: type[CompilerBase] = Compiler,
+    ) -> None:
+        options = {"nopython": True, "error_model": "numpy"}
+        super().__init__(function, normalize_signature(signature), locals={}, options=options, pipeline_class=passes)
+        if store is not None:
+            self._cache = store
 
 
 @contextlib.contextmanager

@@ -18,6 +18,8 @@ CODE_HEAD = 5
 
 Contact and code of each of these follow, and their impulses at the end of the floats.
 """
+MOST_EVENTS = 204
+"""Events that one instant may record: one for every attempt to settle it, and those before and after."""
 
 
 @kernel("i8(S, F, I, i8)")
@@ -74,8 +76,6 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
     S.recorded += 1
     n = _list_event(S, w, k, -1 if cause == GUARD else contact)
     width = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * n
-    if S.floats_used + width > S.event_floats or S.integers_used + CODE_HEAD + 2 * n > S.event_integers:
-        return
     S.last_floats, S.last_integers = S.floats_used, S.integers_used
     row = S.events + S.floats_used
     w[S.event_head] = S.t

@@ -25,6 +25,14 @@ def stage_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, stage: i
 @kernel("void(S, F, i8, i8, i8, f8, f8, i8)")
 def dense_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, h: float, theta: float, out: int) -> None:
     """Write the interpolated state at the fraction ``theta`` of the step."""
+    dense_part(S, w, start, slopes, n, n, h, theta, out)
+
+
+@kernel("void(S, F, i8, i8, i8, i8, f8, f8, i8)")
+def dense_part(
+    S: Scalars, w: Floats, start: int, slopes: int, n: int, stride: int, h: float, theta: float, out: int
+) -> None:
+    """Write ``n`` components of the interpolated state, the slopes of two stages lying ``stride`` apart."""
     for i in range(n):
         w[out + i] = w[start + i]
     for j in range(7):
@@ -32,7 +40,7 @@ def dense_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, h: float
         weight = h * theta * (w[d] + theta * (w[d + 1] + theta * (w[d + 2] + theta * w[d + 3])))
         if weight != 0.0:
             for i in range(n):
-                w[out + i] += weight * w[slopes + j * n + i]
+                w[out + i] += weight * w[slopes + j * stride + i]
 
 
 @kernel("void(S, F, i8, i8, f8, i8)")

@@ -38,10 +38,12 @@ from nonsmooth.engine.modes import (
     STICK_TO_SLIP,
 )
 from nonsmooth.engine.projection import project_closed
-from nonsmooth.engine.record import amend_last, code, impact_code, record_event, remember
+from nonsmooth.engine.record import MOST_EVENTS, amend_last, code, impact_code, record_event, remember
+from nonsmooth.engine.self_check import open_account
 from nonsmooth.engine.touching import slip_speed, touch
+from nonsmooth.engine.watch import interrupted
 
-_ATTEMPTS = 200
+_ATTEMPTS = MOST_EVENTS - 4
 _PAINLEVE_ATTEMPTS = 5
 _PROJECTIONS = 2
 """So often an instant is settled anew after a projection that may have turned a slip."""
@@ -74,6 +76,7 @@ def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) ->
 @room("i8(S, F, I, i8, i8)")
 def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     """Run the impact law on the touching contacts, island by island, book and record it; return the status."""
+    S.painleve = 1 if cause == PAINLEVE else 0
     remember(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
@@ -83,6 +86,9 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
             continue
         status = _collide_island(S, w, k, cause)
         if status != RUNNING:
+            # what the islands before have done is in no account yet
+            for i in range(S.n_u):
+                w[S.y + S.n_q + i] = w[S.u_before + i]
             return status
         phases += S.phases
         truncated = max(truncated, S.truncated)
@@ -226,6 +232,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
         accelerate(S, w, k)
         for a in range(S.n_active):
             c = k[S.active + a]
+            w[S.small_force_of + c] = S.small_force
             k[S.mode_agreed + c] = k[S.mode_tried + a]
             for i in range(2):
                 w[S.direction_agreed + 2 * c + i] = w[S.d + 2 * a + i]
@@ -250,9 +257,7 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
         return NO_CONTACT_SOLUTION
     if S.policy == REFUSE:
         return PARADOX_REFUSED
-    S.painleve = 1
     status = collide(S, w, k, PAINLEVE, contact)
-    S.painleve = 0
     S.impact_seed = 0.0
     return status
 
@@ -275,6 +280,7 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     S.recorded = 0
     resting = projected = 0
     approaching = touch(S, w, k)
+    open_account(S, w, k)
     if cause == JAM:
         if S.policy == REFUSE:
             return PARADOX_REFUSED
@@ -283,6 +289,8 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
             return status
         approaching = S.approaching
     for _attempt in range(_ATTEMPTS):
+        if interrupted(S, S.n_contacts) == 1:
+            return SETTLE_ENDLESS
         if approaching == 1:
             status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k))
             if status != RUNNING:
@@ -296,6 +304,8 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
         if solved == 2 and _attempt < _FACINGS:
             approaching = touch(S, w, k)
             continue
+        if S.stopped == 1:
+            return SETTLE_ENDLESS
         if solved == 0:
             for a in range(S.n_active):
                 if not (w[S.mu + a] >= 0.0 and w[S.mu_static + a] >= 0.0):

@@ -9,6 +9,7 @@ import numpy as np
 
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.shape import Shape
+from nonsmooth.solids.convex import ConvexSolid
 
 
 class ConvexShape(Shape):
@@ -57,6 +58,17 @@ class ConvexShape(Shape):
         fineness : int
             Number of edges round a full circle, at least 3.
         """
+
+    @property
+    def set_back(self) -> float:
+        """How far the surface that contacts see may lie off that of the solid [m]; none by default."""
+        return 0.0
+
+    @property
+    @final
+    def solid(self) -> ConvexSolid:
+        """What it encloses."""
+        return ConvexSolid(self.support, self.set_back)
 
     @property
     @final

@@ -46,7 +46,8 @@ class AnisotropicFrictionLaw(FrictionLaw, ABC):
     The contract: that of :class:`FrictionLaw` for mu(|s|), and
 
     3. ``body`` says which body of the contact the axis is fixed to, and ``axis`` its direction in that body's frame;
-       what counts is its projection on the tangent plane.
+       what counts is its projection on the tangent plane.  Where it stands along the normal, to 1e-7 rad, it has none:
+       the axis x, y or z of the body's frame that is least along it takes its place, the first of equals.
     4. ``ratios`` are r forward, backward and across, positive, the largest of them 1.
     5. The certificate takes slip and force along the axis and across it.
     """
@@ -75,6 +76,7 @@ class StatefulFrictionLaw(FrictionLaw, ABC):
     3. ``coefficient`` and ``rates`` take the vector ``state`` among the arguments that follow the speed.
     4. ``rates(speed, state, out, ...)`` writes the time derivative of every state to ``out``.
     5. The states start from ``initial_state`` whenever the contact closes, and stand still while it is open.
+    6. The certificate takes the states; without them it judges a contact that has just closed.
     """
 
     @property
@@ -91,3 +93,14 @@ class StatefulFrictionLaw(FrictionLaw, ABC):
     @abstractmethod
     def state_scale(self) -> tuple[float, ...]:
         """A usual size of every state, positive, to which the tolerance of the integration is relative."""
+
+    @abstractmethod
+    def is_fulfilled(
+        self,
+        slip: tuple[float, float],
+        normal_force: float,
+        tangential_force: tuple[float, float],
+        tolerance: float,
+        state: tuple[float, ...] | None = None,
+    ) -> bool:
+        """Tell whether slip velocity [m/s], normal and tangential force [N] obey the law in a state."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
+from nonsmooth.interfaces.solid import Solid
 from nonsmooth.parameters import Component
 
 
@@ -14,7 +15,9 @@ class Shape(Component, ABC):
 
     1. is a frozen dataclass of floats, in the frame of its body;
     2. knows no body and no contact: pairs of shapes are the business of ContactKinematics;
-    3. may say by ``advice`` what to do where no kinematics is known for a pair with it.
+    3. may say by ``advice`` what to do where no kinematics is known for a pair with it;
+    4. should give the ``solid`` that it bounds, where it has one: without it, what overlaps and what is met on a way is
+       told by the gaps of contacts alone.
     """
 
     def parameters(self) -> dict[str, float]:
@@ -32,6 +35,19 @@ class Shape(Component, ABC):
         return self.length
 
     @property
+    def lever(self) -> float:
+        """Largest arm with which a turn about the origin of the body frame moves the surface along its normal [m].
+
+        It bounds how fast a gap can close; the extent always does, and a ball about the origin has none.
+        """
+        return self.extent
+
+    @property
     def advice(self) -> str:
         """What to do where no kinematics is known for a pair with this shape; part of the message, may be empty."""
         return ""
+
+    @property
+    def solid(self) -> Solid | None:
+        """What it encloses; None, if it is not bounded or not known, by default."""
+        return None

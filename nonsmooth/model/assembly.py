@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.kernel import call_room, room_addresses
 from nonsmooth.engine.modes import POLICIES
-from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
+from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import initial_state, lay_contacts
@@ -65,8 +65,9 @@ def lay_out(system: System, options: Options) -> Model:
         "n_states": n_states,
         "n_pivoted": pivoted_contacts(solver_number(options.solver), units.n_slots),
         "map_width": map_width(contacts),
-        "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + 64 * row,
-        "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL)) + 64 * 2 * (row + CODE_HEAD),
+        "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + MOST_EVENTS * row,
+        "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL))
+        + MOST_EVENTS * (CODE_HEAD + 2 * units.n_slots),
         "sample_capacity": _SAMPLE_ROWS,
     }
     assert set(counts) == set(COUNTS)
@@ -94,6 +95,7 @@ def _set_scalars(model: Model, options: Options) -> None:
         "rtol": options.tolerance,
         "impact_rtol": options.impact_tolerance,
         "time_tolerance": options.time_tolerance,
+        "time_resolution": options.time_tolerance,
         "gap_tolerance": options.gap_tolerance,
         "velocity_tolerance": options.velocity_tolerance,
         "h_max": step,

@@ -56,15 +56,25 @@ from nonsmooth.model.scalars import FLOAT_SCALARS, INTEGER_SCALARS
 
 FRAME = 24
 """Floats of frame motion at the head of a body's output block."""
-GEOMETRY = 31
-"""Floats of a contact's geometry block."""
+GUARD = 8
+"""Floats behind each block that a plug-in writes: one that writes past its block is found by them."""
+UNTOUCHED = 1.2345678901234567e-89
+"""What stands there."""
 FEATURE, PAST_END = 29, 30
-"""Where in it stand the number of the features in contact and how far the contact is past their end."""
+"""Where in a geometry block stand the number of the features in contact and how far the contact is past their end."""
+PAIR = 31
+"""Floats of a geometry block that a kinematics writes."""
+GEOMETRY = PAIR + GUARD
+"""Floats of a contact's geometry block."""
 JOINT_ROW = 14
 """Floats of one row of a joint."""
 LOAD = 9
 """Floats that a load writes."""
+FORCE_AND_MOMENT = 5
+"""Floats that a law of traction writes before the rates of its states."""
 CATALOGUE = (
+    "body_a",
+    "body_b",
     "frame_a",
     "frame_b",
     "nu_a",
@@ -99,8 +109,12 @@ CATALOGUE = (
     "mode",
 )
 """Integers of a declared contact; in a slot each of them is an array of its own."""
-CATALOGUE_FLOATS = 5
-"""Floats of a declared contact: contact time, slip direction, reach, rate at which it closed."""
+CATALOGUE_FLOATS = 7
+"""Floats of a declared contact: contact time, slip direction, reach, rate at which it closed, levers of the shapes."""
+SECTORS = 48
+"""Halvings of a step in search of a gap that closes: as many as its fractions can be told apart."""
+SECTOR = 4
+"""Floats of an end of a part of a step: fraction, gap, gap rate, how far past the end of the features."""
 ORIENTED = 7
 """Numbers of an anisotropic law: side of the body, its axis, friction forward, backward and across."""
 N_ACCOUNTS = 4
@@ -166,10 +180,17 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "guard_start": _guards,
     "gap_rate": _per(1, "n_slots"),
     "gap_rate_first": _per(1, "n_slots"),
-    "gap_rate_middle": _per(1, "n_slots"),
     "gap_rate_end": _per(1, "n_slots"),
-    "gap_middle": _per(1, "n_slots"),
     "gap_end": _per(1, "n_slots"),
+    "past_end": _per(1, "n_slots"),
+    "past_first": _per(1, "n_slots"),
+    "speed_end": _per(1, "n_slots"),
+    "speed_first": _per(1, "n_slots"),
+    "small_force_of": _per(1, "n_slots"),
+    "lever_a": _per(1, "n_slots"),
+    "lever_b": _per(1, "n_slots"),
+    "relative": lambda n: 24,
+    "sectors": lambda n: SECTOR * (SECTORS + 1),
     "guard_end": _guards,
     "rate_end": _per(3, "n_slots"),
     "map_block": lambda n: n["map_width"] * n["n_slots"],
@@ -213,6 +234,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "impact_z": _per(3, "n_slots"),
     "impact_guard": _per(3, "n_slots"),
     "impact_guard_first": _per(3, "n_slots"),
+    "rest_slip": _per(1, "n_slots"),
     "impact_x_scale": _per(1, "n_slots"),
     "impact_f_scale": _per(1, "n_slots"),
     "impact_energy_scale": _per(1, "n_slots"),
@@ -222,7 +244,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "stored": _per(1, "n_slots"),
     "returned": _per(1, "n_slots"),
     "rubbed": _per(1, "n_slots"),
-    "impulse": _per(3, "n_slots"),
+    "impulse": lambda n: 3 * n["n_slots"] + GUARD,
     "u_before": _per(1, "n_u"),
     "u_own": _per(1, "n_u"),
     "u_impact": _per(1, "n_u"),
@@ -335,6 +357,8 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "own_guard_spent": _per(1, "n_own_guards"),
     "event_codes": _per(1, "event_integers"),
     "identity": _per(1, "n_slots"),
+    "doubtful": _per(1, "n_slots"),
+    "astray": _per(1, "n_slots"),
     "member": _per(1, "n_slots"),
     "grouped": _per(1, "n_slots"),
     "group_of": _per(1, "n_slots"),

@@ -34,6 +34,8 @@ ROOMS = (
     "project_closed",
     "list_contacts",
     "set_up",
+    "find_doubtful",
+    "first_closing",
     "first_crossing",
     "locate",
     "choose_friction",

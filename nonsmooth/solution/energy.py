@@ -51,14 +51,22 @@ class EnergyAccount:
         return self.exchanged_in_flow + abs(self.restitution_loss) + abs(self.friction_loss) + abs(self.closing_loss)
 
     @property
-    def residual(self) -> float:
-        """What the account does not explain, relative to the energy exchanged.
+    def unexplained(self) -> float:
+        """What the account does not explain of the change [J]."""
+        return abs(self.change - self.driven_work - self.load_work + self.loss)
+
+    @property
+    def scale(self) -> float:
+        """The energy exchanged [J].
 
         Where next to none is, the kinetic energy takes its place, as in free tumbling, or a millionth of the
         potential energy, as at rest.
         """
-        unexplained = abs(self.change - self.driven_work - self.load_work + self.loss)
         kinetic = max(self.kinetic_start, self.kinetic_end)
         potential = max(abs(self.potential_start), abs(self.potential_end))
-        scale = max(self.exchanged, kinetic, 1e-6 * potential)
-        return unexplained / scale if scale > 0.0 else unexplained
+        return max(self.exchanged, kinetic, 1e-6 * potential)
+
+    @property
+    def residual(self) -> float:
+        """What the account does not explain, relative to :attr:`scale`."""
+        return self.unexplained / self.scale if self.scale > 0.0 else self.unexplained

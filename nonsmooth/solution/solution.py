@@ -63,9 +63,10 @@ class Solution:
     q_end, u_end : array
         State at that time.
     status : str
-        "done", "interrupted" or "failed".
+        "done", "suspect", "interrupted" or "failed".  A suspect run reached its end, but what it found in itself no
+        tolerance explains, as an energy account that is open.
     message : str
-        Why it stopped.
+        Why it stopped, and what is suspect.
     """
 
     system: System

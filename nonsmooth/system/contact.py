@@ -11,6 +11,7 @@ from nonsmooth.interfaces import (
     Joint,
     Load,
     NormalLaw,
+    Shape,
     TangentialLaw,
 )
 from nonsmooth.system.materials import ContactLaws
@@ -28,10 +29,14 @@ class Contact:
         The bodies; the normal points from the first to the second.
     frames : tuple of int
         Number of the frame on either body.
+    shapes : tuple of Shape
+        The shape on either.
     kinematics : ContactKinematics
         Geometry of the pair of shapes.
     extents : tuple of float
         Radius about its frame's origin that holds either shape [m].
+    levers : tuple of float
+        Arm about its frame's origin with which a turn moves either surface along its normal [m].
     normal, friction : NormalLaw, TangentialLaw
         The laws of sustained contact.
     impact : ImpactLaw or None
@@ -42,8 +47,10 @@ class Contact:
     first: Body
     second: Body
     frames: tuple[int, int]
+    shapes: tuple[Shape, Shape]
     kinematics: ContactKinematics
     extents: tuple[float, float]
+    levers: tuple[float, float]
     normal: NormalLaw
     friction: TangentialLaw
     impact: ImpactLaw | None

@@ -31,11 +31,6 @@ class Side:
     number: int
     shape: Shape
 
-    @property
-    def key(self) -> tuple[int, int]:
-        """What tells it apart from other shapes of a system, however equal they are."""
-        return id(self.body), self.number
-
 
 def select(where: str, bodies: tuple[Body, Body], shapes: Any) -> tuple[list[Side], list[Side]]:
     """Return the shapes chosen of either body, in the order of its frames.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -70,7 +71,21 @@ class System:
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
         self._guards: list[Guard] = []
-        self._starts: dict[int, tuple[Vector, Vector]] = {id(body): body.state() for body in bodies}
+        self._starts: list[tuple[Vector, Vector]] = [body.state() for body in bodies]
+        self._count_bodies()
+
+    def _count_bodies(self) -> None:
+        # bodies are told apart as objects, however equal they are: copies have identities of their own
+        self._numbers = {id(body): number for number, body in enumerate(self._bodies)}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy starts from: lists of its own, that it may be changed apart from this system."""
+        kept = {name: value for name, value in vars(self).items() if name != "_numbers"}
+        return {name: value.copy() if isinstance(value, (list, set)) else value for name, value in kept.items()}
+
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        vars(self).update(state)
+        self._count_bodies()
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -96,6 +111,12 @@ class System:
     def guards(self) -> tuple[Guard, ...]:
         """The guards of the scenario's own, in the order declared."""
         return tuple(self._guards)
+
+    def about(self, body: Body) -> System:
+        """Return the same system with no contacts but those of a body, in the order declared."""
+        made = copy.copy(self)
+        made._contacts = [contact for contact in self._contacts if contact.first is body or contact.second is body]
+        return made
 
     def guard(self, guard: Guard) -> None:
         """Watch a condition of the scenario's own; its events carry its number, in the order declared.
@@ -163,13 +184,14 @@ class System:
         return Tie(name, first, second, frames, component)
 
     def start(self, body: Body) -> tuple[Vector, Vector]:
-        """Return q and u of a body at t = 0."""
-        return self._starts[id(body)]
+        """Return q and u of a body at t = 0; InvalidInput if it is not of this system."""
+        self._require(body, "System.start")
+        return self._starts[self._numbers[id(body)]]
 
     def place(self, body: Body, **start: Any) -> None:
         """Say where a body starts; the words are those of its ``state``."""
         self._require(body, "System.place")
-        self._starts[id(body)] = body.state(**start)
+        self._starts[self._numbers[id(body)]] = body.state(**start)
 
     def set_start(self, body: Body, q: Vector, u: Vector) -> None:
         """Say where a body starts by its coordinates and velocities, shapes [n_q] and [n_u].
@@ -185,7 +207,7 @@ class System:
                 raise InvalidInput(
                     f"System.set_start: {letter}", f"must be {size} finite numbers", value, "See Body.state."
                 )
-        self._starts[id(body)] = np.array(q, dtype=float), np.array(u, dtype=float)
+        self._starts[self._numbers[id(body)]] = np.array(q, dtype=float), np.array(u, dtype=float)
 
     def contact(
         self,
@@ -240,7 +262,7 @@ class System:
                 "System.contact", "needs two different bodies", type(first).__name__, "Name the other body."
             )
         sides = select("System.contact", (first, second), shapes)
-        pairs = {frozenset((one.key, other.key)) for one, other in itertools.product(*sides)}
+        pairs = {frozenset((self._key(one), self._key(other))) for one, other in itertools.product(*sides)}
         if pairs & self._paired:
             raise InvalidInput(
                 "System.contact",
@@ -298,18 +320,18 @@ class System:
         """
         chosen = [body for body in self._bodies if any(body.frames)] if bodies is None else list(bodies)
         names = self._material_names(materials, of or {})
-        out = {_key(tie.first, tie.second) for tie in self._joints}
+        out = {self._pair_of(tie.first, tie.second) for tie in self._joints}
         out |= {frozenset(body for body, _ in pair) for pair in self._paired}
         for one, other in exclude:
             self._require(one, "System.contact_all: exclude")
             self._require(other, "System.contact_all: exclude")
-            out.add(_key(one, other))
+            out.add(self._pair_of(one, other))
         for body in chosen:
             self._require(body, "System.contact_all: bodies")
         kept, added = (list(self._contacts), list(self._declared), set(self._paired)), len(self._contacts)
         try:
             for one, other in itertools.combinations(chosen, 2):
-                if _key(one, other) not in out and one.n_u + other.n_u > 0:
+                if self._pair_of(one, other) not in out and one.n_u + other.n_u > 0:
                     laws = materials.laws(names.get(id(one)), names.get(id(other)))
                     self.contact(one, other, normal=laws.normal, friction=laws.friction, impact=laws.impact)
         except InvalidInput:
@@ -354,8 +376,10 @@ class System:
                     one.body,
                     two.body,
                     (one.frame, two.frame),
+                    (one.shape, two.shape),
                     geometry,
                     (one.shape.extent, two.shape.extent),
+                    (one.shape.lever, two.shape.lever),
                     normal,
                     friction,
                     impact,
@@ -371,8 +395,14 @@ class System:
         )
 
     def _require(self, body: Body, where: str) -> None:
-        if id(body) not in self._starts:
+        if id(body) not in self._numbers:
             raise InvalidInput(where, "needs a body of this system", body, "Add it to System([...]) first.")
+
+    def _pair_of(self, one: Body, other: Body) -> _Pair:
+        return frozenset((self._numbers[id(one)], self._numbers[id(other)]))
+
+    def _key(self, side: Side) -> tuple[int, int]:
+        return self._numbers[id(side.body)], side.number
 
     @property
     def time_scale(self) -> float:
@@ -383,10 +413,6 @@ class System:
     def n_degrees(self) -> int:
         """Number of velocities of all bodies."""
         return int(np.sum([body.n_u for body in self._bodies]))
-
-
-def _key(one: Body, other: Body) -> _Pair:
-    return frozenset((id(one), id(other)))
 
 
 def _same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:

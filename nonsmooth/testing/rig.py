@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.model.assembly import lay_out
-from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.layout import PAIR
 from nonsmooth.model.options import Options
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
@@ -111,11 +111,12 @@ class Rig:
     def __init__(self, kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -> None:
         self._bodies = _Carrier(shapes[0]), _Carrier(shapes[1])
         system = System(self._bodies)
-        extents = (shapes[0].extent, shapes[1].extent)
+        extents = shapes[0].extent, shapes[1].extent
+        levers = shapes[0].lever, shapes[1].lever
         name = type(kinematics).__name__
         # not by System.contact, which looks for kinematics among those installed
         system._contacts.append(
-            Contact(name, *self._bodies, (0, 0), kinematics, extents, Rigid(), Constant(), Spring())
+            Contact(name, *self._bodies, (0, 0), shapes, kinematics, extents, levers, Rigid(), Constant(), Spring())
         )
         self._model = lay_out(system, Options())
 
@@ -130,8 +131,8 @@ class Rig:
 
     @property
     def geometry(self) -> Array:
-        """The geometry block, shape [30]."""
-        return self._row("geometry", GEOMETRY)
+        """The geometry block, shape [31]."""
+        return self._row("geometry", PAIR)
 
     @property
     def axes(self) -> Array:

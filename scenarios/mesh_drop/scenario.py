@@ -135,7 +135,7 @@ class MeshDrop(Scenario):
         return np.asarray(solution.q[:, 2] + np.min(rows @ own.T, axis=1))
 
     def kinetic_energy(self, u: Floats) -> Floats:
-        """Return the kinetic energy for velocities of shape [n, 6] [J], shape [n]."""
+        """Return the kinetic energy [J], shape [n], for velocities of shape [n, 6]."""
         (x, y, z), (yz, xz, xy) = self.body.inertia, self.body.products
         tensor = np.array([[x, xy, xz], [xy, y, yz], [xz, yz, z]])
         turning = np.einsum("ni,ij,nj->n", u[:, 3:], tensor, u[:, 3:])

@@ -125,7 +125,7 @@ def test_another_process_finds_a_law_until_it_changes(tmp_path: Path) -> None:
     assert value == 17.0
     assert passes > 0
     assert run(_SOURCE) == (13.0, 0)
-    for kept in tmp_path.glob("nonsmooth/*/*.nbc"):
+    for kept in tmp_path.glob("nonsmooth/*/*.code"):
         kept.write_bytes(kept.read_bytes()[:100])
     value, passes = run(_SOURCE)
     assert value == 13.0

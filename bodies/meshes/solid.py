@@ -1,0 +1,109 @@
+"""What a closed surface of triangles encloses."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from bodies.meshes.integrals import areas_of, winding_number
+from bodies.meshes.topology import Integers
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.solid import Piece, Solid
+
+_LOOKED_AT = 32
+"""Triangles under which points inside are sought, the largest first."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class MeshSolid(Solid):
+    """The triangles are its pieces.
+
+    Attributes
+    ----------
+    vertices : Vector
+        Corners in the body frame [m], shape [n, 3].
+    faces : Integers
+        Triangles, counter-clockwise seen from outside, shape [m, 3].
+    """
+
+    vertices: Vector
+    faces: Integers
+
+    @property
+    def set_back(self) -> float:
+        """Contacts see the surface itself."""
+        return 0.0
+
+    @property
+    def hollow(self) -> bool:
+        """There is nothing between the triangles."""
+        return True
+
+    @functools.cached_property
+    def _corners(self) -> Vector:
+        return self.vertices[self.faces]
+
+    @functools.cached_property
+    def _boxes(self) -> tuple[Vector, Vector]:
+        return np.min(self._corners, axis=1), np.max(self._corners, axis=1)
+
+    @functools.cached_property
+    def _normals(self) -> Vector:
+        a, b, c = self._corners[:, 0], self._corners[:, 1], self._corners[:, 2]
+        across = np.cross(b - a, c - a)
+        return np.asarray(across / np.linalg.norm(across, axis=1)[:, None])
+
+    @property
+    def bounds(self) -> tuple[Vector, Vector]:
+        """Those of its corners [m]."""
+        return np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the corner that lies farthest along a direction [m]."""
+        return np.asarray(self.vertices[int(np.argmax(self.vertices @ direction))])
+
+    def pieces(self, low: Vector, high: Vector) -> Sequence[Piece]:
+        """Return the triangles whose boxes meet the box."""
+        meets = np.all((self._boxes[0] <= high) & (self._boxes[1] >= low), axis=1)
+        return [self._triangle(int(i)) for i in np.flatnonzero(meets)]
+
+    def _triangle(self, number: int) -> Piece:
+        corners = self._corners[number]
+
+        def support(direction: Vector) -> Vector:
+            return np.asarray(corners[int(np.argmax(corners @ direction))])
+
+        return Piece(support, np.mean(corners, axis=0), (self._normals[number],))
+
+    @functools.cached_property
+    def inner(self) -> Vector:
+        """For the largest triangles the point half-way from its middle inwards to the next one [m]."""
+        largest = np.argsort(-areas_of(self.vertices, self.faces), kind="stable")[:_LOOKED_AT]
+        return np.array([self._under(int(i)) for i in largest])
+
+    def _under(self, number: int) -> Vector:
+        """Return the point half-way along the ray inwards (T. Moeller, B. Trumbore, J. Graphics Tools 2 (1997) 21)."""
+        middle, way = np.mean(self._corners[number], axis=0), -self._normals[number]
+        a, u, v = self._corners[:, 0], *np.moveaxis(self._corners[:, 1:] - self._corners[:, :1], 1, 0)
+        across = np.cross(way, v)
+        sixfold = np.einsum("ni,ni->n", u, across)
+        faced = np.abs(sixfold) > 0.0
+        faced[number] = False
+        a, u, v, across, sixfold = a[faced], u[faced], v[faced], across[faced], sixfold[faced]
+        first = np.einsum("ni,ni->n", middle - a, across) / sixfold
+        turned = np.cross(middle - a, u)
+        second = turned @ way / sixfold
+        ahead = np.einsum("ni,ni->n", v, turned) / sixfold
+        met = (first >= 0.0) & (second >= 0.0) & (first + second <= 1.0) & (ahead > 0.0)
+        # a ray through an edge may meet nothing: a point on the surface is inside of nothing either
+        return np.asarray(middle + (0.5 * np.min(ahead[met]) if np.any(met) else 0.0) * way)
+
+    def holds(self, point: Vector, margin: float) -> bool:
+        """Tell whether the surface goes round the point and those beside it."""
+        places = point + margin * np.array([*np.zeros((1, 3)), *np.eye(3), *-np.eye(3)])
+        return all(winding_number(self.vertices, self.faces, place) > 0.5 for place in places)

@@ -1,0 +1,176 @@
+"""How far a body can move along a line until it meets something."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.solids.passage import Passage
+from nonsmooth.solids.probe import Probe
+from nonsmooth.solids.start import solid_pairs
+
+_STEPS = 5000
+_FARTHEST = 1e6
+_ROUND_OFF = 1e-9
+_GRAZING = 1e4
+"""Gaps may fall so much slower than a body moves along the line, where the engine's gap makes a place exact."""
+
+
+class Line:
+    """The line along which a body can move without being turned.
+
+    Where the shapes of a contact have solids, these tell where it meets.  The gaps of the others do: none changes
+    faster than the body moves, so that a step as long as the least of them leads past nothing.
+
+    Parameters
+    ----------
+    probe : Probe
+        The body where it starts.
+    way : Vector
+        Unit vector along which it is to move, as far as it can, shape [3].
+    height : float
+        The distance at which it is to meet [m].
+
+    Raises
+    ------
+    InvalidInput
+        If the body cannot move this way without being turned.
+    """
+
+    def __init__(self, probe: Probe, way: Vector, height: float) -> None:
+        self._probe, self._asked, self._height = probe, way, height
+        self._q = probe.q.copy()
+        self._rates, self._way = self._motion()
+        self._size = max(contact.size for contact in probe.contacts)
+        pairs = list(solid_pairs(probe.model, range(len(probe.contacts))))
+        self._slack = sum(solid.solid.set_back for _, *both in pairs for solid in both)
+        self._passages = [
+            Passage(one.moved(-one.position), two.moved(-one.position), self._way, height)
+            for one, two in (
+                (first, second) if probe.contacts[numbers[0]].first is probe.body else (second, first)
+                for numbers, first, second in pairs
+            )
+        ]
+        self._by_gap = [
+            i for i, contact in enumerate(probe.contacts) if any(shape.solid is None for shape in contact.shapes)
+        ]
+
+    def met(self) -> Vector:
+        """Return the coordinates of the body where it first meets something, or, if it overlaps, last does going back.
+
+        Raises
+        ------
+        InvalidInput
+            If there is nothing, or the body does not keep to a line.
+        """
+        free = self._clear(0.0)
+        distance = self._ahead() if free else self._back()
+        if not abs(distance) < self._farthest:
+            raise InvalidInput(
+                f"placing {type(self._probe.body).__name__}",
+                f"must find something to touch along {(self._asked if free else -self._asked).tolist()}",
+                float(np.min(self._gaps(0.0))),
+                "This is the smallest gap less the height at the start [m]; give another start or direction.",
+            )
+        distance = self._exact(distance)
+        if not self._is_straight(distance):
+            self._refuse()
+        return self._at(distance)
+
+    @property
+    def _farthest(self) -> float:
+        return _FARTHEST * (float(np.max(np.abs(self._gaps(0.0)))) + self._size)
+
+    def _at(self, distance: float) -> Vector:
+        return self._q + distance * self._rates
+
+    def _gaps(self, distance: float) -> Vector:
+        self._probe.q[:] = self._at(distance)
+        return self._probe.gaps() - self._height
+
+    def _least_gap(self, distance: float) -> float:
+        """Return the least gap of the contacts that no solids tell of, less the height [m]."""
+        return float(np.min(self._gaps(distance)[self._by_gap])) if self._by_gap else np.inf
+
+    def _at_distance(self, distance: float) -> list[Passage]:
+        way = distance * self._way
+        return [replace(passage, one=passage.one.moved(way)) for passage in self._passages]
+
+    def _clear(self, distance: float) -> bool:
+        is_clear = all(passage.clear for passage in self._at_distance(distance))
+        return is_clear and self._least_gap(distance) >= -_ROUND_OFF * self._size
+
+    def _ahead(self) -> float:
+        reach = min((passage.ahead() for passage in self._passages), default=np.inf)
+        distance = 0.0
+        for _ in range(_STEPS if self._by_gap else 0):
+            gap = self._least_gap(distance)
+            if gap <= _ROUND_OFF * self._size or distance > min(reach, self._farthest):
+                return float(min(distance, reach))
+            distance += gap
+        return float(reach)
+
+    def _back(self) -> float:
+        distance = 0.0
+        for _ in range(_STEPS):
+            gap = self._least_gap(distance)
+            steps = [passage.back() for passage in self._at_distance(distance) if not passage.clear]
+            if gap < -_ROUND_OFF * self._size:
+                steps.append(-gap)
+            if not steps:
+                return distance
+            distance -= max(steps)
+        return np.inf
+
+    def _exact(self, distance: float) -> float:
+        """Return the root of the least gap of all contacts, if it is next to the place where the solids meet."""
+        from scipy.optimize import brentq
+
+        def over(place: float) -> float:
+            return float(np.min(self._gaps(place)))
+
+        gap, near = over(distance), 2.0 * _ROUND_OFF * self._size + self._slack
+        if gap == 0.0 or abs(gap) > near:
+            # features that do not face have gaps that are none
+            return distance
+        step = np.copysign(max(abs(gap), 1e-16 * self._size), gap)
+        while abs(step) < _GRAZING * near:
+            if np.sign(over(distance + step)) != np.sign(gap):
+                low, high = sorted((distance, distance + step))
+                tolerances = {"xtol": 1e-16 * _ROUND_OFF * self._size, "rtol": 4.0 * np.finfo(float).eps}
+                return float(brentq(over, low, high, **tolerances))
+            step *= 2.0
+        return distance
+
+    def _motion(self) -> tuple[Vector, Vector]:
+        """Return the coordinate rates of a unit velocity along the way, as far as the body can go there, and where."""
+        probe = self._probe
+        probe.frame(0)
+        u = np.linalg.lstsq(probe.jacobian(0), np.concatenate([self._asked, np.zeros(3)]), rcond=None)[0]
+        twists = np.array([probe.jacobian(i) @ u for i in range(len(probe.body.frames))])
+        speed = float(np.linalg.norm(twists[0, :3]))
+        scale = np.repeat([1.0, max(probe.body.scales[0])], 3)
+        along = np.concatenate([twists[0, :3], np.zeros(3)])
+        if speed < 1e-6 or float(np.max(np.linalg.norm((twists - along) * scale, axis=1))) > 1e-6 * speed:
+            self._refuse()
+        return probe.coordinate_rates(u / speed), twists[0, :3] / speed
+
+    def _is_straight(self, distance: float) -> bool:
+        frames = []
+        for place in (0.0, distance):
+            self._probe.q[:] = self._at(place)
+            frames.append(np.array([self._probe.frame(i)[:12] for i in range(len(self._probe.body.frames))]))
+        moved = frames[1] - frames[0]
+        moved[:, :3] -= distance * self._way
+        return bool(np.all(np.abs(moved) <= 1e-6 * (1.0 + self._size + abs(distance))))
+
+    def _refuse(self) -> None:
+        raise InvalidInput(
+            f"placing {type(self._probe.body).__name__}",
+            "must be able to move along the direction without turning",
+            self._asked.tolist(),
+            "Give another direction.",
+        )

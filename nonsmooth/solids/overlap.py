@@ -1,0 +1,149 @@
+"""How deep two convex sets overlap, with a proof either way.
+
+All differences of points of two convex sets are a convex set that holds the origin where they overlap, and the sets can
+be parted by the distance from there to its boundary.  A polytope within it, whose face nearest to the origin is pushed
+out until it is on the boundary, bounds that depth from below; every support plane bounds it from above (G. van den
+Bergen, "Proximity queries and penetration depth computation on 3D game objects", Game Developers Conference, 2001).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from nonsmooth.interfaces.solid import Piece, Vector
+
+_EXACT = 0.1
+"""A depth is told as exactly as this, relative to it."""
+_ROUND_OFF = 1e-14
+_MOST = 400
+"""Steps, after which the bound is taken as it is."""
+
+_Point = tuple[float, float, float]
+_Face = tuple[float, _Point, int, int, int]
+"""Height over the origin, outward normal, corners counter-clockwise seen from outside."""
+
+
+def depth(one: Piece, two: Piece, tolerance: float) -> float:
+    """Return how far two convex sets must be moved at least to part them [m], or 0 if that is within a tolerance [m].
+
+    Parameters
+    ----------
+    one, two : Piece
+        The sets, in the same axes.
+    tolerance : float
+        By how much sets that touch may overlap [m].
+    """
+
+    def farthest(direction: Vector) -> Vector:
+        return one.support(direction) - two.support(-direction)
+
+    def parted(direction: Vector) -> bool:
+        return float(direction @ farthest(direction)) <= tolerance
+
+    apart = two.place - one.place
+    away = float(np.linalg.norm(apart))
+    if away > 0.0 and parted(apart / away):
+        return 0.0
+    for normal in (*one.normals, *two.normals):
+        if parted(normal) or parted(-normal):
+            return 0.0
+    points = _tetrahedron(farthest, tolerance)
+    return _expanded(points, farthest, tolerance) if points else 0.0
+
+
+def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list[_Point]:
+    """Return four points that span a volume, counter-clockwise round the first; none if the sets part on the way."""
+    points: list[Vector] = []
+    while len(points) < 4:
+        best, most = np.zeros(3), 0.0
+        for direction in _across(points):
+            found = farthest(direction)
+            height = float(direction @ found)
+            if height <= tolerance:
+                return []
+            off = height - (float(direction @ points[0]) if points else 0.0)
+            if not points or off > most:
+                best, most = found, off
+        if points and most <= _ROUND_OFF * float(np.linalg.norm(best)):
+            # flat: a plane that it lies in parts them unless it lies to one side of the origin
+            return []
+        points.append(best)
+    a, b, c, d = points
+    if float(np.cross(b - a, c - a) @ (d - a)) > 0.0:
+        b, c = c, b
+    return [_point(x) for x in (a, b, c, d)]
+
+
+def _across(points: list[Vector]) -> Iterable[Vector]:
+    """Return unit vectors across the flat set through some points, with either sign."""
+    if len(points) == 3:
+        normal = np.cross(points[1] - points[0], points[2] - points[0])
+        ways = [normal / np.linalg.norm(normal)]
+    elif len(points) == 2:
+        along = (points[1] - points[0]) / np.linalg.norm(points[1] - points[0])
+        first = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
+        first /= np.linalg.norm(first)
+        ways = [first, np.cross(along, first)]
+    else:
+        ways = list(np.eye(3))
+    return [sign * way for way in ways for sign in (1.0, -1.0)]
+
+
+def _expanded(corners: list[_Point], farthest: Callable[[Vector], Vector], tolerance: float) -> float:
+    points = list(corners)
+    faces = [_face(points, *trio) for trio in ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2))]
+    size = max(math.hypot(*point) for point in points)
+    for _ in range(_MOST):
+        height, normal, *_ = min(faces)
+        found = _point(farthest(np.array(normal)))
+        reach = _dot(normal, found)
+        if reach <= tolerance:
+            return 0.0
+        if reach - height <= max(_EXACT * reach if height > tolerance else 0.0, _ROUND_OFF * size):
+            return height if height > tolerance else 0.0
+        points.append(found)
+        size = max(size, math.hypot(*found))
+        faces = _pushed_out(points, faces, _ROUND_OFF * size)
+    height = min(faces)[0]
+    return height if height > tolerance else 0.0
+
+
+def _pushed_out(points: list[_Point], faces: list[_Face], least: float) -> list[_Face]:
+    """Return the faces of the hull of a polytope and the last of the points, which lies over one of its faces."""
+    top = points[-1]
+    kept: list[_Face] = []
+    rims: set[tuple[int, int]] = set()
+    for face in faces:
+        if _dot(face[1], top) - face[0] <= least:
+            kept.append(face)
+            continue
+        _, _, i, j, k = face
+        for edge in ((i, j), (j, k), (k, i)):
+            if edge[::-1] in rims:
+                rims.remove(edge[::-1])
+            else:
+                rims.add(edge)
+    return kept + [_face(points, i, j, len(points) - 1) for i, j in rims]
+
+
+def _face(points: list[_Point], i: int, j: int, k: int) -> _Face:
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = points[i], points[j], points[k]
+    ux, uy, uz, vx, vy, vz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
+    nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    size = math.sqrt(nx * nx + ny * ny + nz * nz)
+    if size == 0.0:
+        return math.inf, (0.0, 0.0, 0.0), i, j, k
+    normal = nx / size, ny / size, nz / size
+    return _dot(normal, points[i]), normal, i, j, k
+
+
+def _dot(one: _Point, two: _Point) -> float:
+    return one[0] * two[0] + one[1] * two[1] + one[2] * two[2]
+
+
+def _point(vector: Vector) -> _Point:
+    x, y, z = vector.tolist()
+    return x, y, z

@@ -1,0 +1,105 @@
+"""One body of a laid-out system, moved by hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from nonsmooth.engine.kernel import call_room
+from nonsmooth.interfaces import Body
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.model.assembly import lay_out
+from nonsmooth.model.layout import FRAME
+from nonsmooth.model.model import Model
+from nonsmooth.model.options import Options
+from nonsmooth.solids.start import frames_of
+from nonsmooth.system.contact import Contact
+from nonsmooth.system.system import System
+
+
+@final
+@dataclass(frozen=True)
+class Probe:
+    """A body with its contacts.
+
+    Attributes
+    ----------
+    model : Model
+        A system without other contacts, laid out.
+    body : Body
+        The body.
+    number : int
+        Its number in the system.
+    """
+
+    model: Model
+    body: Body
+    number: int
+
+    @classmethod
+    def of(cls, system: System, body: Body) -> Probe:
+        """Return the probe of a body where it starts."""
+        number = next(i for i, other in enumerate(system.bodies) if other is body)
+        return cls(lay_out(system.about(body), Options()), body, number)
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The contacts of the body."""
+        return self.model.system.contacts
+
+    def _part(self, name: str, first: int, size: int) -> Vector:
+        start = int(self.model.memory.array(f"body_{name}", self.number + 1)[self.number]) + first
+        return self.model.memory.floats[start : start + size]
+
+    def _state(self, offset: int, name: str, size: int) -> Vector:
+        start = offset + int(self.model.memory.array(f"body_{name}", self.number + 1)[self.number])
+        return self.model.memory.array("y", self.model.n_y)[start : start + size]
+
+    @property
+    def q(self) -> Vector:
+        """Its coordinates, to be written as well, shape [n_q]."""
+        return self._state(0, "q", self.body.n_q)
+
+    @property
+    def u(self) -> Vector:
+        """Its velocities, to be written as well, shape [n_u]."""
+        return self._state(self.model.n_q, "u", self.body.n_u)
+
+    def frame(self, number: int) -> Vector:
+        """Return the motion of a frame (:mod:`nonsmooth.model.layout`)."""
+        call_room("evaluate_at", self.model.memory)
+        return self._part("out", number * (FRAME + 6 * self.body.n_u), FRAME).copy()
+
+    def jacobian(self, number: int) -> Vector:
+        """Return that of a frame that was evaluated, shape [6, n_u]."""
+        first = number * (FRAME + 6 * self.body.n_u) + FRAME
+        return self._part("out", first, 6 * self.body.n_u).reshape(6, self.body.n_u).copy()
+
+    def coordinate_rates(self, u: Vector) -> Vector:
+        """Return dq/dt for velocities, shape [n_q]."""
+        kept = self.u.copy()
+        self.u[:] = u
+        call_room("evaluate_at", self.model.memory)
+        self.u[:] = kept
+        return self._part("tail", 0, self.body.n_q).copy()
+
+    def gaps(self) -> Vector:
+        """Return the gaps of its contacts [m]; bounds from below where shapes are too far apart to be looked at."""
+        call_room("list_contacts", self.model.memory)
+        gaps = np.asarray(self.model.gaps())
+        for number in np.flatnonzero(np.isinf(gaps)).tolist():
+            one, two = frames_of(self.model, number)
+            apart = float(np.linalg.norm(one[:3] - two[:3])) - sum(self.contacts[number].extents)
+            gaps[number] = max(apart, 0.0)
+        return gaps
+
+    def rates(self, u: Vector) -> Vector:
+        """Return gap rate and slip velocity [m/s] of its contacts for velocities, shape [n, 3]."""
+        self.u[:] = u
+        call_room("evaluate_at", self.model.memory)
+        n = int(self.model.memory.scalars["n_contacts"][0])
+        rates = np.full((len(self.contacts), 3), np.nan)
+        rates[self.model.memory.array("identity", n)] = self.model.memory.array("rate", 3 * n).reshape(n, 3)
+        return rates

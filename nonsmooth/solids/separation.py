@@ -1,0 +1,140 @@
+"""Distance of two convex sets, with a plane that proves it.
+
+The search of E. Gilbert, D. Johnson and S. Keerthi, IEEE J. Robotics Automat. 4 (1988) 193, for the point nearest to
+the origin of the set of all differences.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from nonsmooth.interfaces.solid import Piece, Vector
+
+_MOST = 200
+_Point = tuple[float, float, float]
+_Nearest = tuple[float, _Point, tuple[_Point, ...]]
+"""Squared distance from the origin, the nearest point of a simplex, the corners that it lies between."""
+
+
+def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float) -> tuple[float, Vector]:
+    """Return a lower bound of the distance of two convex sets less a margin [m], and a normal of planes that prove it.
+
+    Parameters
+    ----------
+    one, two : Piece
+        The sets, in the same axes.
+    way : Vector
+        By which the first is moved [m], shape [3].
+    margin : float
+        What is taken off [m].
+    enough : float
+        By how much the bound may be too low [m]; a thousandth of it is allowed in any case.
+
+    Returns
+    -------
+    bound, normal
+        All of the second is so far beyond all of the first along the unit normal, shape [3], and beyond the margin.
+        Not above -margin, with some unit vector, where they overlap or nearly touch.
+    """
+    nearest = _tuple(two.place - one.place - way)
+    simplex: tuple[_Point, ...] = ()
+    best, normal = -math.inf, np.array([0.0, 0.0, 1.0])
+    square, size = _dot(nearest, nearest), 0.0
+    for _ in range(_MOST):
+        distance = math.sqrt(square)
+        if distance <= 1e-15 * size or distance == 0.0:
+            break
+        unit = np.array(nearest) / distance
+        found = _tuple(two.support(-unit) - one.support(unit) - way)
+        bound = _dot(_tuple(unit), found)
+        if bound > best:
+            best, normal = bound, unit
+        if distance - best <= max(1e-3 * (best - margin), enough) or found in simplex:
+            break
+        size = max(size, math.hypot(*found))
+        last = square
+        square, nearest, kept = _nearest((*simplex, found))
+        if len(kept) == 4:
+            return min(best, 0.0) - margin, normal
+        if simplex and square >= last:
+            # no progress but round-off
+            break
+        simplex = kept
+    return (best if best > -math.inf else 0.0) - margin, normal
+
+
+def _nearest(simplex: tuple[_Point, ...]) -> _Nearest:
+    if len(simplex) == 1:
+        return _dot(simplex[0], simplex[0]), simplex[0], simplex
+    if len(simplex) == 2:
+        return _of_segment(*simplex)
+    if len(simplex) == 3:
+        return _of_triangle(*simplex)
+    return _of_tetrahedron(*simplex)
+
+
+def _of_segment(a: _Point, b: _Point) -> _Nearest:
+    ab = _minus(b, a)
+    square = _dot(ab, ab)
+    part = -_dot(a, ab) / square if square > 0.0 else 0.0
+    if part <= 0.0:
+        return _dot(a, a), a, (a,)
+    if part >= 1.0:
+        return _dot(b, b), b, (b,)
+    point = a[0] + part * ab[0], a[1] + part * ab[1], a[2] + part * ab[2]
+    return _dot(point, point), point, (a, b)
+
+
+def _of_triangle(a: _Point, b: _Point, c: _Point) -> _Nearest:
+    normal = _cross(_minus(b, a), _minus(c, a))
+    square = _dot(normal, normal)
+    if square > 0.0:
+        # the origin is over the inside where it is on the inner side of all three
+        inside = (
+            _dot(_cross(a, b), normal) >= 0.0
+            and _dot(_cross(b, c), normal) >= 0.0
+            and _dot(_cross(c, a), normal) >= 0.0
+        )
+        if inside:
+            height = _dot(a, normal) / square
+            point = height * normal[0], height * normal[1], height * normal[2]
+            return _dot(point, point), point, (a, b, c)
+    return min(_of_segment(a, b), _of_segment(b, c), _of_segment(c, a))
+
+
+def _of_tetrahedron(a: _Point, b: _Point, c: _Point, d: _Point) -> _Nearest:
+    volume = _dot(_cross(_minus(b, a), _minus(c, a)), _minus(d, a))
+    best: _Nearest | None = None
+    outside = volume == 0.0
+    for p, q, r, opposite in ((a, b, c, d), (a, c, d, b), (a, d, b, c), (b, d, c, a)):
+        normal = _cross(_minus(q, p), _minus(r, p))
+        if volume == 0.0 or _dot(p, normal) * _dot(_minus(p, opposite), normal) < 0.0:
+            outside = True
+            here = _of_triangle(p, q, r)
+            best = here if best is None else min(best, here)
+    if best is None or not outside:
+        return 0.0, (0.0, 0.0, 0.0), (a, b, c, d)
+    return best
+
+
+def _tuple(vector: Vector) -> _Point:
+    x, y, z = vector.tolist()
+    return x, y, z
+
+
+def _minus(one: _Point, two: _Point) -> _Point:
+    return one[0] - two[0], one[1] - two[1], one[2] - two[2]
+
+
+def _dot(one: _Point, two: _Point) -> float:
+    return one[0] * two[0] + one[1] * two[1] + one[2] * two[2]
+
+
+def _cross(one: _Point, two: _Point) -> _Point:
+    return (
+        one[1] * two[2] - one[2] * two[1],
+        one[2] * two[0] - one[0] * two[2],
+        one[0] * two[1] - one[1] * two[0],
+    )

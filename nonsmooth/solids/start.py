@@ -1,0 +1,96 @@
+"""The solids of a laid-out system where they stand, and whether some overlap that may not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.layout import CATALOGUE, GEOMETRY
+from nonsmooth.solids.placed import Placed, overlap
+from nonsmooth.system.contact import Contact
+
+if TYPE_CHECKING:
+    from nonsmooth.interfaces.solid import Vector
+    from nonsmooth.model.model import Model
+
+_ENDS = 12
+"""Numbers of a frame that say where it is."""
+
+
+def overlap_allowed(contact: Contact) -> float:
+    """Return by how much bodies that touch may overlap [m]."""
+    return max(1e-9, 1e-6 * contact.size)
+
+
+def check_overlaps(model: Model) -> None:
+    """Look at the solids of all rigid contacts near each other, whose bodies have been evaluated.
+
+    Raises
+    ------
+    InvalidInput
+        If two overlap.
+    """
+    contacts, memory = model.system.contacts, model.memory
+    n = int(memory.scalars["n_contacts"][0])
+    blocks = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
+    slots = {number: slot for slot, number in enumerate(memory.array("identity", n).tolist())}
+    rigid = [number for number in slots if not isinstance(contacts[number].normal, CompliantNormalLaw)]
+    for numbers, one, two in solid_pairs(model, rigid, within=0.0):
+        contact = contacts[numbers[0]]
+        allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
+        nearest = min((slots[number] for number in numbers), key=lambda slot: abs(float(blocks[slot, 0])))
+        found = overlap(one, two, allowed, blocks[nearest, 1:4])
+        if found > 0.0:
+            kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
+            raise InvalidInput(
+                f"start of the {contact.name}",
+                "must not overlap",
+                -found,
+                f"The solids of {kinds} reach at least so far into each other [m]. Place the bodies apart or touching, "
+                "or declare no contact between them.",
+            )
+
+
+def solid_pairs(
+    model: Model, numbers: Sequence[int], within: float = np.inf
+) -> Iterator[tuple[list[int], Placed, Placed]]:
+    """Yield, for every two shapes that have solids, their contacts and the solids where they stand.
+
+    Parameters
+    ----------
+    model : Model
+        Laid out, its bodies evaluated.
+    numbers : sequence of int
+        Contacts of the system.
+    within : float
+        Shapes whose balls about the origins of their frames are farther apart than this are left out [m].
+    """
+    pairs: dict[tuple[int, ...], list[int]] = {}
+    for number in numbers:
+        contact = model.system.contacts[number]
+        pairs.setdefault(tuple(map(id, (contact.first, contact.second, *contact.shapes))), []).append(number)
+    for same in pairs.values():
+        contact, frames = model.system.contacts[same[0]], frames_of(model, same[0])
+        apart = float(np.linalg.norm(frames[0][:3] - frames[1][:3]))
+        if apart - sum(contact.extents) > within:
+            continue
+        first, second = (shape.solid for shape in contact.shapes)
+        if first is not None and second is not None:
+            one, two = (
+                Placed(solid, frame[:3].copy(), frame[3:].reshape(3, 3).copy())
+                for solid, frame in zip((first, second), frames, strict=True)
+            )
+            yield same, one, two
+
+
+def frames_of(model: Model, number: int) -> tuple[Vector, Vector]:
+    """Return position [m] and rotation matrix, row by row, of both frames of a contact, shape [12] each."""
+    width = len(CATALOGUE)
+    row = model.memory.array("catalogue", width * (number + 1))[width * number :]
+    first, second = (int(row[CATALOGUE.index(name)]) for name in ("frame_a", "frame_b"))
+    floats = model.memory.floats
+    return floats[first : first + _ENDS], floats[second : second + _ENDS]

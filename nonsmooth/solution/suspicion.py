@@ -1,0 +1,75 @@
+"""What a run that reached its end may be suspected of: an energy account that is open, quaternions off unit length."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.interfaces import Body
+from nonsmooth.solution.energy import EnergyAccount
+
+_EXPLAINED = 1e3
+"""What steps and impacts within their tolerances leave adds up to no more than so many of them."""
+_OF_IMPACTS = 0.1
+"""Part of the tolerance of impacts that adds up like that of steps."""
+_ROUND_OFF = 1e-12
+"""Part of the potential energy that its difference does not tell from none."""
+
+
+def suspicions(
+    worst_event: tuple[float, float, float],
+    energy: EnergyAccount,
+    bodies: Sequence[Body],
+    samples: tuple[NDArray[np.float64], NDArray[np.float64]],
+    tolerances: tuple[float, float],
+) -> str:
+    """Return what is wrong with a run, "" for nothing.
+
+    ``worst_event`` has time [s], energy [J] and share of what is explained; ``samples`` t and q; ``tolerances`` are
+    those of a step and of an impact.
+    """
+    found = (
+        open_event(*worst_event),
+        open_run(energy, max(tolerances[0], _OF_IMPACTS * tolerances[1])),
+        long_quaternion(bodies, *samples, tolerances[0]),
+    )
+    return "; ".join(filter(None, found))
+
+
+def open_event(time: float, energy: float, share: float) -> str:
+    """Return what is wrong with the event whose account is open most: ``share`` of what tolerances explain, or ""."""
+    if share <= 1.0:
+        return ""
+    return (
+        f"at the event at t = {time:.9g} s {abs(energy):.3g} J {'appear' if energy > 0.0 else 'vanish'} that no work "
+        f"and no loss accounts for, {share:.3g} times what the tolerances explain"
+    )
+
+
+def open_run(energy: EnergyAccount, tolerance: float) -> str:
+    """Return what is wrong with the energy account of a run whose relative tolerance is given, or ""."""
+    most = _EXPLAINED * tolerance
+    potential = max(abs(energy.potential_start), abs(energy.potential_end))
+    if energy.unexplained <= most * energy.scale + _ROUND_OFF * potential:
+        return ""
+    return (
+        f"the energy account of the run is open by {energy.unexplained:.3g} J, {energy.residual:.3g} of what was "
+        f"exchanged, of which the tolerances explain {most:.3g}"
+    )
+
+
+def long_quaternion(bodies: Sequence[Body], t: NDArray[np.float64], q: NDArray[np.float64], tolerance: float) -> str:
+    """Return which quaternion is off unit length most at the samples, by more than the tolerance explains, or ""."""
+    most, found, first = _EXPLAINED * tolerance, "", 0
+    for body in bodies:
+        if body.quaternion >= 0 and len(t) > 0:
+            start = first + body.quaternion
+            off = np.abs(np.linalg.norm(q[:, start : start + 4], axis=1) - 1.0)
+            worst = int(np.argmax(off))
+            if off[worst] > most:
+                most = float(off[worst])
+                found = f"the quaternion of {body!r} is off unit length by {most:.3g} at t = {float(t[worst]):.9g} s"
+        first += body.n_q
+    return found

@@ -1,0 +1,1 @@
+"""Random systems: run by the thousand, looked at by checks that share nothing with the engine."""

@@ -1,0 +1,62 @@
+"""What makes a run that reached its end suspect: both sides of every bound."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bodies import Ball, Plate, Rest
+from nonsmooth.solution.energy import EnergyAccount
+from nonsmooth.solution.suspicion import long_quaternion, open_event, open_run, suspicions
+
+
+def _account(unexplained: float, potential: float = 0.0) -> EnergyAccount:
+    """1 J falls and is lost to friction but for a part."""
+    return EnergyAccount(0.0, potential + 1.0, 0.0, potential, 0.0, 0.0, 1.0 - unexplained, 0.0, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_an_account_open_by_more_than_a_thousand_tolerances_is_named(sign: float) -> None:
+    """The exchange is 2 J, so that 2e-6 J are explained at a tolerance of 1e-9."""
+    assert open_run(_account(sign * 1.9e-6), 1e-9) == ""
+    assert "open by 2.1e-06 J" in open_run(_account(sign * 2.1e-6), 1e-9)
+    assert open_run(_account(sign * 2.1e-6), 1e-8) == ""
+
+
+def test_round_off_of_a_large_potential_energy_is_none() -> None:
+    """At 1e9 J above zero 1 J is known to some 1e-7 J only."""
+    assert open_run(_account(1e-4, 1e9), 1e-9) == ""
+    assert open_run(_account(1e-2, 1e9), 1e-9) != ""
+
+
+def test_an_event_is_named_with_time_and_energy() -> None:
+    """From a share of one on."""
+    assert open_event(0.5, 1e-3, 1.0) == ""
+    assert "at t = 0.5 s 0.001 J appear" in open_event(0.5, 1e-3, 1.1)
+    assert "0.001 J vanish" in open_event(0.5, -1e-3, 1.1)
+
+
+def test_a_long_quaternion_is_named_with_its_body_and_time() -> None:
+    """The third of four bodies, at the second sample."""
+    bodies = [Plate(Rest()), Ball(0.01), Ball(0.02), Ball(0.03)]
+    t = np.array([0.0, 0.1, 0.2])
+    q = np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (3, 3))
+    assert long_quaternion(bodies, t, q, 1e-9) == ""
+    q[1, 7 + 4] = 1e-3  # half its square, 5e-7, is explained
+    assert long_quaternion(bodies, t, q, 1e-9) == ""
+    q[1, 7 + 3] = 1.0 + 2e-6
+    assert "Ball(radius=0.02" in long_quaternion(bodies, t, q, 1e-9)
+    assert "t = 0.1 s" in long_quaternion(bodies, t, q, 1e-9)
+    assert long_quaternion(bodies, t[:0], q[:0], 1e-9) == ""
+
+
+def test_all_that_is_found_is_said() -> None:
+    """Nothing for nothing."""
+    t: Any = np.zeros(0)
+    samples = t, np.zeros((0, 0))
+    assert suspicions((0.0, 0.0, 0.0), _account(0.0), [], samples, (1e-9, 1e-8)) == ""
+    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), [], samples, (1e-9, 1e-8))
+    assert "at the event" in both
+    assert "; the energy account" in both
