@@ -39,6 +39,8 @@ WAY = 1e-7
 """Way over which no gap jumps [m]."""
 TARGETS = 1e-3, 1e-6, 1e-9, 0.0, -1e-9, -1e-7, -1e-6
 """Gaps to which bodies apart are brought [m]."""
+_SLIGHT = 1.5e-6
+"""Overlap beyond which it is deep [m]."""
 _PER_SHAPES = 250
 _NONE = 1e-11
 """Distance of a point from a body that has it [m]."""
@@ -140,6 +142,10 @@ def _search_common(a: Outline, b: Outline, first: Pose, second: Pose, start: Arr
 def proved(a: Outline, b: Outline, first: Pose, second: Pose, rows: Array, rng: Generator) -> Found:
     """Return by how much gaps are off at most, by outlines alone."""
     gap, n, p, q = rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7:10]
+    # without a gap by the line of centres
+    lost, way = ~np.isfinite(gap)[:, None], second[0] - first[0]
+    n = np.where(lost, way / np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None], n)
+    p, q = np.where(lost, first[0], p), np.where(lost, second[0], q)
     lower = along(a, b, first, second, n)
     m = back(first[1], n)
     off = a.outside(back(first[1], p - first[0]) - a.radius * m)
@@ -154,7 +160,7 @@ def proved(a: Outline, b: Outline, first: Pose, second: Pose, rows: Array, rng: 
     for share in np.linspace(0.0, 1.0, 9):
         common |= _common(a, b, first, second, p + share * (q - p))
         common |= _common(a, b, first, second, middle[0] + share * (middle[1] - middle[0]))
-    for i in np.flatnonzero((gap < -_NONE) & ~common):
+    for i in np.flatnonzero(((gap < -_NONE) | lost[:, 0]) & ~common):
         common[i] = _search_common(a, b, _at(first, np.array([i])), _at(second, np.array([i])), p[i])
     error = np.where((gap < -_NONE) & ~common, np.inf, error)
     best = np.full(len(gap), -np.inf)
@@ -188,7 +194,7 @@ class Tally:
     none, wrong, jumps : int
         Without a gap; with one that is off by more than 1e-9 m; whose gap changes by more than 1e-7 m over that way.
     deep, longer : int
-        Overlaps by more than a micrometre, and those of them of which another way out is shorter.
+        Overlaps by more than a micrometre, and those of them without a way out, or of which another one is shorter.
     worst : float
         Largest error of what is not wrong [m].
     cost : float
@@ -234,7 +240,7 @@ def look(shapes: tuple[ConvexShape, ConvexShape], mode: str, rng: Generator, k: 
     rows = gaps(first, second)
     cost = 1e6 * (time.perf_counter() - begin) / k
     tally = replace(_judge(gaps, shapes, (a, b), first, second, rows, rng, note, mode), cost=cost)
-    apart = rows[:, 0] > 1e-6
+    apart = np.isfinite(rows[:, 0]) & (rows[:, 0] > 1e-6)
     if not np.any(apart):
         return tally
     first, second, rows = _at(first, apart), _at(second, apart), rows[apart]
@@ -259,13 +265,14 @@ def _judge(
 ) -> Tally:
     a, b = outlines
     found = proved(a, b, first, second, rows, rng)
-    none = ~np.isfinite(found.gap)
-    deep = found.gap < -1.5e-6
+    lost = ~np.isfinite(found.gap)
+    deep = (found.gap < -_SLIGHT) | (lost & found.common & (found.lower < -_SLIGHT))
+    none = lost & ~deep
     right = found.error <= WRONG
-    wrong = ~none & ~right & ~(deep & found.common)
+    wrong = ~lost & ~right & ~(deep & found.common)
     aside = second[0] + WAY * directions(rng, len(rows)), second[1]
     after = gaps(first, aside)[:, 0]
-    jumps = ~none & (wrong | ~deep) & ~(np.abs(after - found.gap) <= WAY + 1e-12)
+    jumps = ~lost & (wrong | ~deep) & ~(np.abs(after - found.gap) <= WAY + 1e-12)
     longer = deep & ~right & ~wrong
     if note is not None:
         for kind, where in (("none", none), ("wrong", wrong), ("jump", jumps & ~wrong), ("longer", longer)):
