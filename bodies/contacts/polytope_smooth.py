@@ -12,6 +12,7 @@ import math
 from typing import TypeAlias
 
 from bodies.contacts.boxy_line import nearest_to_line
+from bodies.contacts.boxy_newton import Answer
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
@@ -211,18 +212,22 @@ def _nearest(
         if g != g or after == _HERE:
             break
         kind, number = after, where
+    found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     if n_faces == 0:
         # a segment, by a search along it
         vx, vy, vz = _vertex(hull, 0)
         ex, ey, ez, length = _edge(hull, 0)
         found, s = along_segment(core, turn, x - vx, y - vy, z - vz, ex, ey, ez, length)
+        number = n_edges if s == 0.0 else n_edges + 1 if s == length else 0
         if found[0] >= 0.0:
-            feature = n_edges if s == 0.0 else n_edges + 1 if s == length else 0
-            return found[0], found[4], found[5], found[6], feature
-    g, nx, ny, nz, number = _best_of_all(hull, core, turn, x, y, z, near)
+            return found[0], found[4], found[5], found[6], number
+    g, nx, ny, nz, feature_of_all = _best_of_all(hull, core, turn, x, y, z, near)
     if best == best and not g > best:
         return best, bx, by, bz, feature
-    return g, nx, ny, nz, number
+    if g != g and found[0] == found[0]:
+        # a point of the segment in the smooth body: they do overlap
+        return found[0], found[4], found[5], found[6], number
+    return g, nx, ny, nz, feature_of_all
 
 
 @compiled
