@@ -29,6 +29,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+from nonsmooth.certificates import follows_map
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
 
@@ -47,8 +48,8 @@ class Lone(ImpactMap):
         out[0] = -(1.0 + restitution[0]) * min(rates[0], 0.0) / delassus[0]
         out[1] = out[2] = 0.0
 
-    def is_fulfilled(self, stored, returned, tolerance):
-        return returned <= stored + tolerance
+    def is_fulfilled(self, delassus, before, impulses, friction, tolerance):
+        return follows_map(self, delassus, before, impulses, friction, tolerance)
 """
 
 

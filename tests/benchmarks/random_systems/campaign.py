@@ -71,7 +71,7 @@ def collect(
     tasks = (("run", case_of, seed, seconds, folder) for seed in seeds if seed not in kept)
     last = time.monotonic()
     with path.open("a", encoding="utf-8") as file:
-        for (_, _, seed, *_), word, value in spread(work, tasks, workers, 10.0 * seconds + 30.0):
+        for (_, _, seed, *_), word, value in spread(work, tasks, workers, 10.0 * seconds + 120.0):
             kept[seed] = value if word == "back" else Outcome(word, seconds=seconds)
             print(json.dumps({"seed": seed, **kept[seed].row()}), file=file, flush=True)
             if time.monotonic() - last > 10.0:

@@ -117,6 +117,7 @@ def test_a_run_that_is_right_passes_and_one_that_is_spoilt_does_not() -> None:
     assert kinds(q=_shifted(right.q, late, 0, math.nan)) == {"not-finite"}
 
 
+@pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
 def test_a_system_of_a_number_is_always_the_same_and_all_kinds_occur() -> None:
     names: set[str] = set()
     for seed in range(120):
