@@ -24,6 +24,7 @@ from nonsmooth.engine.impact_rates import (
 )
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import dense_state
+from nonsmooth.engine.watch import interrupted
 
 _SLACK = 1e-9
 """A compression that comes to nothing, of round-off, ends at this deformation below zero, relative to a full one."""
@@ -119,6 +120,7 @@ def prepare_guards(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("f8(S, F, I, f8, f8, i8)")
 def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int) -> float:
+    interrupted(S, S.n_active)
     dense_state(S, w, S.impact_y, S.impact_slopes, STRIDE * S.n_active, h, theta, S.impact_stage)
     evaluate_impact_guards(S, w, k, S.impact_stage)
     return w[S.impact_guard + i]

@@ -24,7 +24,7 @@ from nonsmooth.model.laying import Places
 from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, FORCE_AND_MOMENT, N_ACCOUNTS, PAIR
 from nonsmooth.model.memory import Heap, Memory
 from nonsmooth.parameters import Value
-from nonsmooth.plugins.bounds import FRAMES, try_out
+from nonsmooth.plugins.bounds import try_out
 from nonsmooth.plugins.compile import bind, parameter_names, vector_place
 from nonsmooth.system.contact import Contact
 
@@ -74,18 +74,17 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
         functions.append(("efficiency", impact.efficiency, "scalar", impact.parameters()))
     owners = {"geometry": contact.kinematics, "normal": contact.normal, "force": impact, "efficiency": impact}
     start = initial_state(contact)
-    trials: dict[str, tuple[int, tuple[float | tuple[float, ...], ...]]] = {
-        "pair": (PAIR, FRAMES),
-        "traction": (FORCE_AND_MOMENT + len(start), (1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start)),
-        "rates": (len(start), (0.1, (), start)),
-    }
     fields: dict[str, int] = {"mode": OPEN}
     for name, function, form, available in functions:
         owner = f"{type(owners.get(name, contact.friction)).__name__} ({contact.name})"
         address, values = bind(function, form, available, owner)
-        if form in trials:
-            size, given = trials[form]
-            try_out(function, form, available, values, size, owner, given)
+        if form == "pair":
+            try_out(function, form, available, values, PAIR, owner)
+        elif form == "traction":
+            given = 1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start
+            try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, given)
+        elif form == "rates":
+            try_out(function, form, available, values, len(start), owner, (0.1, (), start))
         fields |= {f"{name}_function": address, f"{name}_parameters": heap.store(values)}
         if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
             fields["state_copy"] = fields["friction_parameters"] + _place_of_state(contact.friction, values)

@@ -358,6 +358,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "event_codes": _per(1, "event_integers"),
     "identity": _per(1, "n_slots"),
     "doubtful": _per(1, "n_slots"),
+    "astray": _per(1, "n_slots"),
     "member": _per(1, "n_slots"),
     "grouped": _per(1, "n_slots"),
     "group_of": _per(1, "n_slots"),

@@ -77,8 +77,12 @@ INTEGER_SCALARS = (
     "approaching",
     "sample_index",
     "n_doubtful",
-    "astray",
+    "n_astray",
     "calls",
+    "work",
+    "patience",
+    "watch",
+    "stopped",
 )
 FLOAT_SCALARS = (
     "t",

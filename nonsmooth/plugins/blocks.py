@@ -50,7 +50,13 @@ class Block(NamedTuple):
 
 def blocks(model: Model) -> Iterator[Block]:
     """Yield the blocks of loads, bodies and listed contacts; bodies feel loads, contacts both."""
-    memory, system = model.memory, model.system
+    yield from _blocks_of_bodies(model)
+    for slot in range(int(model.memory.scalars["n_contacts"][0])):
+        yield _block_of_slot(model, slot)
+
+
+def _blocks_of_bodies(model: Model) -> Iterator[Block]:
+    system = model.system
     for i, tie in enumerate(system.loads):
         assert isinstance(tie.component, Load)
         function = tie.component.evaluator
@@ -60,11 +66,12 @@ def blocks(model: Model) -> Iterator[Block]:
         rates = _entry(model, "body_tail", i) - start + body.n_q + body.n_u
         written = FRAME if body.n_u == 0 else rates
         yield Block(functools.partial(repr, body), body.evaluator, start, rates + body.n_u**2 + 2, written)
-    n, first = int(memory.scalars["n_contacts"][0]), int(memory.scalars["geometry"][0])
-    for slot, number in enumerate(memory.array("identity", n)):
-        contact = system.contacts[int(number)]
-        function = contact.kinematics.evaluator
-        yield Block(_label(contact, function), function, first + GEOMETRY * slot, PAIR, PAIR)
+
+
+def _block_of_slot(model: Model, slot: int) -> Block:
+    contact = model.system.contacts[_entry(model, "identity", slot)]
+    function, first = contact.kinematics.evaluator, int(model.memory.scalars["geometry"][0])
+    return Block(_label(contact, function), function, first + GEOMETRY * slot, PAIR, PAIR)
 
 
 def _blocks_of_joints_and_laws(model: Model) -> Iterator[Block]:
@@ -73,16 +80,16 @@ def _blocks_of_joints_and_laws(model: Model) -> Iterator[Block]:
         assert isinstance(tie.component, Joint)
         function, size = tie.component.evaluator, JOINT_ROW * tie.component.n_rows
         yield Block(_label(tie, function), function, _entry(model, "joint_out", number), size, size)
-    for i, contact in enumerate(model.system.contacts):
-        law = contact.friction
+    contacts = model.system.contacts
+    rows = model.memory.array("catalogue", len(CATALOGUE) * len(contacts)).reshape(len(contacts), len(CATALOGUE))
+    for i in np.flatnonzero(rows[:, CATALOGUE.index("traction_out")]):
+        law, starts = contacts[i].friction, dict(zip(CATALOGUE, rows[i].tolist(), strict=True))
+        assert isinstance(law, (TractionLaw, StatefulFrictionLaw))
         if isinstance(law, TractionLaw):
-            function, place, size = law.traction, "traction_out", FORCE_AND_MOMENT + len(law.initial_state)
-        elif isinstance(law, StatefulFrictionLaw):
-            function, place, size = law.rates, "rates_out", len(law.initial_state)
+            function, start, size = law.traction, starts["traction_out"], FORCE_AND_MOMENT + len(law.initial_state)
         else:
-            continue
-        start = _entry(model, "catalogue", len(CATALOGUE) * i + CATALOGUE.index(place))
-        yield Block(_label(contact, function), function, start, size, size)
+            function, start, size = law.rates, starts["rates_out"], len(law.initial_state)
+        yield Block(_label(contacts[i], function), function, start, size, size)
 
 
 def _label(owner: Tie | Contact, function: Callable[..., None]) -> Callable[[], str]:
@@ -96,7 +103,11 @@ def _entry(model: Model, name: str, i: int) -> int:
 def written_past(model: Model) -> str:
     """Return a sentence that names a function that has written past its block; nothing if none has."""
     memory = model.memory
-    for block in (*blocks(model), *_blocks_of_joints_and_laws(model)):
+    slots, listed = (int(memory.scalars[name][0]) for name in ("n_slots", "n_contacts"))
+    behind = memory.array("geometry", GEOMETRY * slots).reshape(slots, GEOMETRY)[:, PAIR:]
+    written = np.flatnonzero(np.any(behind != UNTOUCHED, axis=1))
+    pairs = [_block_of_slot(model, int(slot)) for slot in written if slot < listed]
+    for block in (*_blocks_of_bodies(model), *pairs, *_blocks_of_joints_and_laws(model)):
         end = block.start + block.size
         touched = memory.floats[end : end + GUARD] != UNTOUCHED
         if np.any(touched):
@@ -106,8 +117,7 @@ def written_past(model: Model) -> str:
         law = model.system.contacts[0].impact
         assert isinstance(law, ImpactMap)
         return _sentence(f"{type(law).__name__}: {described(law.impulses)},", 3 * n, 3 * n)
-    slots = int(memory.scalars["n_slots"][0])
-    if np.any(memory.array("geometry", GEOMETRY * slots).reshape(slots, GEOMETRY)[:, PAIR:] != UNTOUCHED):
+    if len(written):
         return _sentence("the kinematics of a contact that is not near by now", PAIR, PAIR)
     return ""
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, BoxBody, DrivenBody, EllipsoidBody, Plate, Rest, Sphere
+from bodies import Ball, BoxBody, Cone, ConeBody, DrivenBody, EllipsoidBody, Plate, Rest, Rod, Sphere
 from laws import EnergeticImpact, Frictionless, Unilateral
 
 G, R = 9.81, 0.01
@@ -139,3 +139,36 @@ def test_a_run_of_hours_locates_events_to_what_doubles_tell() -> None:
     impacts = solution.events.time[1:]
     # what an event is off, some 1e-11 s, the velocity keeps, and all later events are off by as much more
     np.testing.assert_allclose(impacts, fall * (2.0 * np.arange(601) + 1.0), rtol=0.0, atol=1e-11 * 600**2)
+
+
+def _causes_and_times(system: ns.System, t_end: float, step: float) -> tuple[list[str], np.ndarray]:
+    run = ns.simulate(system, t_end, sample_interval=t_end, options=ns.Options(largest_step=step))
+    return run.events.causes(), run.events.time
+
+
+def test_contacts_that_close_together_hide_none_that_closed_before() -> None:
+    """The four lower corners of a box reach the plate at once, as its edges, long before, a rod parallel to them."""
+    plate, box, rod = Plate(), BoxBody(0.0076, 0.0154, 0.0158, 1200.0, rounding=0.0007), Rod(0.0426, 0.00582, 2700.0)
+    system = ns.System([plate, box, rod])
+    for pair in ((plate, box), (plate, rod), (box, rod)):
+        system.contact(*pair, **LAWS)
+    system.place(box, position=(0.0, 0.0, 0.0755))
+    system.place(rod, position=(0.0, 0.0, 0.0183))
+    long, short = (_causes_and_times(system, 0.11, step) for step in (0.1, 1e-3))
+    assert long[0] == short[0]
+    np.testing.assert_allclose(long[1], short[1], rtol=0.0, atol=1e-9)
+
+
+def test_rims_that_face_each_other_for_an_instant_of_a_long_step_collide() -> None:
+    """A cone falls past the rim of a held cone whose rim it grazes by 24 micrometres."""
+    cone = ConeBody(0.007446, 0.017683, 7800.0, foot_height=0.0)
+    over = Rest(position=(0.009508, -0.015472, 0.028888), orientation=(0.0, 1.0, 0.0, 0.0))
+    held = DrivenBody(over, (Cone(0.009528, 0.019882),))
+    system = ns.System([cone, held])
+    system.contact(cone, held, **LAWS)
+    q = np.array([-0.279185, 0.085136, -0.290044, -0.911418])
+    system.place(cone, position=(0.0, 0.0, 0.085), orientation=q / np.linalg.norm(q), velocity=(0.0, 0.0, -0.77))
+    long, short = (_causes_and_times(system, 0.06, step) for step in (0.1, 1e-4))
+    assert "impact" in short[0]
+    assert long[0] == short[0]
+    np.testing.assert_allclose(long[1], short[1], rtol=0.0, atol=1e-9)

@@ -27,7 +27,7 @@ from tests.testing import (
     traction_dummies,
 )
 
-RIGID = {"normal": Unilateral(), "impact": NewtonImpact(0.5)}
+RIGID: dict[str, Any] = {"normal": Unilateral(), "impact": NewtonImpact(0.5)}
 
 
 def _landing(**laws: Any) -> ns.System:
@@ -57,9 +57,10 @@ def _joint() -> ns.System:
 def _pair() -> ns.System:
     bodies = body_dummies.Ball(), body_dummies.Ball()
     system, kinematics = ns.System(bodies), pair_dummies.Pair(pair_dummies.BEYOND)
+    shapes, sizes = (pair_dummies.FIRST, pair_dummies.SECOND), (0.5, 0.5)
     # not by System.contact, which looks for kinematics among those installed
     system._contacts.append(
-        Contact("the contact", *bodies, (0, 0), kinematics, (0.5, 0.5), **RIGID, friction=Coulomb(0.2))
+        Contact("the contact", *bodies, (0, 0), shapes, kinematics, sizes, sizes, friction=Coulomb(0.2), **RIGID)
     )
     return system
 
@@ -139,8 +140,10 @@ def test_a_run_in_which_a_block_is_left_is_not_done(where: int) -> None:
         return
     with pytest.raises(ns.RunFailed, match=rf"Late.*_late in .*test_bounds.py.* to out\[{where}\]") as caught:
         ns.simulate(system, 0.03)
-    assert caught.value.solution.status == "failed"
-    assert np.all(np.isfinite(caught.value.solution.q))
+    solution = caught.value.solution
+    assert isinstance(solution, ns.Solution)
+    assert solution.status == "failed"
+    assert np.all(np.isfinite(solution.q))
 
 
 def far(n: int, delassus: Any, rates: Any, out: Any, friction: Any, restitution: Any) -> None:
