@@ -17,7 +17,6 @@ from laws.impact.hertz import (
     effective_modulus,
     effective_radius,
     hertz_stiffness,
-    plane_strain_modulus,
 )
 from laws.impact.johnson import JohnsonImpact, johnson_restitution, johnson_speed
 from laws.impact.mono_stiffness import MonoStiffnessImpact
@@ -67,7 +66,6 @@ __all__ = [
     "hertz_stiffness",
     "johnson_restitution",
     "johnson_speed",
-    "plane_strain_modulus",
     "viscoelastic_restitution",
     "viscoelastic_speed",
 ]

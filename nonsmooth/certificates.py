@@ -7,27 +7,38 @@ import inspect
 import math
 from collections.abc import Callable
 
+import numpy as np
+
 from nonsmooth.interfaces import (
     AnisotropicFrictionLaw,
     CompliantNormalLaw,
     FrictionLaw,
+    ImpactMap,
     StatefulFrictionLaw,
     TractionLaw,
 )
+from nonsmooth.types import Array
 
 Pair = tuple[float, float]
 
 
-def coefficient_of(law: FrictionLaw) -> Callable[[float], float]:
-    """Return the coefficient of a law as a function of the slip speed [m/s] alone, inner states as they start."""
+def coefficient_of(law: FrictionLaw, state: tuple[float, ...] | None = None) -> Callable[[float], float]:
+    """Return the coefficient of a law as a function of the slip speed [m/s] alone, by default in its initial state."""
     offered: dict[str, object] = dict(law.parameters())
     if isinstance(law, StatefulFrictionLaw):
-        offered["state"] = law.initial_state
+        offered["state"] = law.initial_state if state is None else state
     names = list(inspect.signature(law.coefficient).parameters)[1:]
     return functools.partial(law.coefficient, **{name: offered[name] for name in names})
 
 
-def opposes_slip(law: FrictionLaw, slip: Pair, normal_force: float, tangential_force: Pair, tolerance: float) -> bool:
+def opposes_slip(
+    law: FrictionLaw,
+    slip: Pair,
+    normal_force: float,
+    tangential_force: Pair,
+    tolerance: float,
+    state: tuple[float, ...] | None = None,
+) -> bool:
     """Tell whether a force lies in the disc of a friction law and, under slip, on its edge against the slip.
 
     Parameters
@@ -42,10 +53,12 @@ def opposes_slip(law: FrictionLaw, slip: Pair, normal_force: float, tangential_f
         Tangential force [N], shape (2,).
     tolerance : float
         Deviation that counts as zero [m/s, N].
+    state : tuple of float, optional
+        Inner states of a law that has some; the initial ones by default.
     """
     speed = math.hypot(*slip)
     rests = speed <= tolerance
-    bound = coefficient_of(law)(0.0 if rests else speed) * normal_force
+    bound = coefficient_of(law, state)(0.0 if rests else speed) * normal_force
     if rests:
         return math.hypot(*tangential_force) <= bound + tolerance
     # a distance, so that the verdict is the same in any axes
@@ -94,3 +107,18 @@ def follows_traction(
     out = [math.nan] * (5 + len(state))
     law.traction(normal_force, motion, state, out, **{name: law.parameters()[name] for name in names})
     return math.dist(out[:5], traction) <= tolerance
+
+
+def follows_map(
+    law: ImpactMap, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float
+) -> bool:
+    """Tell whether impulses give the velocities [m/s] that those of a map give, for maps in closed form.
+
+    A map that solves a problem has a certificate of the problem instead: its solution may be one of several.
+    """
+    n = len(friction)
+    names = list(inspect.signature(law.impulses).parameters)[5:]
+    own = {name: np.full(n, law.numbers()[name]) for name in names}
+    out = np.zeros(3 * n)
+    law.impulses(n, np.ravel(delassus), before, out, friction, **own)
+    return float(np.max(np.abs(delassus @ (impulses - out)))) <= tolerance

@@ -8,16 +8,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.contact_result import MODES, ContactResult
-from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.engine.kernel import room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Heap, Memory, allocate
 from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
-from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.compile import bind
 from nonsmooth.plugins.law_failure import first_without_value, law_functions, without_value
+from nonsmooth.watch import Watch
 
 
 def solve_contact(
@@ -112,10 +112,8 @@ def solve_contact(
     memory.array("b", 3 * n)[:] = s.ravel() + columns.T @ free
     memory.scalars["acceleration_scale"] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
     memory.array("rate", 3 * n).reshape(n, 3)[:, 1:] = v
-    interpreted.forget()
-    solved = call_room("solve_from_rates", memory)
-    if interpreted.let_go():
-        raise KeyboardInterrupt
+    with Watch(memory) as watch:
+        solved = watch.call("solve_from_rates")
     if solved == 0:
         culprit = _culprit(memory, friction)
         raise RunFailed(f"The solver {solver!r} finds no contact forces that fulfil the laws. {culprit}".strip())

@@ -55,7 +55,11 @@ class PluginError(NonsmoothError):
     """A law, body or scenario from a plug-in that cannot be loaded."""
 
 
-class RunsInPython(UserWarning):
+class NonsmoothWarning(UserWarning):
+    """Base of every warning of this package and of its components; the command line tells each in one line, once."""
+
+
+class RunsInPython(NonsmoothWarning):
     """A function that the compiler refuses, which runs in Python: as right, but slow; where, why, at which cost."""
 
 

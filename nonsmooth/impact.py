@@ -10,15 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.contact import check_friction
 from nonsmooth.engine.impact_problem import FINISHED
-from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.engine.kernel import room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.model.delassus import write_delassus
 from nonsmooth.model.layout import COUNTS
 from nonsmooth.model.memory import Heap, Memory, allocate
-from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.compile import bind
 from nonsmooth.plugins.law_failure import first_without_value, law_functions, without_value
+from nonsmooth.watch import Watch
 
 Floats = NDArray[np.float64]
 
@@ -138,10 +138,8 @@ def solve_impact(
     memory.array("impact_z0", 3 * n)[:] = rates
     outcome = FINISHED
     if np.any(rates[::3] < 0.0):
-        interpreted.forget()
-        outcome = int(call_room("energetic_impact", memory))
-        if interpreted.let_go():
-            raise KeyboardInterrupt
+        with Watch(memory) as watch:
+            outcome = int(watch.call("energetic_impact"))
     if outcome != FINISHED:
         raise RunFailed(f"The impact did not end. {_culprit(memory, impact, friction)}")
     impulse = memory.array("impulse", 3 * n).reshape(n, 3).copy()

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeAlias, get_origin, get_type_hints
 
-from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 
 
-class UnusualValue(UserWarning):
+class UnusualValue(NonsmoothWarning):
     """A parameter that is allowed, but of an order of magnitude that suggests a wrong unit."""
 
 

@@ -9,23 +9,21 @@ from typing import TypeAlias
 
 import numpy as np
 
-from nonsmooth.engine.kernel import call_room
 from nonsmooth.engine.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.model import Model
 from nonsmooth.model.options import Options
-from nonsmooth.plugins import interpreted
+from nonsmooth.plugins.blocks import written_past
 from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
 from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
+from nonsmooth.watch import Watch
 
 _STEPS_AT_ONCE = 2000
-_SECONDS_AT_ONCE = 0.2
-"""Longer than this the engine shall not keep from progress and interruption."""
 _DEFAULT_SAMPLES = 2000
 Progress = Callable[[float, float], None]
 _Chunks: TypeAlias = dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]]
@@ -52,7 +50,8 @@ def simulate(
     options : Options, optional
         Tolerances.
     progress : callable, optional
-        Called now and then with the time reached and the end time [s].
+        Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
+        raises ends the run and is raised.
 
     Returns
     -------
@@ -82,28 +81,23 @@ def _run(model: Model, progress: Progress | None) -> Solution:
     start = model.energy()
     chunks: _Chunks = {}
     began = time.perf_counter()
-    status, word, steps = PAUSED, "done", _STEPS_AT_ONCE
-    interpreted.forget()
+    status, word = PAUSED, "done"
+    t_end = float(scalars["t_end"][0])
+    report = None if progress is None else lambda t: progress(t, t_end)
     try:
-        while status == PAUSED:
-            called = time.perf_counter()
-            status = int(call_room("advance", model.memory, steps))
-            if interpreted.let_go():
-                status = PAUSED
-                raise KeyboardInterrupt
-            slow = time.perf_counter() - called > _SECONDS_AT_ONCE
-            steps = max(1, steps // 4) if slow else min(2 * steps, _STEPS_AT_ONCE)
-            _drain(model, chunks)
-            if progress is not None:
-                progress(float(scalars["t"][0]), float(scalars["t_end"][0]))
+        with Watch(model.memory, report) as watch:
+            while status == PAUSED:
+                status = int(watch.call("advance", _STEPS_AT_ONCE))
+                _drain(model, chunks)
+                if progress is not None:
+                    progress(float(scalars["t"][0]), t_end)
     except KeyboardInterrupt:
         _drain(model, chunks)
-        word = "interrupted"
-    if status not in (DONE, STOPPED, PAUSED):
+        status, word = PAUSED, "interrupted"
+    message, past = REASONS[status], written_past(model)
+    if past or status not in (DONE, STOPPED, PAUSED):
         word = "failed"
-    message = REASONS[status]
-    if word == "failed":
-        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {culprit(model, status)}".strip()
+        message = f"At t = {float(scalars['t'][0]):.9g} s {message}. {past or culprit(model, status)}".strip()
     wall = time.perf_counter() - began
     solution = _solution(model, start, chunks, word, message, wall)
     if word == "failed":

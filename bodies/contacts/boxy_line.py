@@ -188,12 +188,16 @@ def nearest_to_line(
         b1 = (way[0] - g * slide[0]) * a1 + (way[1] - g * slide[1]) * a2
         b2 = (way[1] - g * slide[1]) * a1 + (way[2] - g * slide[2]) * a2
         determinant = b1 * k2 - b2 * k1
-        if determinant == 0.0:
-            break
         tilt = lean + sine
-        i, j = (b2 * tilt - k2 * off) / determinant, (k1 * off - b1 * tilt) / determinant
-        if abs(i) + abs(j) > _ASTRAY * length:
-            break
+        i, j = b2 * tilt - k2 * off, k1 * off - b1 * tilt
+        if abs(i) + abs(j) < _ASTRAY * length * abs(determinant):
+            i, j = i / determinant, j / determinant
+        else:
+            # along a flat line any point has the lean: the nearest one over the line
+            square = max(b1 * b1 + b2 * b2, _ROUND_OFF)
+            i, j = -off * b1 / square, -off * b2 / square
+            if abs(i) + abs(j) > _ASTRAY * length:
+                break
         w = (
             w[0] + i * along[0] + j * beside[0],
             w[1] + i * along[1] + j * beside[1],

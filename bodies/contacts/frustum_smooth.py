@@ -26,11 +26,12 @@ from bodies.contacts.frustum import (
     part_number,
     write_part,
 )
-from bodies.contacts.frustum_stops import ON_BORDER, on_cap, on_flank, on_rim
+from bodies.contacts.frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
+from bodies.contacts.round_search import up_hills
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
-from bodies.contacts.smooth_newton import write_surface
+from bodies.contacts.smooth_newton import widest_of_round, write_surface
 from bodies.contacts.tangents import write_tangent
-from bodies.shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import gauge_of
 from nonsmooth.compiled import compiled
@@ -42,6 +43,12 @@ _SHALLOW = 1e-6
 """Overlap, in units of the size, up to which the first stop is taken without a look at the others."""
 _CLOSE = 1e-12
 """Distance of the centre from the axis that has no direction, in units of the size."""
+_SAMPLES, _PROJECTIONS = 8, 16
+"""Parts of the way between the points of a stop at whose ends a point of both is looked for, and further points."""
+_DEEP = 0.9
+"""Gauge of the frustum's point next to the core's centre, from which on bodies overlap more than a little."""
+_ON_SURFACE = 1e-12
+"""What the gauge of a point of the surface is off 1 at most."""
 _TURNS = 8
 """Directions round the axis from which every part is tried where none was found from that of the centre."""
 
@@ -78,12 +85,63 @@ def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found:
 
 
 @compiled
+def _into(frustum: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return the point of the frustum that is nearest to a point of its axes."""
+    away = math.sqrt(x * x + y * y)
+    outside, radial, axial, _ = nearest_part(frustum, z, away)
+    if outside <= 0.0:
+        return x, y, z
+    across = outside * radial / away if away > 0.0 else 0.0
+    return x - across * x, y - across * y, z - outside * axial
+
+
+@compiled
+def _share_a_point(
+    frustum: Floats, point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer
+) -> bool:
+    """Return whether a point is known that both bodies have, where a stop says that they overlap.
+
+    Looked at are the frustum's points next to some of the way between the points of the stop, and then next to the
+    core's centre, next to the core's point nearest to that, and so on.
+    """
+    g, qx, qy, qz, nx, ny, nz = found
+    px, py, pz = qx, qy, qz
+    for i in range(_SAMPLES + _PROJECTIONS):
+        if i <= _SAMPLES:
+            part = g * i / _SAMPLES
+            px, py, pz = qx - part * nx, qy - part * ny, qz - part * nz
+        elif i == _SAMPLES + 1:
+            px, py, pz = x, y, z
+        else:
+            # p is outside of the core: behind its surface, farther each time
+            wx, wy, wz = x - px, y - py, z - pz
+            off, wx, wy, wz, _, _, _ = widest_of_round(point, core, turn, wx, wy, wz, wx, wy, wz)
+            if not off > 0.0:
+                return False
+            part = float(i - _SAMPLES)
+            px, py, pz = px + part * wx, py + part * wy, pz + part * wz
+        px, py, pz = _into(frustum, px, py, pz)
+        bx, by, bz = back(turn, px - x, py - y, pz - z)
+        if gauge_of(core, bx, by, bz) <= 1.0 + _ON_SURFACE:
+            return True
+    return False
+
+
+@compiled
 def _nearest(
-    frustum: Floats, low: Floats, high: Floats, core: Floats, turn: Axes, x: float, y: float, z: float
+    frustum: Floats,
+    low: Floats,
+    high: Floats,
+    point: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
 ) -> tuple[Answer, int]:
     """Return gap of the cores, the smooth body's point and the normal in the frustum's axes, and the part.
 
-    The gap is nan where none was found.
+    The gap is nan where none was found.  One below 0 is told only with a point that both bodies have.
     """
     size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + frustum[0] + frustum[HIGH] - frustum[LOW]
     near = ON_BORDER * size
@@ -97,10 +155,15 @@ def _nearest(
             return over, part
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     where = LOW_CAP
-    for start in range(_TURNS + 3):
-        # at first by the centre, then steep, flat, and last all round
-        tilt = -0.5 if start == 0 else 0.05 if start == 1 else 0.95 if start == 2 else 0.5
-        if start > 2:
+    is_deep = False
+    for start in range(_TURNS + 4):
+        if start == 1:
+            px, py, pz = _into(frustum, x, y, z)
+            px, py, pz = back(turn, px - x, py - y, pz - z)
+            is_deep = gauge_of(core, px, py, pz) < _DEEP
+        # at first by the centre, then without a start, steep, flat, and last all round
+        tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
+        if start > 3:
             # a stop on the far side is none of bodies that are apart
             sx, sy = math.cos(2.0 * math.pi * start / _TURNS), math.sin(2.0 * math.pi * start / _TURNS)
         for i in range(9):
@@ -109,9 +172,14 @@ def _nearest(
             rim = part == LOW_RIM or part == HIGH_RIM
             if part < LOW_CAP or part > HIGH_CAP or (frustum[SIDE] == 0.0 and (part == FLANK or part == HIGH_RIM)):
                 continue
-            if not rim and (start == 1 or start == 2):
+            if not rim and (start == 2 or start == 3):
                 continue
-            if part == LOW_CAP or part == HIGH_CAP:
+            if start == 1:
+                if is_deep:
+                    # bodies that overlap so much have no one stop that a search could prove
+                    continue
+                found = by_search(frustum, point, core, turn, x, y, z, sx, sy, part, size)
+            elif part == LOW_CAP or part == HIGH_CAP:
                 found = on_cap(frustum, core, turn, x, y, z, part, near)
             elif part == FLANK:
                 found = on_flank(frustum, core, turn, x, y, z, sx, sy, near)
@@ -122,10 +190,44 @@ def _nearest(
                 best, where = found, part
                 if found[0] >= -_SHALLOW * size or _is_before(core, turn, x, y, z, found):
                     return best, where
+    if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
+        best, where = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
     return best, where
 
 
-def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, high: Floats, second: Floats) -> None:
+@compiled
+def _on_hills(
+    frustum: Floats,
+    low: Floats,
+    high: Floats,
+    point: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    size: float,
+) -> tuple[Answer, int]:
+    """Return the same by steps, of a rim or the apex."""
+    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    where = LOW_RIM
+    for part in (LOW_RIM, HIGH_RIM):
+        if part == HIGH_RIM and frustum[SIDE] == 0.0:
+            continue
+        circle, height = (low, frustum[LOW]) if part == LOW_RIM else (high, frustum[HIGH])
+        up = 0.0 if frustum[SIDE] == 0.0 else 1.0 if part == HIGH_RIM else -1.0
+        found: Answer = up_hills(circle, core, turn, x, y, z - height, up, (frustum[COS], frustum[SIN], size))
+        if found[0] == found[0] and not found[0] <= best[0]:
+            best = found[0], found[1], found[2], found[3] + height, found[4], found[5], found[6]
+            where = part
+    if not best[0] >= 0.0 and not _share_a_point(frustum, point, core, turn, x, y, z, best):
+        best = math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
+    return best, where
+
+
+def _evaluate(
+    a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, high: Floats, point: Floats, second: Floats
+) -> None:
     """Write the geometry block of a frustum, whose rims are the cores ``low`` and ``high``, and a core.
 
     The gap is nan where no part can be proved to be the nearest.
@@ -135,7 +237,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, hig
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
     x, y, z = back(axes_a, bx - ax, by - ay, bz - az)
     turn = between_axes(axes_a, axes_b)
-    (g, px, py, pz, nx, ny, nz), part = _nearest(first, low, high, second, turn, x, y, z)
+    (g, px, py, pz, nx, ny, nz), part = _nearest(first, low, high, point, second, turn, x, y, z)
     out[0] = g - second[RADIUS] - first[SWEEP]
     out[1], out[2], out[3] = forth(axes_a, nx, ny, nz)
     qx, qy, qz = forth(axes_a, px, py, pz)
@@ -184,11 +286,17 @@ class FrustumSmooth(ContactKinematics):
         return (cls(first, second),)
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return the numbers of the frustum, of its rims as flat cores, and of the support function."""
+        """Return the numbers of the frustum, of its rims as flat cores, of a point, and of the support function."""
         frustum = self.first.frustum
         # a flat ellipsoid, or a point
         low, high = ((radius, radius, 0.0, 2.0, 2.0, 0.0) for radius in frustum[:2])
-        return {"first": frustum, "low": low, "high": high, "second": self.second.core}
+        return {
+            "first": frustum,
+            "low": low,
+            "high": high,
+            "point": (0.0, 0.0, 0.0, 2.0, 2.0, 0.0),
+            "second": self.second.core,
+        }
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -11,7 +11,8 @@ import math
 
 from bodies.contacts.boxy_line import across_line, nearest_to_line
 from bodies.contacts.boxy_newton import Answer
-from bodies.contacts.frustum import HIGH_CAP, HIGH_RIM
+from bodies.contacts.frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
+from bodies.contacts.round_search import next_to_axis, round_circle
 from bodies.contacts.smooth_core import Axes, back, bend, forth
 from bodies.contacts.smooth_newton import widest_of_round
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN
@@ -21,6 +22,8 @@ from nonsmooth.types import Floats
 
 ON_BORDER = 1e-14
 """How far a point may be over the end of a part, in units of the size, and a normal over that of its cone."""
+_NEAR_BORDER = 1e-10
+"""The same where a search found it: it errs in the gap by no more than the square."""
 _STEPS, _HALVINGS = 60, 40
 _ROUND_OFF, _SEEN, _CLOSE, _RIGHT = 2e-16, 1e-14, 1e-12, 1e-13
 """As in :mod:`bodies.contacts.dual_newton`."""
@@ -161,3 +164,53 @@ def on_rim(
     if not flat and up * lean < -ON_BORDER:
         g = math.nan
     return g, px, py, pz + height, nx, ny, nz
+
+
+@compiled
+def by_search(
+    frustum: Floats,
+    point: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    sx: float,
+    sy: float,
+    part: int,
+    size: float,
+) -> Answer:
+    """Return the stop of a part by searches round the axis, where the others found none.
+
+    Next to where two parts meet either of them serves: there their gaps are the same to the square of the way.
+    """
+    near = _NEAR_BORDER * size
+    found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    if part == LOW_CAP or part == HIGH_CAP:
+        found = on_cap(frustum, core, turn, x, y, z, part, near)
+    elif part == FLANK:
+        cosine, sine = frustum[COS], frustum[SIN]
+        reach, length = cosine * frustum[0] + sine * frustum[LOW], math.sqrt(sx * sx + sy * sy)
+        ex, ey = sx / length, sy / length
+        found = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
+        if not _before_flank(frustum, near, found):
+            found = math.nan, x, y, z, 0.0, 0.0, 1.0
+    else:
+        up = 1.0 if part == HIGH_RIM else -1.0
+        radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_RIM else (frustum[0], frustum[LOW])
+        flat = frustum[SIDE] == 0.0
+        over = math.copysign(1.0, z - height) if flat else up
+        px, py, _ = point_against(core, turn, x, y, z, 0.0, 0.0, over)
+        if px * px + py * py == 0.0:
+            px, py = sx, sy
+        found = math.nan, x, y, z, 0.0, 0.0, 1.0
+        if is_round(core) and radius > 0.0:
+            found = next_to_axis(core, turn, x, y, z - height, radius, px, py, over)
+        if found[0] != found[0]:
+            found = round_circle(point, core, turn, x, y, z - height, radius, px, py)
+        g, px, py, pz, nx, ny, nz = found
+        lean = frustum[COS] * nz - frustum[SIN] * math.sqrt(nx * nx + ny * ny)
+        if not flat and up * lean < -_NEAR_BORDER:
+            g = math.nan
+        found = g, px, py, pz + height, nx, ny, nz
+    return found

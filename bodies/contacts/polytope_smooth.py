@@ -15,6 +15,7 @@ from bodies.contacts.boxy_line import nearest_to_line
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
+from bodies.contacts.round_search import along_segment
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest_from, write_surface
 from bodies.contacts.tangents import write_tangent
@@ -210,6 +211,14 @@ def _nearest(
         if g != g or after == _HERE:
             break
         kind, number = after, where
+    if n_faces == 0:
+        # a segment, by a search along it
+        vx, vy, vz = _vertex(hull, 0)
+        ex, ey, ez, length = _edge(hull, 0)
+        found, s = along_segment(core, turn, x - vx, y - vy, z - vz, ex, ey, ez, length)
+        if found[0] >= 0.0:
+            feature = n_edges if s == 0.0 else n_edges + 1 if s == length else 0
+            return found[0], found[4], found[5], found[6], feature
     g, nx, ny, nz, number = _best_of_all(hull, core, turn, x, y, z, near)
     if best == best and not g > best:
         return best, bx, by, bz, feature
@@ -286,9 +295,9 @@ def _over(
         vx, vy, vz = _vertex(hull, number - n_edges)
         return vx + g * n[0], vy + g * n[1], vz + g * n[2]
     foot = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * number]))
-    ex, ey, ez, _ = _edge(hull, number)
+    ex, ey, ez, length = _edge(hull, number)
     px, py, pz = nearest_to_line(core, turn, x, y, z, foot, ex, ey, ez, 0.0, n)
-    s = (px - foot[0]) * ex + (py - foot[1]) * ey + (pz - foot[2]) * ez
+    s = min(max((px - foot[0]) * ex + (py - foot[1]) * ey + (pz - foot[2]) * ez, 0.0), length)
     return foot[0] + s * ex + g * n[0], foot[1] + s * ey + g * n[1], foot[2] + s * ez + g * n[2]
 
 

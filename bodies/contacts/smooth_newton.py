@@ -205,6 +205,12 @@ def _in_charts(
         found = _by_parts(first, second, turn, x, y, z, sx, sy, sz, _FEW_PARTS)
     if found[0] != found[0] and x * x + y * y + z * z > 0.0:
         found = _by_parts(first, second, turn, x, y, z, x, y, z, _PARTS)
+    if found[0] != found[0]:
+        for start in starts_of(first, second, turn, x, y, z):
+            _, nx, ny, nz = uphill(first, second, turn, x, y, z, start, _NEXT_TO)
+            found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
+            if found[0] >= 0.0:
+                return found
     return found
 
 

@@ -65,8 +65,8 @@ def _check_crossings(thing: str, vertices: Vector, faces: Integers) -> None:
         return
     if crossings:
         raise InvalidInput(
-            thing,
-            "must not pass through itself, but there are pairs of triangles that do",
+            f"{thing}: number of pairs of triangles that pass through each other",
+            "must be 0",
             crossings,
             "What overlaps would count twice: unite the parts (boolean union) in the program that made the mesh.",
         )
@@ -88,8 +88,8 @@ def check_finite(thing: str, vertices: Vector) -> None:
     wrong = int(np.sum(~np.all(np.isfinite(vertices), axis=1)))
     if wrong:
         raise InvalidInput(
-            thing,
-            "must have finite vertices only, but there are some with nan or infinity",
+            f"{thing}: number of vertices with nan or infinity",
+            "must be 0",
             wrong,
             f"They are {wrong} of {len(vertices)}. Export it anew; or repair with ('not_finite', 'holes').",
         )
@@ -107,16 +107,16 @@ def _check_edges(thing: str, faces: Integers) -> None:
     opened, crowded = int(np.sum(counts == 1)), int(np.sum(counts > 2))
     if opened:
         raise InvalidInput(
-            thing,
-            "must be closed, but there are open edges",
+            f"{thing}: number of open edges",
+            "must be 0, as of a closed surface",
             opened,
             f"They are {opened} of {len(edges)} edges. Repair with 'merge' if vertices that should meet nearly do, "
             "with 'holes' if there are some: both say what they change.",
         )
     if crowded:
         raise InvalidInput(
-            thing,
-            "must have two triangles at every edge, but there are edges with more",
+            f"{thing}: number of edges with more than two triangles",
+            "must be 0",
             crowded,
             "Walls inside, or triangles that come twice: repair with 'duplicates', or unite parts where it was made.",
         )
@@ -125,8 +125,8 @@ def _check_edges(thing: str, faces: Integers) -> None:
     against = int(np.sum(np.bincount(which, weights=senses) != 0.0))
     if against:
         raise InvalidInput(
-            thing,
-            "must have neighbours wound alike, but there are edges whose two triangles are not",
+            f"{thing}: number of edges whose two triangles are not wound alike",
+            "must be 0",
             against,
             "Repair with 'winding', which turns triangles round.",
         )
@@ -144,8 +144,8 @@ def _check_shells(thing: str, vertices: Vector, faces: Integers) -> None:
     if len(bodies) != 1:
         told = ", ".join(f"{volume:.3g}" for volume in sorted(volumes, key=abs, reverse=True)[:8])
         raise InvalidInput(
-            thing,
-            "must be one body, but there are shells with a volume of their own",
+            f"{thing}: number of shells with a volume of their own",
+            "must be 1, as of one body",
             len(bodies),
             f"Volumes [m^3]: {told}{', ...' if count > 8 else ''}. Unite parts that overlap (they would count twice); "
             "export bodies that do not one by one, and join them by Compound where they belong together.",

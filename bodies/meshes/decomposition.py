@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import tempfile
 import warnings
+import zipfile
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
@@ -16,6 +17,7 @@ from bodies.meshes.mesh import Mesh
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Component, UnusualValue, parameter
+from nonsmooth.user_cache import user_cache
 
 _FAR_OFF = 0.1
 """Part of the volume by which the pieces may miss it before a warning says so."""
@@ -55,12 +57,11 @@ class Decomposition(Component):
             If nothing came out.
         """
         key = hashlib.sha256(f"{mesh.digest} {self!r} 1".encode()).hexdigest()[:32]
-        path = _folder() / f"{key}.npz"
-        if path.is_file():
-            with np.load(path) as kept:
-                return tuple(kept[name] for name in kept.files)
-        pieces = self._cut(mesh)
-        _keep(path, pieces)
+        folder = _folder()
+        pieces = _kept(folder, key)
+        if pieces is None:
+            pieces = self._cut(mesh)
+            _keep(folder, key, pieces)
         return pieces
 
     def _cut(self, mesh: Mesh) -> tuple[Vector, ...]:
@@ -115,18 +116,32 @@ def _check_volume(mesh: Mesh, volume: float, count: int) -> None:
         )
 
 
-def _folder() -> Path:
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    return home / "nonsmooth" / "decompositions"
+def _folder() -> Path | None:
+    home = user_cache()
+    return None if home is None else home / "nonsmooth" / "decompositions"
 
 
-def _keep(path: Path, pieces: tuple[Vector, ...]) -> None:
+def _kept(folder: Path | None, key: str) -> tuple[Vector, ...] | None:
+    """Return the pieces of last time; a file that cannot be read, or is damaged, is none."""
+    if folder is None:
+        return None
+    try:
+        with np.load(folder / f"{key}.npz") as kept:
+            return tuple(kept[name] for name in kept.files)
+    # the file's own checksums are those of zip
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
+        return None
+
+
+def _keep(folder: Path | None, key: str, pieces: tuple[Vector, ...]) -> None:
     """Write the pieces for the next time; a cache that cannot be written to is none."""
+    if folder is None:
+        return
     named: dict[str, Any] = {f"piece_{i:04d}": piece for i, piece in enumerate(pieces)}
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as file:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=folder, suffix=".part", delete=False) as file:
             np.savez(file, **named)
-        Path(file.name).replace(path)
+        Path(file.name).replace(folder / f"{key}.npz")
     except OSError:
         return

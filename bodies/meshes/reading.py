@@ -32,7 +32,10 @@ def read_file(path: Path, largest: int = LARGEST) -> tuple[Vector, Integers]:
     vertices, faces = _loaded(thing, path)
     if len(faces) == 0:
         raise InvalidInput(
-            thing, "must have triangles", 0, "Is it a cloud of points or a curve? Export a surface of triangles."
+            thing,
+            "must have triangles",
+            0,
+            "Is the file whole? Is it a cloud of points or a curve? Export a surface of triangles.",
         )
     if told is None:
         check_number(thing, len(faces), largest)
@@ -51,6 +54,14 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
                 np.array(loaded.vertices, dtype=float).reshape(-1, 3),
                 np.array(loaded.faces, dtype=np.int64).reshape(-1, 3),
             )
+    except ModuleNotFoundError as error:
+        # asked for by formats that need more, and by readers that take a broken file for another format
+        raise InvalidInput(
+            thing,
+            "must be a mesh that trimesh can read",
+            f"broken, or of a format that needs the package {error.name!r}",
+            "Is the file whole, and its ending right? STL, OBJ, PLY, OFF and GLB need no further package.",
+        ) from error
     except Exception as error:
         # readers of a dozen formats raise whatever they like at broken files
         formats = ", ".join(sorted(trimesh.available_formats()))

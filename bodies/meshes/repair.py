@@ -12,7 +12,7 @@ from bodies.meshes.holes import close_holes
 from bodies.meshes.integrals import volume_of
 from bodies.meshes.orient import orient
 from bodies.meshes.topology import Integers, merge_equal
-from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 from nonsmooth.interfaces.body import Vector
 
 Repaired = tuple[Vector, Integers, str]
@@ -21,7 +21,7 @@ NEAR = 1e-6
 """Distance below which 'merge' makes vertices one, relative to the largest extent."""
 
 
-class MeshRepaired(UserWarning):
+class MeshRepaired(NonsmoothWarning):
     """What a repair that was asked for has changed."""
 
 

@@ -39,6 +39,11 @@ class MeshSolid(Solid):
         """Contacts see the surface itself."""
         return 0.0
 
+    @property
+    def hollow(self) -> bool:
+        """There is nothing between the triangles."""
+        return True
+
     @functools.cached_property
     def _corners(self) -> Vector:
         return self.vertices[self.faces]
@@ -57,6 +62,10 @@ class MeshSolid(Solid):
     def bounds(self) -> tuple[Vector, Vector]:
         """Those of its corners [m]."""
         return np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the corner that lies farthest along a direction [m]."""
+        return np.asarray(self.vertices[int(np.argmax(self.vertices @ direction))])
 
     def pieces(self, low: Vector, high: Vector) -> Sequence[Piece]:
         """Return the triangles whose boxes meet the box."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
@@ -10,7 +11,7 @@ from typing import final
 from nonsmooth.certificates import follows_traction
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import TractionLaw
-from nonsmooth.parameters import parameter
+from nonsmooth.parameters import UnusualValue, parameter
 
 
 def _traction(
@@ -46,10 +47,15 @@ class Bristle(TractionLaw):
     that the contact gives way like a spring of stiffness N s_0.  What the bristles store counts as lost to friction
     until they give it back.
 
+    With s_1 > 0 and mu_s > mu the law is passive only if s_2 >= s_1 (mu_s - mu) / mu: otherwise bristles bent by slow
+    slip push on a fast one, and give more than they stored above the speed mu_s^2 / (s_1 (mu_s - mu) - s_2 mu).
+
     References
     ----------
     C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, "A new model for control of systems with friction",
-    IEEE Transactions on Automatic Control 40 (1995) 419-425.
+    IEEE Transactions on Automatic Control 40 (1995) 419-425;
+    N. E. Barabanov, R. Ortega, "Necessary and sufficient conditions for passivity of the LuGre friction model", IEEE
+    Transactions on Automatic Control 45 (2000) 830-832.
     """
 
     friction: float = parameter(doc="coefficient mu of fast slip", above=0.0, usual=(0.01, 2.0))
@@ -66,6 +72,15 @@ class Bristle(TractionLaw):
                 f"must be at least the coefficient of fast slip {self.friction:g}",
                 self.static_friction,
                 "Take both alike for a constant coefficient.",
+            )
+        least = self.damping * (self.static_friction - self.friction) / self.friction
+        if self.viscosity < least:
+            speed = self.static_friction**2 / (self.friction * (least - self.viscosity))
+            warnings.warn(
+                f"Bristle.viscosity = {self.viscosity:g} [s/m] is less than damping (mu_s - mu) / mu = {least:g}: "
+                f"in slip faster than {speed:g} m/s bent bristles give more energy than they stored.",
+                UnusualValue,
+                stacklevel=4,
             )
 
     @property

@@ -79,6 +79,7 @@ class RateAndState(StatefulFrictionLaw):
         normal_force: float,
         tangential_force: tuple[float, float],
         tolerance: float,
+        state: tuple[float, ...] | None = None,
     ) -> bool:
-        """Tell whether the force of a fresh contact obeys the law."""
-        return opposes_slip(self, slip, normal_force, tangential_force, tolerance)
+        """Tell whether the force obeys the law at the age theta [s] of the contact, by default that of a fresh one."""
+        return opposes_slip(self, slip, normal_force, tangential_force, tolerance, state)

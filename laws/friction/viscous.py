@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
+from nonsmooth.certificates import opposes_slip
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.parameters import parameter
@@ -56,8 +56,4 @@ class Viscous(FrictionLaw):
         tolerance: float,
     ) -> bool:
         """Tell whether the force lies in the disc and, under slip, on its edge against the slip."""
-        speed = math.hypot(*slip)
-        bound = _coefficient(speed, **self.numbers()) * normal_force
-        if speed <= tolerance:
-            return math.hypot(*tangential_force) <= bound + tolerance
-        return all(abs(t + bound * v / speed) <= tolerance for t, v in zip(tangential_force, slip, strict=True))
+        return opposes_slip(self, slip, normal_force, tangential_force, tolerance)

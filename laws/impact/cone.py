@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
 
 _SWEEPS = 100000
 _EXACT = 1e-15
@@ -81,3 +83,43 @@ def solve_cone(
             break
     if not change <= _SOLVED * relaxation * size:
         out[0] = math.nan
+
+
+def cone_deviation(
+    delassus: Array, rates: Array, shift: Array, base: Array, least: Array, impulses: Array, friction: Array
+) -> float:
+    """Return by how much impulses miss the problem of :func:`solve_cone` [m/s], with its arguments; 0 for a solution.
+
+    Both conditions are fixed points of a projection, whose step makes a velocity of an impulse: complementarity is
+    min(G_NN (P_N - least), xi_N) = 0, and P_T - base_T is the projection on the disc of what xi_T leads to.
+    """
+    n = len(friction)
+    xi = (rates + shift + delassus @ impulses).reshape(n, 3)
+    own = np.diag(delassus).reshape(n, 3)
+    across = own[:, 1:].sum(axis=1, keepdims=True)
+    normal, counted = impulses.reshape(n, 3)[:, 0], (impulses - base).reshape(n, 3)
+    complementary = np.minimum(own[:, 0] * (normal - least), xi[:, 0])
+    aim = counted[:, 1:] - xi[:, 1:] / across
+    bound = friction * np.maximum(counted[:, 0], 0.0)
+    size = np.maximum(np.hypot(*aim.T), 1e-300)
+    missed = across * (counted[:, 1:] - aim * np.minimum(1.0, bound / size)[:, None])
+    return float(np.max([np.abs(complementary), np.hypot(*missed.T)]))
+
+
+def follows_cone(
+    delassus: Array,
+    before: Array,
+    impulses: Array,
+    friction: Array,
+    tolerance: float,
+    restitution: float,
+    tangential_restitution: float,
+) -> bool:
+    """Tell whether impulses solve the problem for z+ + e z-; for arguments see :class:`nonsmooth.interfaces.ImpactMap`.
+
+    A contact that was separating counts with the normal restitution 0.
+    """
+    shift = tangential_restitution * before
+    shift[::3] = restitution * np.minimum(before[::3], 0.0)
+    base, least = np.zeros(len(before)), np.zeros(len(friction))
+    return cone_deviation(delassus, before, shift, base, least, impulses, friction) <= tolerance

@@ -37,11 +37,6 @@ def closing_time(mass: float, radius: float, modulus: float, acceleration: float
     return float((2.87**5 * mass**2 / (radius * modulus**2 * acceleration)) ** (1.0 / 6.0))
 
 
-def plane_strain_modulus(young_modulus: float, poisson_ratio: float) -> float:
-    """Return the effective modulus [Pa] of two bodies of the same material, E / (2 (1 - nu^2))."""
-    return young_modulus / (2.0 * (1.0 - poisson_ratio**2))
-
-
 def effective_modulus(first: tuple[float, float], second: tuple[float, float]) -> float:
     """Return E* [Pa] of two materials, 1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2.
 

@@ -32,7 +32,7 @@ def johnson_speed(mass: float, radius: float, modulus: float, pressure: float) -
 
     References
     ----------
-    K. L. Johnson, *Contact Mechanics*, Cambridge University Press (1985), section 11.4.
+    K. L. Johnson, *Contact Mechanics*, Cambridge University Press (1985), section 11.5.
     """
     factor = 0.3 * math.pi**1.25 * 4.0**0.75 * pressure / modulus
     return float(factor**2 * math.sqrt(2.0 * pressure * radius**3 / mass))
@@ -55,7 +55,7 @@ class JohnsonImpact(PowerProcess):
 
     References
     ----------
-    K. L. Johnson, *Contact Mechanics*, Cambridge University Press (1985), section 11.4.
+    K. L. Johnson, *Contact Mechanics*, Cambridge University Press (1985), section 11.5.
     """
 
     elastic_speed: float = parameter(

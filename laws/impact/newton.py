@@ -9,11 +9,11 @@ from typing import ClassVar, final
 
 import numpy as np
 
-from laws.impact.cone import solve_cone
+from laws.impact.cone import follows_cone, solve_cone
 from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
 
 
 def _impulses(
@@ -67,6 +67,6 @@ class NewtonImpact(ImpactMap):
         """The parameter ``duration`` [s]."""
         return self.duration
 
-    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
-        """Tell whether no more energy [J] came back than went in."""
-        return returned <= stored + tolerance
+    def is_fulfilled(self, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float) -> bool:
+        """Tell whether impulses and rates after are complementary, rebound included, and friction opposes v+."""
+        return follows_cone(delassus, before, impulses, friction, tolerance, self.restitution, 0.0)

@@ -8,10 +8,10 @@ from typing import final
 
 import numpy as np
 
-from laws.impact.cone import solve_cone
+from laws.impact.cone import follows_cone, solve_cone
 from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
 
 
 def _impulses(n: int, delassus: Floats, rates: Floats, out: Floats, friction: Floats) -> None:
@@ -48,6 +48,6 @@ class PlasticImpact(ImpactMap):
         """The parameter ``duration`` [s]."""
         return self.duration
 
-    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
-        """Tell whether no energy [J] came back."""
-        return abs(returned) <= tolerance and stored >= -tolerance
+    def is_fulfilled(self, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float) -> bool:
+        """Tell whether impulses and rates after are complementary, and friction opposes v+."""
+        return follows_cone(delassus, before, impulses, friction, tolerance, 0.0, 0.0)

@@ -8,11 +8,11 @@ from typing import final
 
 import numpy as np
 
-from laws.impact.cone import solve_cone
+from laws.impact.cone import cone_deviation, solve_cone
 from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
 
 
 def _impulses(
@@ -66,6 +66,18 @@ class PoissonImpact(ImpactMap):
         """The parameter ``duration`` [s]."""
         return self.duration
 
-    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
-        """Tell whether no more energy [J] came back than went in."""
-        return returned <= stored + tolerance
+    def is_fulfilled(self, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float) -> bool:
+        """Tell whether the impulses are some compression, itself complementary, and its expansion.
+
+        The compression is the one that the law finds, of those there may be.
+        """
+        n = len(friction)
+        none, least, compression = np.zeros(3 * n), np.zeros(n), np.zeros(3 * n)
+        solve_cone(n, delassus.ravel(), before, none, none, least, compression, friction)
+        missed = (
+            cone_deviation(delassus, before, none, none, least, compression, friction),
+            cone_deviation(
+                delassus, before, none, compression, (1.0 + self.restitution) * compression[::3], impulses, friction
+            ),
+        )
+        return float(np.max(missed)) <= tolerance

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from laws.impact.power import duration_parameter
+from nonsmooth.certificates import follows_map
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
 
 _REST = 1e-9
 """A slip below this, relative to the approach, is none."""
@@ -136,6 +137,6 @@ class StrongeImpact(ImpactMap):
         """The parameter ``duration`` [s]."""
         return self.duration
 
-    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
-        """Tell whether the share e^2 of the stored energy [J] came back."""
-        return abs(returned - self.restitution**2 * stored) <= tolerance
+    def is_fulfilled(self, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float) -> bool:
+        """Tell whether the impulses give the velocities of the closed form."""
+        return follows_map(self, delassus, before, impulses, friction, tolerance)

@@ -27,8 +27,8 @@ def _force(
 class LankaraniNikravesh(CompliantNormalLaw):
     """The law of Lankarani and Nikravesh, F = k x^eta (1 + 3 (1 - e^2) x' / (4 v)), the contact having closed at v.
 
-    It was derived for restitution next to 1 and returns less energy than e says where e is small; a contact that
-    was closed from the start is elastic.
+    It was derived for restitution next to 1 and returns more energy than e says where e is small: e = 0.5 comes back
+    as 0.725, e = 0 as 0.663.  A contact that was closed from the start is elastic.
 
     References
     ----------

@@ -12,7 +12,7 @@ from nonsmooth.cli import request
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.table import lines
 from nonsmooth.errors import UnknownName
-from nonsmooth.plugins import registry
+from nonsmooth.plugins import file, registry
 
 _HOLDS, _FAILS, _DEPARTS, _OPEN = "holds", "fails", "departs", "not checked"
 
@@ -24,7 +24,7 @@ def add_to(commands: Any) -> None:
         help="look whether a component has the properties that it must have",
         allow_abbrev=False,
     )
-    command.add_argument("name", metavar="NAME", help="any name of `nonsmooth list`")
+    command.add_argument("name", metavar="NAME", help="any name of `nonsmooth list`, or FILE.py:CLASS")
     command.add_argument(
         "--set",
         action="append",
@@ -49,21 +49,25 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 
 def _look(name: str, words: dict[str, str]) -> list[dict[str, Any]]:
-    # imported when asked for: the other commands start faster without it
-    from nonsmooth.testing.registered import check_registered
-
+    if file.is_file(name):
+        owner = file.load("check", registry.INTERFACES, name)
+        path, _, word = name.rpartition(":")
+        return [_part(owner, word, registry.kind_of(owner), path, words)]
     groups = [group for group in registry.GROUPS if name in registry.names(group)]
     if not groups:
         raise UnknownName("component", name, {known for group in registry.GROUPS for known in registry.names(group)})
     return [
-        {
-            "name": name,
-            "kind": registry.KINDS[group],
-            "source": registry.source(group, name),
-            "properties": [_row(prop) for prop in check_registered(group, name, words)],
-        }
+        _part(registry.load(group, name), name, registry.KINDS[group], registry.source(group, name), words)
         for group in groups
     ]
+
+
+def _part(owner: Any, name: str, kind: str, source: str, words: dict[str, str]) -> dict[str, Any]:
+    # imported when asked for: the other commands start faster without it
+    from nonsmooth.testing.registered import check_class
+
+    rows = [_row(prop) for prop in check_class(owner, name, words)]
+    return {"name": name, "kind": kind, "source": source, "properties": rows}
 
 
 def _row(prop: Any) -> dict[str, Any]:

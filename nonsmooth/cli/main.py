@@ -9,9 +9,7 @@ from importlib.metadata import version
 
 from nonsmooth.cli import check, figures, list, new, run, save, show
 from nonsmooth.cli.messages import complain, warn_plainly
-from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError
-from nonsmooth.parameters import UnusualValue
-from nonsmooth.plugins.registry import BrokenPlugin
+from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError, NonsmoothWarning
 
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 """Exit statuses."""
@@ -45,8 +43,7 @@ def main(words: Sequence[str] | None = None) -> int:
     """
     arguments = parser().parse_args(words)
     with warnings.catch_warnings():
-        for category in (UnusualValue, BrokenPlugin):
-            warnings.simplefilter("always", category)
+        warnings.simplefilter("always", NonsmoothWarning)
         warnings.showwarning = warn_plainly(warnings.showwarning)
         try:
             return DONE if arguments.execute(arguments) else FAILED

@@ -8,9 +8,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from nonsmooth.errors import RunsInPython
-from nonsmooth.parameters import UnusualValue
-from nonsmooth.plugins.registry import BrokenPlugin
+from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.solution.files import FileError
 
 
@@ -47,7 +45,7 @@ def warn_plainly(otherwise: Callable[..., None]) -> Callable[..., None]:
     printed: set[str] = set()
 
     def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
-        if not issubclass(category, (UnusualValue, BrokenPlugin, RunsInPython)):
+        if not issubclass(category, NonsmoothWarning):
             otherwise(message, category, *where, **more)
             return
         line = " ".join(str(message).split())

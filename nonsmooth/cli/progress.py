@@ -41,8 +41,8 @@ class Progress:
 
     def __init__(self, stream: TextIO, style: Style, clock: Callable[[], float] = time.monotonic) -> None:
         self._stream, self._style, self._clock = stream, style, clock
-        self._began = clock()
-        self._next = self._began + style.patience
+        self._next = clock() + style.patience
+        self._first: tuple[float, float] | None = None
         self._share = 0.0
         self._written = False
 
@@ -50,12 +50,15 @@ class Progress:
         """Take note of the time reached; write it if it is time to."""
         now, share = self._clock(), t / t_end
         if share < self._share:  # the next of several runs
-            self._began = now
+            self._first = None
         self._share = share
+        # what came before the run, as compiling it, says nothing of how long it takes
+        self._first = self._first or (now, share)
         if now < self._next:
             return
         self._next = now + self._style.interval
-        left = f", about {(now - self._began) * (1.0 - share) / share:.0f} s to go" if share > 0.0 else ""
+        began, done = self._first
+        left = f", about {(now - began) * (1.0 - share) / (share - done):.0f} s to go" if share > done else ""
         self._write(f"{self._style.start}t = {t:.4g} of {t_end:.4g} s ({share:.0%}){left}{self._style.end}")
 
     def finish(self) -> None:

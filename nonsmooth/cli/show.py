@@ -14,7 +14,6 @@ from nonsmooth.parameters import Rule
 from nonsmooth.plugins import file, registry
 
 _HEAD = ("parameter", "default", "unit", "allowed", "")
-_INTERFACES = tuple(base for bases in registry.GROUPS.values() for base in bases)
 _LEGEND = "  * assumed: the source does not give this value, we chose it"
 
 
@@ -30,8 +29,8 @@ def add_to(commands: Any) -> None:
 def execute(arguments: argparse.Namespace) -> bool:
     """Print everything of that name: a scenario and a body may share one."""
     if file.is_file(arguments.name):
-        owner = file.load("show", _INTERFACES, arguments.name)
-        say(_describe(owner, f"{owner.__name__}: {_kind(owner)} of {arguments.name.rpartition(':')[0]}"))
+        owner = file.load("show", registry.INTERFACES, arguments.name)
+        say(_describe(owner, f"{owner.__name__}: {registry.kind_of(owner)} of {arguments.name.rpartition(':')[0]}"))
         return True
     groups = [group for group in GROUPS if arguments.name in registry.names(group)]
     if not groups:
@@ -44,10 +43,6 @@ def execute(arguments: argparse.Namespace) -> bool:
 def _installed(group: str, name: str) -> str:
     title = f"{name}: {registry.KINDS[group]} of {registry.source(group, name)}"
     return _describe(registry.load(group, name), title)
-
-
-def _kind(owner: type) -> str:
-    return next(registry.KINDS[group] for group, bases in registry.GROUPS.items() if issubclass(owner, bases))
 
 
 def _describe(owner: Any, title: str) -> str:

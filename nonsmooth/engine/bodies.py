@@ -5,6 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_body, call_load, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact
 from nonsmooth.engine.linkages import evaluate_linkage
+from nonsmooth.engine.watch import interrupted
 from nonsmooth.model.layout import FRAME
 
 
@@ -35,6 +36,7 @@ def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int)
 @kernel("void(S, F, I, f8, i8)")
 def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let the bodies that have coordinates write their output blocks, then loads and joints act on them."""
+    interrupted(S, S.n_contacts + S.n_bodies)
     S.own = y + S.n_q
     S.driven_power = 0.0
     S.load_power = 0.0

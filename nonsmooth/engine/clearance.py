@@ -23,6 +23,8 @@ from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END, SECTOR, SECTORS
 
 _CURVED = 4.0
 """By so much a curved surface or an edge may turn the normal faster than its body turns."""
+WAY = 0.02
+"""Part of the size of the smaller body that features may move unseen where they do not face each other."""
 _RESTS = 10.0
 """A gap and a rate of so many tolerances at both ends are those of neighbours at rest, which are sampled."""
 _COARSE = 0.125
@@ -125,13 +127,13 @@ def fall_of_rate(S: Scalars, w: Floats, k: Integers, c: int, h: float, du: int) 
     return float(fall)
 
 
-@room("i8(S, F, I, f8)")
-def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+@room("void(S, F, I, f8)")
+def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """List the open contacts whose gaps may close within the step by the speeds alone; the bodies stand at its end.
 
-    Return 1 if some of them have features that do not face each other.
+    Those whose features do not face each other at an end of the step are a list of their own.
     """
-    S.n_doubtful = astray = 0
+    S.n_doubtful = S.n_astray = 0
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             continue
@@ -139,11 +141,11 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> int:
         if start + w[S.gap_end + c] > h * (w[S.speed_first + c] + w[S.speed_end + c]):
             continue
         if w[S.past_first + c] > 0.0 or w[S.past_end + c] > 0.0:
-            astray = 1
+            k[S.astray + S.n_astray] = c
+            S.n_astray += 1
             continue
         k[S.doubtful + S.n_doubtful] = c
         S.n_doubtful += 1
-    return astray
 
 
 @kernel("void(S, F, I, f8, f8, i8)")
@@ -233,7 +235,9 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
             gaps, rates = max(abs(w[left + 1]), abs(w[right + 1])), max(abs(w[left + 2]), abs(w[right + 2]))
             rests = gaps <= _RESTS * S.gap_tolerance and rates <= _RESTS * S.velocity_tolerance
             astray = w[left + 3] > 0.0 or w[right + 3] > 0.0
-            if span * h > S.time_tolerance and not ((rests or astray) and span <= _COARSE):
+            way = WAY * min(w[S.lever_a + c], w[S.lever_b + c])
+            enough = span <= _COARSE and (rests or (astray and span * h * speed <= way))
+            if span * h > S.time_tolerance and not enough:
                 n += 1
                 _look(S, w, k, h, w[left] + 0.5 * span, c, left + SECTOR * n)
                 if has_fired(S, w, k, 2 * c) == 1:

@@ -10,6 +10,7 @@ import math
 
 from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.watch import interrupted
 
 SWEEPS = 4000
 _SETTLED = 1e-15
@@ -101,6 +102,8 @@ def gauss_seidel(S: Scalars, w: Floats, k: Integers, sweeps: int) -> int:
     """
     settled = 0
     for _sweep in range(sweeps):
+        if interrupted(S, S.n_active) == 1:
+            break
         change = size = 0.0
         for a in range(S.n_active):
             f = S.f + 3 * a

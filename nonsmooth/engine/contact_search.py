@@ -18,6 +18,7 @@ from nonsmooth.engine.solver_enumeration import enumerate_modes
 from nonsmooth.engine.solver_gauss_seidel import search_by_sweeps
 from nonsmooth.engine.solver_lemke import search_by_pivots
 from nonsmooth.engine.solver_newton import search_by_newton
+from nonsmooth.engine.watch import interrupted
 from nonsmooth.model.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
 
 _ROUNDS = 4
@@ -202,7 +203,7 @@ def _search_round(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     for i in range(3 * S.n_active):
         w[S.f_raw + i] = 0.0
     for stage in range(stages):
-        if S.effort >= _MOST_EFFORT:
+        if S.effort >= _MOST_EFFORT or interrupted(S, S.n_active) == 1:
             return 0
         for i in range(3 * S.n_active):
             w[S.f + i] = w[S.f_raw + i]

@@ -14,17 +14,21 @@ from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import SINGULAR, band_row, band_width, eliminate, minimum_norm, rank_of_semidefinite
 from nonsmooth.engine.null_band import least_norm_in_band
+from nonsmooth.engine.watch import interrupted
 
 _DOUBTFUL = 1e-5
 """A pivot below this part of the largest entry may be that of contacts of which one is redundant."""
 _COUPLED = 1e-7
 """Null-space entries above this tie a contact to the group whose forces are not unique."""
+DEAR = 500
+"""Elementary operations that count as one evaluation of a contact."""
 
 
 @room()
 def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     """Complete ``f``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)
+    interrupted(S, n + n * n * n // DEAR)
     if open_band(S, w, k, n, S.reduced) == 0:
         return
     for a in range(S.n_active):

@@ -220,23 +220,33 @@ def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     return 0
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> int:
-    """Return the first guard that has fired, other than ``but``, or -1."""
-    for i in range(2 * S.n_contacts):
-        if forces == 0 and k[S.mode + i // 2] != OPEN:
-            continue
-        if i != but and has_fired(S, w, k, i) == 1:
-            return i
-    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
-        if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
-            return i
-    return -1
-
-
 @kernel("i8(S, F, I, i8)")
 def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap whose rate is known."""
     if i >= 2 * S.n_contacts or k[S.mode + i // 2] != OPEN:
         return 0
     return 1 if w[S.geometry + GEOMETRY * (i // 2) + PAST_END] <= 0.0 else 0
+
+
+@kernel("i8(S, F, I, i8)")
+def _closes_now(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is a gap that has closed no longer ago than instants are told apart."""
+    late = max(S.gap_tolerance, S.time_tolerance * abs(w[S.gap_rate + i // 2]))
+    return 1 if is_gap(S, w, k, i) == 1 and w[S.geometry + GEOMETRY * (i // 2)] >= -late else 0
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> int:
+    """Return the first guard that has fired, or -1; at the root of guard ``but`` those that fired before it.
+
+    A gap that closes at the same instant did not.
+    """
+    for i in range(2 * S.n_contacts):
+        if forces == 0 and k[S.mode + i // 2] != OPEN:
+            continue
+        if i != but and has_fired(S, w, k, i) == 1 and (but < 0 or _closes_now(S, w, k, i) == 0):
+            return i
+    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
+        if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
+            return i
+    return -1

@@ -85,6 +85,8 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     if S.sample_interval > 0.0:
         h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
     for _attempt in range(200):
+        if S.stopped == 1:
+            return NOT_FINITE
         error = try_step(S, w, k, h)
         if error <= 1.0 and S.singular >= 0:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further

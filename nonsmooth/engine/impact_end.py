@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
+from nonsmooth.engine.delassus import own_block
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.impact_rates import COMPRESSION, EXPANSION, IDLE, NOISE, STRIDE, evaluate_impact_rates
+from nonsmooth.engine.impact_rates import COMPRESSION, EXPANSION, IDLE, STRIDE, evaluate_impact_rates
+from nonsmooth.engine.impact_scales import REST
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 
 _BALANCED = 1e-12
@@ -44,11 +48,15 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
 
     A point that joints let move across one line only is wedged where that line lies within the cone of friction: slip
     and approach stop together, and the force of the contact goes into the joints.  G f = 0 means f.G f = 0, the forces
-    then accelerate no part of the bodies, and so it stays: the deformation is never given back.
+    then accelerate no part of the bodies, and so it stays: the deformation is never given back.  Rates that have next
+    to no energy count as none; they would not change either.
     """
+    brought = 0.0
+    for a in range(S.n_active):
+        brought = max(brought, w[S.impact_energy_scale + a])
     for a in range(S.n_active):
         loaded = k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION
-        if loaded and abs(w[S.impact_z + 3 * a]) > NOISE * S.speed_scale:
+        if loaded and abs(w[S.impact_z + 3 * a]) > REST * math.sqrt(brought * w[own_block(S, k, a)]):
             return 0
     size = left = 0.0
     for a in range(S.n_active):

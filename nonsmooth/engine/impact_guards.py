@@ -24,6 +24,7 @@ from nonsmooth.engine.impact_rates import (
 )
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import dense_state
+from nonsmooth.engine.watch import interrupted
 
 _SLACK = 1e-9
 """A compression that comes to nothing, of round-off, ends at this deformation below zero, relative to a full one."""
@@ -33,6 +34,8 @@ _WRONG = -1e-7
 """A guard that is not armed fires below this all the same."""
 _ROUGH = 1e-11
 """A root on the interpolant need not be better than this: it is corrected on the step itself."""
+_SMALL = 1e-3
+"""But it must be small next to what the guard was before, which may be next to nothing, too."""
 _FAINT = 1e-4
 """Start values below this part of the end value are no help to the secant."""
 _CORRECTIONS = 8
@@ -117,6 +120,7 @@ def prepare_guards(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("f8(S, F, I, f8, f8, i8)")
 def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int) -> float:
+    interrupted(S, S.n_active)
     dense_state(S, w, S.impact_y, S.impact_slopes, STRIDE * S.n_active, h, theta, S.impact_stage)
     evaluate_impact_guards(S, w, k, S.impact_stage)
     return w[S.impact_guard + i]
@@ -139,7 +143,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
             low, g_low = 0.5 * high, g
             break
         high, g_high = 0.5 * high, g
-    theta = high
+    theta, largest = high, g_low
     theta_before, g_before = high, g_high
     for _iteration in range(60):
         theta = high - g_high * (high - low) / (g_high - g_low)
@@ -147,7 +151,8 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
         if theta != theta_before:
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
-        if abs(g) <= _ROUGH or high - low <= 1e-14:
+        largest = max(largest, g)
+        if abs(g) <= min(_ROUGH, _SMALL * largest) or high - low <= 1e-14:
             return theta
         if g < 0.0:
             ratio = 1.0 - g / g_high

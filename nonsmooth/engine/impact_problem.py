@@ -38,6 +38,7 @@ from nonsmooth.engine.impact_rates import (
 from nonsmooth.engine.impact_scales import impulse_scale, scale_impact
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import step_factor
+from nonsmooth.engine.watch import interrupted
 
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
 """How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
@@ -265,6 +266,8 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
     prepare_guards(S, w, k)
     write_impact_slope(S, w, k, S.impact_slopes)
     for _step in range(_MOST_STEPS):
+        if interrupted(S, 8 * m) == 1:
+            return ENDLESS
         if finished(S, w, k) == 1:
             finish(S, w, k)
             return FINISHED

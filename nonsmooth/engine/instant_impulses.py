@@ -9,6 +9,7 @@ from nonsmooth.engine.delassus import add_product, own_block, write_dense
 from nonsmooth.engine.forces import reduced_coefficient, resolve
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_map, kernel
 from nonsmooth.engine.modes import SLIDE, STICK
+from nonsmooth.model.layout import GUARD, UNTOUCHED
 
 _NEXT_TO_ZERO = 1e-3
 """A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
@@ -63,7 +64,13 @@ def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(1, S.map_width):
             w[S.map_block + i * m + a] = w[k[S.map_parameters + c] + i - 1]
     write_dense(S, w, k)
+    behind = S.impulse + 3 * m
+    for i in range(GUARD):
+        w[behind + i] = UNTOUCHED
     call_map(S.impact_map, m, at(w, S.matrix), at(w, S.impact_z0), at(w, S.map_block), at(w, S.impulse))
+    for i in range(GUARD):
+        if w[behind + i] != UNTOUCHED:
+            S.map_past = m
     _split_loss(S, w, k)
 
 

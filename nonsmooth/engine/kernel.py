@@ -56,6 +56,12 @@ call_load: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.
 """Call ``load(t, frame_a, frame_b, parameters, out)`` at an address."""
 call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = _half.call_pair
 """Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
+call_watch: Callable[[int, float], float] = _half.call_watch
+"""Call ``watch(t)`` at an address."""
+watch_address: Callable[[Callable[[float], float]], int] = _half.watch_address
+"""Return the address of a function that :func:`call_watch` may call until :func:`forget_watch`."""
+forget_watch: Callable[[int], None] = _half.forget_watch
+"""Give up an address of :func:`watch_address`."""
 call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.call_map
 """Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
 
@@ -85,10 +91,13 @@ __all__ = [
     "call_pair",
     "call_room",
     "call_scalar",
+    "call_watch",
+    "forget_watch",
     "jit",
     "kernel",
     "room",
     "room_addresses",
     "shared",
     "unshared",
+    "watch_address",
 ]

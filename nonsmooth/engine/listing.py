@@ -11,7 +11,7 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, GEOMETRY
+from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, GEOMETRY, PAIR
 
 _WIDTH = len(CATALOGUE)
 _MODE = CATALOGUE.index("mode")
@@ -38,7 +38,7 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     k[S.touching + c] = 0
     k[S.identity + c] = declared
     # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
-    for i in range(GEOMETRY):
+    for i in range(PAIR):
         w[S.geometry + GEOMETRY * c + i] = 0.0
     # Jacobians keep zeros where other bodies of a linkage stand
     for side in range(2):

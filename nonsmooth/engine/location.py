@@ -2,7 +2,8 @@
 
 Open gaps are proved not to close (:mod:`nonsmooth.engine.clearance`).  Forces, slips and the scenario's own guards are
 sampled at the end of a step and in its middle, where a stage of it saw a force dip; features that do not face each
-other are sampled at :data:`_SAMPLES` places of a step, and where they should have closed.
+other are sampled at :data:`_SAMPLES` places of a step, or every :data:`WAY` of their size, and where they should have
+closed.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies import evaluate_bodies
-from nonsmooth.engine.clearance import bound_speeds, find_doubtful, first_closing
+from nonsmooth.engine.clearance import WAY, bound_speeds, find_doubtful, first_closing
 from nonsmooth.engine.flow import try_step
 from nonsmooth.engine.guards import arm_further, deflate, evaluate_guards, first_fired, is_gap, keep_end, write_guards
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
@@ -32,7 +33,7 @@ _MOST_ROOTS = 30
 _FEW_ROOTS = 4
 """After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
 _SAMPLES = 16
-"""Parts of a step, or of the way to an event, at whose ends it is asked whether features face each other."""
+"""Parts of a step, at least, at whose ends it is asked whether features face each other,"""
 _JUMP = 1e-3
 """A guard of which this part of the start value is left next to its root jumps."""
 _WAYS = 14
@@ -124,32 +125,48 @@ def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
     return soonest
 
 
+@kernel("f8(S, F, I, f8)")
+def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Return for how long the features that do not face each other need not be looked at, as they are now [s].
+
+    What they report as their gap is no more than their distance, which closes no faster than their speed.
+    """
+    longest = h / _SAMPLES
+    least = longest
+    for i in range(S.n_astray):
+        c = k[S.astray + i]
+        speed = w[S.speed_first + c] + w[S.speed_end + c]
+        way = max(w[S.geometry + GEOMETRY * c], WAY * min(w[S.lever_a + c], w[S.lever_b + c]))
+        if way < least * speed:
+            least = way / speed
+    return least
+
+
 @kernel("f8(S, F, I, f8, f8)")
 def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Return the first of some fractions below ``high`` at which a gap has closed, its guards in ``guard``, or 0.
 
     Features that face each other only from one sample to the next are looked at when their gap is to close.
     """
-    for part in range(_SAMPLES):
-        theta, end = high * part / _SAMPLES, high * (part + 1) / _SAMPLES
-        for _look in range(_LOOKS):
-            if theta >= end:
-                break
-            # right at the start nothing has grown yet
-            guards_within(S, w, k, h, max(theta, _FAINT), 0)
-            if theta > 0.0:
-                if first_fired(S, w, k, 0, -1) >= 0:
-                    guards_within(S, w, k, h, theta, _any_closed(S, w, k))
-                    return theta
-                arm_further(S, w, k, 0)
-            theta += (1.0 + _BEHIND) * _soonest(S, w, k) / h
+    theta, looks = 0.0, 0
+    while theta < high:
+        # right at the start nothing has grown yet
+        guards_within(S, w, k, h, max(theta, _FAINT), 0)
+        if theta > 0.0:
+            if first_fired(S, w, k, 0, -1) >= 0:
+                guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+                return theta
+            arm_further(S, w, k, 0)
+        way, soonest = _advance(S, w, k, h), (1.0 + _BEHIND) * _soonest(S, w, k)
+        looks = looks + 1 if soonest < way and looks < _LOOKS else 0
+        theta += (soonest if looks > 0 else way) / h
     return 0.0
 
 
 @kernel("f8(S, F, I, f8, f8)")
 def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float) -> float:
     """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0."""
-    if S.astray == 1:
+    if S.n_astray > 0:
         found = _sampled(S, w, k, h, theta)
         if found > 0.0:
             return found
@@ -171,7 +188,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     write_guards(S, w, k, S.t + h, S.y_new, 1)
     keep_end(S, w, k)
     bound_speeds(S, w, k)
-    S.astray = find_doubtful(S, w, k, h)
+    find_doubtful(S, w, k, h)
     deflate(S, w, k, h)
     fired = first_fired(S, w, k, 1, -1)
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
@@ -194,14 +211,14 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             if theta > 0.0:
                 return theta
     # what has fired at the end is located first, and what closes before it searched then
-    if fired < 0 and S.astray + S.n_doubtful > 0:
+    if fired < 0 and S.n_astray + S.n_doubtful > 0:
         looks += 1
         theta = _closed_before(S, w, k, h, 1.0)
         if theta > 0.0:
             return theta
     if looks == 0:
         return 1.0 if fired >= 0 else 0.0
-    if forces + S.n_own_guards + S.astray > 0:
+    if forces + S.n_own_guards + S.n_astray > 0:
         evaluate_bodies(S, w, k, S.t + h, S.y_new)
     for i in range(3 * S.n_contacts + S.n_own_guards):
         w[S.guard + i] = w[S.guard_end + i]
@@ -373,7 +390,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         else:
             S.trigger = first
             first = first_fired(S, w, k, closed, S.trigger)
-        if first < 0 and S.astray + S.n_doubtful > 0:
+        if first < 0 and S.n_astray + S.n_doubtful > 0:
             earlier = _closed_before(S, w, k, h, theta)
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)

@@ -223,6 +223,28 @@ def call_scalar(typingctx: Any, address: Any, x: Any, p: Any) -> Any:
 
 
 @intrinsic
+def call_watch(typingctx: Any, address: Any, t: Any) -> Any:
+    """Call ``float watch(float)`` at an address."""
+    return _caller(types.float64, (types.float64,))
+
+
+_watches: dict[int, Any] = {}
+
+
+def watch_address(function: Callable[[float], float]) -> int:
+    """Return the address of a C function that calls ``function``, which is kept alive."""
+    callback = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(function)
+    address = int(ctypes.cast(callback, ctypes.c_void_p).value or 0)
+    _watches[address] = callback
+    return address
+
+
+def forget_watch(address: int) -> None:
+    """Give up the C function."""
+    del _watches[address]
+
+
+@intrinsic
 def call_compliance(typingctx: Any, address: Any, x: Any, rate: Any, first: Any, p: Any) -> Any:
     """Call ``float force(indentation, rate, closing_rate, parameters)`` at an address."""
     return _caller(types.float64, (types.float64, types.float64, types.float64, FLOATS))

@@ -26,6 +26,8 @@ from llvmlite.binding import get_host_cpu_name
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
+from nonsmooth.user_cache import user_cache
+
 _PACKAGE = Path(__file__).resolve().parents[1]
 _WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _CHECKSUM = hashlib.sha256().digest_size
@@ -80,13 +82,8 @@ def folders() -> tuple[list[Path], Path | None]:
 
 def _homes() -> Iterator[tuple[Path, int]]:
     """Yield the folders that may hold compiled code, and the permissions that they are made with."""
-    # by the standard a relative path in the variable counts as none
-    cache = Path(os.environ.get("XDG_CACHE_HOME", ""))
-    if not cache.is_absolute():
-        # a user may have neither HOME nor an entry in the list of users
-        with contextlib.suppress(RuntimeError):
-            cache = Path.home() / ".cache"
-    if cache.is_absolute():
+    cache = user_cache()
+    if cache is not None:
         yield cache / "nonsmooth", 0o755
     with contextlib.suppress(OSError):
         user = "" if sys.platform == "win32" else f"-{os.geteuid()}"

@@ -12,6 +12,7 @@ from nonsmooth.model.memory import Memory
 from nonsmooth.model.rooms import ROOMS
 
 _functions: list[Callable[..., Any]] = []
+_watches: dict[int, Callable[[float], float]] = {}
 _rooms: dict[str, Callable[..., Any]] = {}
 
 
@@ -60,6 +61,23 @@ def call_scalar(address: int, x: float, p: Any) -> Any:
 def call_compliance(address: int, x: float, rate: float, first: float, p: Any) -> Any:
     """Call ``float force(indentation, rate, closing_rate, parameters)``."""
     return _functions[address - 1](x, rate, first, p)
+
+
+def call_watch(address: int, t: float) -> Any:
+    """Call ``float watch(float)``."""
+    return _watches[address](t)
+
+
+def watch_address(function: Callable[[float], float]) -> int:
+    """Register ``function`` and return the number it answers to."""
+    address = max(_watches, default=0) + 1
+    _watches[address] = function
+    return address
+
+
+def forget_watch(address: int) -> None:
+    """Give up the number."""
+    del _watches[address]
 
 
 def call_body(address: int, t: float, q: Any, u: Any, p: Any, out: Any) -> None:

@@ -41,6 +41,7 @@ from nonsmooth.engine.projection import project_closed
 from nonsmooth.engine.record import MOST_EVENTS, amend_last, code, impact_code, record_event, remember
 from nonsmooth.engine.self_check import open_account
 from nonsmooth.engine.touching import slip_speed, touch
+from nonsmooth.engine.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
 _PAINLEVE_ATTEMPTS = 5
@@ -85,6 +86,9 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
             continue
         status = _collide_island(S, w, k, cause)
         if status != RUNNING:
+            # what the islands before have done is in no account yet
+            for i in range(S.n_u):
+                w[S.y + S.n_q + i] = w[S.u_before + i]
             return status
         phases += S.phases
         truncated = max(truncated, S.truncated)
@@ -285,6 +289,8 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
             return status
         approaching = S.approaching
     for _attempt in range(_ATTEMPTS):
+        if interrupted(S, S.n_contacts) == 1:
+            return SETTLE_ENDLESS
         if approaching == 1:
             status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k))
             if status != RUNNING:
@@ -298,6 +304,8 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
         if solved == 2 and _attempt < _FACINGS:
             approaching = touch(S, w, k)
             continue
+        if S.stopped == 1:
+            return SETTLE_ENDLESS
         if solved == 0:
             for a in range(S.n_active):
                 if not (w[S.mu + a] >= 0.0 and w[S.mu_static + a] >= 0.0):

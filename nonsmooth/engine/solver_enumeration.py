@@ -10,6 +10,7 @@ from nonsmooth.engine.contact_trial import hold_tried, verify
 from nonsmooth.engine.delassus import add_product
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.watch import interrupted
 from nonsmooth.model.solvers import MOST_ENUMERATED
 
 _SWEEPS = 100
@@ -84,6 +85,8 @@ def enumerate_modes(S: Scalars, w: Floats, k: Integers, first: int) -> int:
     for _a in range(S.n_active):
         combinations *= 3
     for number in range(first, combinations):
+        if interrupted(S, S.n_active) == 1:
+            return 0
         if _lay_modes(S, w, k, number) == 0:
             continue
         slips = _start_slips(S, w, k)

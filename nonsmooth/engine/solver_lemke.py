@@ -17,7 +17,9 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.delassus import write_dense
+from nonsmooth.engine.forces import DEAR
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.watch import interrupted
 
 STAGES = 12
 CORNERS = 4
@@ -162,7 +164,7 @@ def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     _lay(S, w, k, n, g, size)
     row, column = _first_row(S, w, k, n), n
     for _pivots in range(50 * n):
-        if row < 0:
+        if row < 0 or interrupted(S, 1 + n * n // DEAR) == 1:
             break
         left = k[S.lemke_row + row]
         _pivot(S, w, k, n, row, column)

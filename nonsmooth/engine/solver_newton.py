@@ -14,9 +14,11 @@ import math
 from nonsmooth.engine.band import open_band
 from nonsmooth.engine.contact_trial import slope_of_slip
 from nonsmooth.engine.delassus import add_product, own_block
+from nonsmooth.engine.forces import DEAR
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.linear import SINGULAR, band_row, eliminate
 from nonsmooth.engine.solver_gauss_seidel import sweep
+from nonsmooth.engine.watch import interrupted
 
 STAGES = 4
 _SWEEPS = 10
@@ -134,6 +136,8 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     sweep(S, w, k, sweeps)
     square = _residual(S, w, k)
     for _step in range(_STEPS):
+        if interrupted(S, width + width * S.half_band * S.half_band // DEAR) == 1:
+            return 0
         size = 0.0
         for i in range(width):
             size += w[S.f + i] ** 2

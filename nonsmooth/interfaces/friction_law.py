@@ -76,6 +76,7 @@ class StatefulFrictionLaw(FrictionLaw, ABC):
     3. ``coefficient`` and ``rates`` take the vector ``state`` among the arguments that follow the speed.
     4. ``rates(speed, state, out, ...)`` writes the time derivative of every state to ``out``.
     5. The states start from ``initial_state`` whenever the contact closes, and stand still while it is open.
+    6. The certificate takes the states; without them it judges a contact that has just closed.
     """
 
     @property
@@ -92,3 +93,14 @@ class StatefulFrictionLaw(FrictionLaw, ABC):
     @abstractmethod
     def state_scale(self) -> tuple[float, ...]:
         """A usual size of every state, positive, to which the tolerance of the integration is relative."""
+
+    @abstractmethod
+    def is_fulfilled(
+        self,
+        slip: tuple[float, float],
+        normal_force: float,
+        tangential_force: tuple[float, float],
+        tolerance: float,
+        state: tuple[float, ...] | None = None,
+    ) -> bool:
+        """Tell whether slip velocity [m/s], normal and tangential force [N] obey the law in a state."""

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import ClassVar
 
 from nonsmooth.parameters import Component
+from nonsmooth.types import Array
 
 
 class ImpactLaw(Component, ABC):
@@ -19,10 +20,6 @@ class ImpactLaw(Component, ABC):
     @abstractmethod
     def contact_time(self) -> float:
         """Duration of a contact T_c [s], below which bounces count as closed, Eq. (33)."""
-
-    @abstractmethod
-    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
-        """Tell whether the energies [J] stored and returned at a contact obey the law."""
 
 
 class ImpactProcess(ImpactLaw, ABC):
@@ -46,6 +43,10 @@ class ImpactProcess(ImpactLaw, ABC):
     def efficiency(self) -> Callable[..., float]:
         """The function of point 2."""
 
+    @abstractmethod
+    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
+        """Tell whether the energies [J] stored and returned at a contact obey the law."""
+
 
 class ImpactMap(ImpactLaw, ABC):
     """An impact law that maps the rates before the impact to its impulses.
@@ -65,3 +66,21 @@ class ImpactMap(ImpactLaw, ABC):
     @abstractmethod
     def impulses(self) -> Callable[..., None]:
         """The function of the contract."""
+
+    @abstractmethod
+    def is_fulfilled(self, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float) -> bool:
+        """Tell whether the impulses of contacts that all have this law obey it.
+
+        Parameters
+        ----------
+        delassus : array
+            Delassus matrix [1/kg], shape [3 n, 3 n].
+        before : array
+            Rates (n, t1, t2) of each contact before the impact [m/s], shape [3 n].
+        impulses : array
+            What is judged [N s], shape [3 n].
+        friction : array
+            Friction coefficients, shape [n].
+        tolerance : float
+            Deviation that counts as zero [m/s].
+        """

@@ -36,8 +36,7 @@ class Solid(ABC):
 
     The contract:
 
-    1. The pieces cover the boundary, and lie within the solid.  Where they do not fill it, ``inner`` has points of what
-       they leave out.
+    1. The pieces lie within the solid and cover its boundary; they fill it unless it is ``hollow``.
     2. The surface that contacts see is nowhere farther than ``set_back`` from the boundary.
     """
 
@@ -48,8 +47,17 @@ class Solid(ABC):
 
     @property
     @abstractmethod
+    def hollow(self) -> bool:
+        """Whether the pieces leave out what is inside."""
+
+    @property
+    @abstractmethod
     def bounds(self) -> tuple[Vector, Vector]:
         """Lowest and highest coordinates [m], shape [3] each."""
+
+    @abstractmethod
+    def support(self, direction: Vector) -> Vector:
+        """Return a point that lies farthest along a direction of any length [m], both of shape [3]."""
 
     @abstractmethod
     def pieces(self, low: Vector, high: Vector) -> Sequence[Piece]:
@@ -62,4 +70,4 @@ class Solid(ABC):
 
     @abstractmethod
     def holds(self, point: Vector, margin: float) -> bool:
-        """Tell whether a point is inside, deeper than a margin under the boundary [m]."""
+        """Tell whether a hollow one goes round a point that lies deeper than a margin under its boundary [m]."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.model import Model
+from nonsmooth.plugins.blocks import written_past
 from nonsmooth.solids.start import check_overlaps, overlap_allowed
 from nonsmooth.system.contact import Tie
 
@@ -21,8 +22,14 @@ def check_start(model: Model) -> None:
     ------
     InvalidInput
         If bodies overlap, or a joint is open or opening.
+    PluginError
+        If a function writes past its block.
     """
-    for contact, gap in zip(model.system.contacts, model.gaps(), strict=True):
+    gaps = model.gaps()
+    past = written_past(model)
+    if past:
+        raise PluginError(past[0].upper() + past[1:])
+    for contact, gap in zip(model.system.contacts, gaps, strict=True):
         if isinstance(contact.normal, CompliantNormalLaw):
             continue
         if not gap >= -overlap_allowed(contact):

@@ -12,6 +12,7 @@ from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.layout import FRAME, JOINT_ROW, LOAD
 from nonsmooth.model.linkages import Linkage
 from nonsmooth.model.memory import Heap, Memory
+from nonsmooth.plugins.bounds import FRAMES, try_out
 from nonsmooth.plugins.compile import bind
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
@@ -46,10 +47,14 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
     places = {}
     i_q = i_u = 0
     for i, body in enumerate(system.bodies):
-        address, values = bind(body.evaluator, "body", {**body.parameters(), **gravity}, type(body).__name__)
+        offered, owner = {**body.parameters(), **gravity}, type(body).__name__
+        address, values = bind(body.evaluator, "body", offered, owner)
         frame = FRAME + 6 * body.n_u
         tail = len(body.frames) * frame
-        out = heap.block(tail + body.n_q + body.n_u + body.n_u**2 + 2)
+        size = tail + body.n_q + body.n_u + body.n_u**2 + 2
+        q, u = system.start(body)
+        try_out(body.evaluator, "body", offered, values, size, owner, (0.0, tuple(q), tuple(u)))
+        out = heap.output(size)
         fields = {
             "q": i_q,
             "u": i_u,
@@ -63,7 +68,6 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
         }
         _write(memory, "body", i, fields)
         places[id(body)] = Place(i, i_u, tuple(out + frame * f for f in range(len(body.frames))))
-        q, u = system.start(body)
         q_scale, u_scale = body.scales
         y[i_q : i_q + body.n_q], scale[i_q : i_q + body.n_q] = q, q_scale
         first = n_q + i_u
@@ -116,13 +120,15 @@ def _inverse(memory: Memory, body: int) -> int:
 def _lay_joint(memory: Memory, heap: Heap, number: int, tie: Tie, first: int, places: Places) -> int:
     joint = tie.component
     assert isinstance(joint, Joint)
-    address, values = bind(joint.evaluator, "pair", joint.parameters(), type(joint).__name__)
+    offered, owner, size = joint.parameters(), type(joint).__name__, JOINT_ROW * joint.n_rows
+    address, values = bind(joint.evaluator, "pair", offered, owner)
+    try_out(joint.evaluator, "pair", offered, values, size, owner)
     fields = {
         "function": address,
         "parameters": heap.store(values),
         "first": first,
         "rows": joint.n_rows,
-        "out": heap.block(JOINT_ROW * joint.n_rows),
+        "out": heap.output(size),
     }
     for side, body, frame in (("a", tie.first, tie.frames[0]), ("b", tie.second, tie.frames[1])):
         place = places[id(body)]
@@ -138,8 +144,10 @@ def lay_loads(system: System, memory: Memory, heap: Heap, places: Places) -> Non
     for number, tie in enumerate(system.loads):
         load = tie.component
         assert isinstance(load, Load)
-        address, values = bind(load.evaluator, "load", load.parameters(), type(load).__name__)
-        fields = {"function": address, "parameters": heap.store(values), "out": heap.block(LOAD)}
+        offered, owner = load.parameters(), type(load).__name__
+        address, values = bind(load.evaluator, "load", offered, owner)
+        try_out(load.evaluator, "load", offered, values, LOAD, owner, (0.0, *FRAMES))
+        fields = {"function": address, "parameters": heap.store(values), "out": heap.output(LOAD)}
         for side, body, frame in (("a", tie.first, tie.frames[0]), ("b", tie.second, tie.frames[1])):
             fields[f"frame_{side}"] = places[id(body)].frames[frame]
             fields[f"body_{side}"] = places[id(body)].number

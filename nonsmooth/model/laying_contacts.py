@@ -21,15 +21,15 @@ from nonsmooth.interfaces import (
     TractionLaw,
 )
 from nonsmooth.model.laying import Places
-from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
+from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, FORCE_AND_MOMENT, N_ACCOUNTS, PAIR
 from nonsmooth.model.memory import Heap, Memory
 from nonsmooth.parameters import Value
+from nonsmooth.plugins.bounds import try_out
 from nonsmooth.plugins.compile import bind, parameter_names, vector_place
 from nonsmooth.system.contact import Contact
 
 _Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
 """Name in the catalogue, function, form, parameters that it may ask for."""
-_FORCE_AND_MOMENT = 5
 
 
 def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places: Places) -> None:
@@ -73,21 +73,28 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
         functions.append(("force", impact.force, "scalar", impact.parameters()))
         functions.append(("efficiency", impact.efficiency, "scalar", impact.parameters()))
     owners = {"geometry": contact.kinematics, "normal": contact.normal, "force": impact, "efficiency": impact}
+    start = initial_state(contact)
     fields: dict[str, int] = {"mode": OPEN}
     for name, function, form, available in functions:
-        owner = type(owners.get(name, contact.friction)).__name__
-        address, values = bind(function, form, available, f"{owner} ({contact.name})")
+        owner = f"{type(owners.get(name, contact.friction)).__name__} ({contact.name})"
+        address, values = bind(function, form, available, owner)
+        if form == "pair":
+            try_out(function, form, available, values, PAIR, owner)
+        elif form == "traction":
+            given = 1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start
+            try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, given)
+        elif form == "rates":
+            try_out(function, form, available, values, len(start), owner, (0.1, (), start))
         fields |= {f"{name}_function": address, f"{name}_parameters": heap.store(values)}
         if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
             fields["state_copy"] = fields["friction_parameters"] + _place_of_state(contact.friction, values)
-    start = initial_state(contact)
     if start or isinstance(contact.friction, TractionLaw):
         fields |= {"state": first_state, "n_state": len(start), "state_start": heap.store(start)}
-        fields |= {"traction_out": heap.block(_FORCE_AND_MOMENT + len(start)), "rates_out": heap.block(len(start))}
+        fields |= {"traction_out": heap.output(FORCE_AND_MOMENT + len(start)), "rates_out": heap.output(len(start))}
     if isinstance(contact.friction, AnisotropicFrictionLaw):
-        law, side = contact.friction, (0.0, 1.0)[contact.friction.body == "second"]
+        law, on_second = contact.friction, float(contact.friction.body == "second")
         axis = np.divide(law.axis, math.hypot(*law.axis))
-        fields |= {"oriented": 1, "axis": heap.store((side, *axis, *law.ratios))}
+        fields |= {"oriented": 1, "axis": heap.store((on_second, *axis, *law.ratios))}
     for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
         place = places[id(body)]
         fields |= {f"body_{side}": place.number, f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
@@ -134,5 +141,7 @@ def _lay_map(memory: Memory, heap: Heap, impact: ImpactMap) -> int:
         )
     offered: dict[str, Value] = {**impact.parameters(), "friction": 0.0}
     address, values = bind(impact.impulses, "map", offered, type(impact).__name__)
+    single = 1, tuple(2.0 * np.eye(3).ravel()), (-1.0, 0.2, 0.1)
+    try_out(impact.impulses, "map", offered, values, 3, type(impact).__name__, single)
     memory.scalars["impact_map"] = address
     return heap.store(values[1:])

@@ -56,14 +56,22 @@ from nonsmooth.model.scalars import FLOAT_SCALARS, INTEGER_SCALARS
 
 FRAME = 24
 """Floats of frame motion at the head of a body's output block."""
-GEOMETRY = 31
-"""Floats of a contact's geometry block."""
+GUARD = 8
+"""Floats behind each block that a plug-in writes: one that writes past its block is found by them."""
+UNTOUCHED = 1.2345678901234567e-89
+"""What stands there."""
 FEATURE, PAST_END = 29, 30
-"""Where in it stand the number of the features in contact and how far the contact is past their end."""
+"""Where in a geometry block stand the number of the features in contact and how far the contact is past their end."""
+PAIR = 31
+"""Floats of a geometry block that a kinematics writes."""
+GEOMETRY = PAIR + GUARD
+"""Floats of a contact's geometry block."""
 JOINT_ROW = 14
 """Floats of one row of a joint."""
 LOAD = 9
 """Floats that a load writes."""
+FORCE_AND_MOMENT = 5
+"""Floats that a law of traction writes before the rates of its states."""
 CATALOGUE = (
     "body_a",
     "body_b",
@@ -236,7 +244,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "stored": _per(1, "n_slots"),
     "returned": _per(1, "n_slots"),
     "rubbed": _per(1, "n_slots"),
-    "impulse": _per(3, "n_slots"),
+    "impulse": lambda n: 3 * n["n_slots"] + GUARD,
     "u_before": _per(1, "n_u"),
     "u_own": _per(1, "n_u"),
     "u_impact": _per(1, "n_u"),
@@ -350,6 +358,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "event_codes": _per(1, "event_integers"),
     "identity": _per(1, "n_slots"),
     "doubtful": _per(1, "n_slots"),
+    "astray": _per(1, "n_slots"),
     "member": _per(1, "n_slots"),
     "grouped": _per(1, "n_slots"),
     "group_of": _per(1, "n_slots"),

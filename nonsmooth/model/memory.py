@@ -8,7 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.model import tableau
-from nonsmooth.model.layout import FLOAT_ARRAYS, INTEGER_ARRAYS, N_STAGES, SCALARS
+from nonsmooth.model.layout import (
+    FLOAT_ARRAYS,
+    GEOMETRY,
+    GUARD,
+    INTEGER_ARRAYS,
+    N_STAGES,
+    PAIR,
+    SCALARS,
+    UNTOUCHED,
+)
 
 
 class Heap:
@@ -29,6 +38,10 @@ class Heap:
         self._blocks.append(np.asarray(values, dtype=float))
         self._next += len(values)
         return start
+
+    def output(self, size: int) -> int:
+        """Reserve floats that a plug-in writes, and guards behind them; return their offset."""
+        return self.store(np.append(np.zeros(size), np.full(GUARD, UNTOUCHED)))
 
     def close(self) -> Memory:
         """Return the memory with all blocks in it."""
@@ -81,6 +94,8 @@ def allocate(counts: Mapping[str, int]) -> Memory:
     for name, value in counts.items():
         scalars[name] = value
     memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
+    n = counts["n_slots"]
+    memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
     memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
     memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
     memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)

@@ -53,6 +53,7 @@ INTEGER_SCALARS = (
     "culprit",
     "impact_map",
     "painleve",
+    "map_past",
     "singular",
     "failed",
     "blamed",
@@ -76,8 +77,12 @@ INTEGER_SCALARS = (
     "approaching",
     "sample_index",
     "n_doubtful",
-    "astray",
+    "n_astray",
     "calls",
+    "work",
+    "patience",
+    "watch",
+    "stopped",
 )
 FLOAT_SCALARS = (
     "t",

@@ -166,11 +166,7 @@ def _warn(function: Callable[..., Any], owner: str, why: Refusal, cost: str) -> 
 
 @functools.cache
 def _entry(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> _Entry:
-    item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
-    items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
-    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items, start=RECORDED.get(form, 0)))
-    arguments, call, failure = _CALLS[form]
-    parts = {"arguments": arguments, "call": call.format(unpacked=unpacked), "failure": failure}
+    parts = _parts(form, vectors)
     ending = _ENDINGS.get(form, "")
     if PLAIN:
         shim = _made(_PYTHON_SHIM.format(**parts) + ending, _scope_in_python(function))
@@ -184,6 +180,27 @@ def _entry(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -
         return _Entry(interpreted.address(shim), refusal(function, error), shim)
 
 
+def _parts(form: str, vectors: tuple[bool, ...]) -> dict[str, str]:
+    """Return the parts of a shim: what it takes, how it calls the function, what stands for an exception."""
+    item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
+    items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
+    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items, start=RECORDED.get(form, 0)))
+    arguments, call, failure = _CALLS[form]
+    return {"arguments": arguments, "call": call.format(unpacked=unpacked), "failure": failure}
+
+
+def in_python(
+    function: Callable[..., Any], form: str, values: Mapping[str, Value], move: Callable[..., Any]
+) -> Callable[..., Any]:
+    """Return what the engine would call, as plain Python that raises what the function raises.
+
+    ``move(heap, offset)`` stands in the place of moved pointers.
+    """
+    vectors = tuple(isinstance(values[name], tuple) for name in parameter_names(function, form))
+    scope = {"law": interpreted.in_python(function, move), "at": move}
+    return _made(_SHIM.format(**_parts(form, vectors), ending=""), scope)
+
+
 def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
     scope |= {"__name__": __name__, "nan": math.nan}
     exec(text, scope)  # the shim's text is ours, never the user's
@@ -193,7 +210,7 @@ def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
 
 def _scope_in_python(function: Callable[..., Any]) -> dict[str, Any]:
     return {
-        "law": interpreted.in_python(function),
+        "law": interpreted.in_python(function, interpreted.move),
         "at": interpreted.move,
         "note": functools.partial(interpreted.note, function),
         "hold": interpreted.hold,

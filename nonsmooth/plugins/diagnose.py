@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -15,11 +15,12 @@ from nonsmooth.engine.modes import (
     QUATERNION_UNEXPLAINED,
     STEP_TOO_SMALL,
 )
-from nonsmooth.interfaces import ImpactMap, Load
+from nonsmooth.interfaces import ImpactMap
 from nonsmooth.interfaces.guard import guard_value
-from nonsmooth.model.layout import CATALOGUE, FRAME, GEOMETRY, LOAD, N_ACCOUNTS
+from nonsmooth.model.layout import CATALOGUE, N_ACCOUNTS
 from nonsmooth.model.model import Model
 from nonsmooth.plugins import interpreted
+from nonsmooth.plugins.blocks import blocks
 from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.plugins.law_failure import REMEDY, Finding, first_without_value, law_functions, without_value
 from nonsmooth.plugins.source import described, raised
@@ -71,31 +72,11 @@ def _in_the_blocks(model: Model) -> str:
         scalars["t"] = time
         call_room("evaluate_at", model.memory)
         scalars["t"] = t
-        for name, function, block in _blocks(model):
-            if not np.all(np.isfinite(block)):
-                what = interpreted.noted(function) or "raises or gives a number that is not finite"
-                return f"{name} {what} at t = {time:.9g} s. {REMEDY}"
+        for block in blocks(model):
+            if not np.all(np.isfinite(model.memory.floats[block.start : block.start + block.written])):
+                what = interpreted.noted(block.function) or "raises or gives a number that is not finite"
+                return f"{block.label()} {what} at t = {time:.9g} s. {REMEDY}"
     return ""
-
-
-def _blocks(model: Model) -> Iterator[tuple[str, Callable[..., None], np.ndarray]]:
-    """Yield what loads, bodies and listed contacts wrote, with their names and functions; bodies feel loads."""
-    memory, system = model.memory, model.system
-    for i, tie in enumerate(system.loads):
-        start = int(memory.array("load_out", i + 1)[i])
-        assert isinstance(tie.component, Load)
-        function = tie.component.evaluator
-        yield f"{tie.name}: {described(function)},", function, memory.floats[start : start + LOAD]
-    for i, body in enumerate(system.bodies):
-        start = int(memory.array("body_out", i + 1)[i])
-        size = FRAME if body.n_u == 0 else int(memory.array("body_tail", i + 1)[i]) - start + body.n_q + body.n_u
-        yield f"{body!r}", body.evaluator, memory.floats[start : start + size]
-    n = int(memory.scalars["n_contacts"][0])
-    geometry = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
-    for number, block in zip(memory.array("identity", n), geometry, strict=True):
-        contact = system.contacts[int(number)]
-        function = contact.kinematics.evaluator
-        yield f"{contact.name}: {described(function)},", function, block
 
 
 def _in_the_map(model: Model) -> str:

@@ -95,12 +95,14 @@ def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:
     return statistics.median(took)
 
 
-def in_python(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function as Python can run it: where it moves pointers, it moves those of Python."""
-    return function if PLAIN else _moving(unshared(function))
+def in_python(function: Callable[..., Any], move: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the function as Python can run it: where it moves pointers, ``move(heap, offset)`` does it."""
+    return function if PLAIN else _moving(unshared(function), move)
 
 
-def _moving(function: Callable[..., Any], above: tuple[Callable[..., Any], ...] = ()) -> Callable[..., Any]:
+def _moving(
+    function: Callable[..., Any], move: Callable[..., Any], above: tuple[Callable[..., Any], ...] = ()
+) -> Callable[..., Any]:
     if not inspect.isfunction(function) or function in above:
         return function
     scope, new = function.__globals__, {}
@@ -109,7 +111,7 @@ def _moving(function: Callable[..., Any], above: tuple[Callable[..., Any], ...] 
         inner = unshared(value)
         if value is at:
             new[name] = move
-        elif inner is not value and (moved := _moving(inner, (*above, function))) is not inner:
+        elif inner is not value and (moved := _moving(inner, move, (*above, function))) is not inner:
             new[name] = moved
     if not new:
         return function

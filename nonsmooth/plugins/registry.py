@@ -11,7 +11,7 @@ from importlib.metadata import Distribution, EntryPoint, entry_points
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.errors import PluginError, UnknownName
+from nonsmooth.errors import NonsmoothWarning, PluginError, UnknownName
 from nonsmooth.interfaces import (
     Body,
     ContactKinematics,
@@ -56,7 +56,7 @@ _HOME = Path(__file__).resolve().parents[2]
 _BUILT_IN = ("bodies", "laws", "scenarios")
 
 
-class BrokenPlugin(UserWarning):
+class BrokenPlugin(NonsmoothWarning):
     """An installed plug-in that cannot be used."""
 
 
@@ -140,6 +140,15 @@ def load(group: str, name: str) -> Any:
     if found is not None:
         raise PluginError(f"{_title(group, name)} {found}")
     return loaded
+
+
+INTERFACES = tuple(base for bases in GROUPS.values() for base in bases)
+"""What a plug-in may implement."""
+
+
+def kind_of(owner: type) -> str:
+    """Return in words what a class is."""
+    return next(KINDS[group] for group, bases in GROUPS.items() if issubclass(owner, bases))
 
 
 def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:

@@ -7,7 +7,7 @@ import inspect
 import linecache
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from types import CodeType, FrameType
 from typing import Any
 
@@ -42,12 +42,22 @@ def raised(function: Callable[..., Any], error: BaseException) -> str:
     The line is the last one in the function's own file.
     """
     frames = traceback.extract_tb(error.__traceback__)
-    file, line = place_of(function)
-    own = [frame for frame in frames if frame.filename == file and frame.lineno is not None]
-    last = own[-1] if own else None
-    number = last.lineno if last is not None and last.lineno is not None else line
+    last = _last_own(function, frames)
     beyond = f", from {frames[-1].filename}" if last is not None and frames[-1] is not last else ""
-    return f"raises {error!r}{_line(file, number)}{beyond}"
+    return f"raises {error!r}{line_of(function, error)}{beyond}"
+
+
+def line_of(function: Callable[..., Any], error: BaseException) -> str:
+    """Return in brackets the last line of a function's own file that an error has passed, with its text."""
+    file, line = place_of(function)
+    last = _last_own(function, traceback.extract_tb(error.__traceback__))
+    return _line(file, last.lineno if last is not None and last.lineno is not None else line)
+
+
+def _last_own(function: Callable[..., Any], frames: Iterable[traceback.FrameSummary]) -> traceback.FrameSummary | None:
+    file = place_of(function)[0]
+    own = [frame for frame in frames if frame.filename == file and frame.lineno is not None]
+    return own[-1] if own else None
 
 
 def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> tuple[str, Any]:

@@ -10,7 +10,6 @@ from typing import final
 import numpy as np
 
 from nonsmooth.interfaces.solid import Piece, Solid, Vector
-from nonsmooth.solids.overlap import depth
 
 
 @final
@@ -20,14 +19,23 @@ class ConvexSolid(Solid):
 
     Attributes
     ----------
-    support : callable
+    farthest : callable
         Returns a point that lies farthest along a direction [m], both of shape [3].
     set_back : float
         How far what contacts see may lie off the boundary [m].
     """
 
-    support: Callable[[Vector], Vector]
+    farthest: Callable[[Vector], Vector]
     set_back: float = 0.0
+
+    def support(self, direction: Vector) -> Vector:
+        """Return what the function returns."""
+        return self.farthest(direction)
+
+    @property
+    def hollow(self) -> bool:
+        """It is all of one piece."""
+        return False
 
     @functools.cached_property
     def _extremes(self) -> Vector:
@@ -36,7 +44,7 @@ class ConvexSolid(Solid):
     @functools.cached_property
     def _whole(self) -> Piece:
         # in the middle of what is extreme, and so inside
-        return Piece(self.support, np.mean(self._extremes, axis=0))
+        return Piece(self.farthest, np.mean(self._extremes, axis=0))
 
     @property
     def bounds(self) -> tuple[Vector, Vector]:
@@ -53,5 +61,5 @@ class ConvexSolid(Solid):
         return self._whole.place[None, :]
 
     def holds(self, point: Vector, margin: float) -> bool:
-        """Tell whether a point and the solid can be parted by a margin [m]."""
-        return depth(self._whole, Piece(lambda direction: point, point), margin) > 0.0
+        """Tell nothing that the piece does not tell."""
+        return False

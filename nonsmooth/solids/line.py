@@ -50,7 +50,8 @@ class Line:
         self._passages = [
             Passage(one.moved(-one.position), two.moved(-one.position), self._way, height)
             for one, two in (
-                (first, second) if contact.first is probe.body else (second, first) for contact, first, second in pairs
+                (first, second) if probe.contacts[numbers[0]].first is probe.body else (second, first)
+                for numbers, first, second in pairs
             )
         ]
         self._by_gap = [

@@ -114,7 +114,8 @@ def _expanded(corners: list[_Point], farthest: Callable[[Vector], Vector], toler
 def _pushed_out(points: list[_Point], faces: list[_Face], least: float) -> list[_Face]:
     """Return the faces of the hull of a polytope and the last of the points, which lies over one of its faces."""
     top = points[-1]
-    kept, rims = [], set()
+    kept: list[_Face] = []
+    rims: set[tuple[int, int]] = set()
     for face in faces:
         if _dot(face[1], top) - face[0] <= least:
             kept.append(face)

@@ -14,7 +14,7 @@ import numpy as np
 
 from nonsmooth.interfaces.solid import Piece, Vector
 from nonsmooth.solids.overlap import depth
-from nonsmooth.solids.placed import Placed, near_pairs
+from nonsmooth.solids.placed import Placed, near_pairs, nested
 from nonsmooth.solids.separation import separation
 
 _EXACT = 1e-13
@@ -51,12 +51,14 @@ class Passage:
     @property
     def tolerance(self) -> float:
         """How much nearer than the height solids may be that have met [m]."""
-        return 1e-9 * min(float(np.linalg.norm(high - low)) for low, high in (self.one.bounds, self.two.bounds))
+        sizes = [float(np.linalg.norm(high - low)) for low, high in (self.one.bounds, self.two.bounds)]
+        # a point has no size
+        return max(1e-9 * min(sizes), 1e-15 * max(sizes))
 
     @property
     def clear(self) -> bool:
         """Whether the solids are as far apart as they may be."""
-        return not self._near and not self._nested
+        return not self._near and nested(self.one, self.two, self.tolerance) == 0.0
 
     def ahead(self) -> float:
         """Return how far the first can go on along the way, being clear [m]; infinite if it meets nothing."""
@@ -84,12 +86,6 @@ class Passage:
         if self.height == 0.0:
             return [(a, b) for a, b in pairs if depth(a, b, least) > 0.0]
         return [(a, b) for a, b in pairs if separation(a, b, still, self.height, 0.1 * least)[0] < -least]
-
-    @property
-    def _nested(self) -> bool:
-        return any(self.two.holds(point, self.tolerance) for point in self.one.inner) or any(
-            self.one.holds(point, self.tolerance) for point in self.two.inner
-        )
 
     def _first(self, pairs: list[tuple[Piece, Piece]], start: float) -> float:
         """Return where the first of some pairs of pieces meets, from where all are apart [m]."""

@@ -40,13 +40,17 @@ class Placed:
         """Corners of a box along the axes that holds it [m], shape [3] each."""
         return _box(*self.solid.bounds, self.rotation, self.position)
 
+    def support(self, direction: Vector) -> Vector:
+        """Return a point that lies farthest along a direction [m], shape [3]."""
+        return np.asarray(self.position + self.rotation @ self.solid.support(direction @ self.rotation))
+
     @property
     def inner(self) -> Vector:
         """Points inside [m], shape [n, 3]."""
         return self.position + self.solid.inner @ self.rotation.T
 
     def holds(self, point: Vector, margin: float) -> bool:
-        """Tell whether a point is inside, deeper than a margin under the boundary [m]."""
+        """Tell whether a hollow one goes round a point that lies deeper than a margin under its boundary [m]."""
         return self.solid.holds(self.rotation.T @ (point - self.position), margin)
 
     def pieces(self, low: Vector, high: Vector) -> list[Piece]:
@@ -64,17 +68,40 @@ class Placed:
         return Piece(turned, place + axes @ piece.place, tuple(axes @ normal for normal in piece.normals))
 
 
-def overlap(one: Placed, two: Placed, tolerance: float) -> float:
-    """Return how far some pieces of two solids must be moved to part them [m]; 0 if a tolerance covers it.
+def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float:
+    """Return how deep at least two solids reach into each other [m]; 0 if a tolerance covers it.
 
-    Where one solid is inside of the other without that their boundaries cross, it is the tolerance.
+    Parameters
+    ----------
+    one, two : Placed
+        The solids.
+    tolerance : float
+        By how much they may overlap [m].
+    normal : Vector
+        Unit vector from the first to the second across which there may be a plane between them, shape [3]: if there is,
+        nothing else is looked at.
     """
+    if float(normal @ (one.support(normal) - two.support(-normal))) <= tolerance:
+        return 0.0
     for a, b in near_pairs(one, two):
         found = depth(a, b, tolerance)
         if found > 0.0:
             return found
-    nested = any(two.holds(point, tolerance) for point in one.inner)
-    return tolerance if nested or any(one.holds(point, tolerance) for point in two.inner) else 0.0
+    return nested(one, two, tolerance)
+
+
+def nested(one: Placed, two: Placed, tolerance: float) -> float:
+    """Return how deep at least a hollow solid holds points of the other one [m]; 0 if a tolerance covers it."""
+    deepest = 0.0
+    for outer, inner in ((one, two), (two, one)):
+        if outer.solid.hollow:
+            # of boundaries that lie in one another without a crossing, points on one are inside of the other
+            places = [*inner.inner, *(piece.place for piece in inner.pieces(*outer.bounds))]
+            for place in places:
+                margin = max(deepest, tolerance)
+                while outer.holds(place, margin):
+                    deepest, margin = margin, 2.0 * margin
+    return deepest
 
 
 def near_pairs(

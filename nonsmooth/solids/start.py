@@ -9,7 +9,7 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
-from nonsmooth.model.layout import CATALOGUE
+from nonsmooth.model.layout import CATALOGUE, GEOMETRY
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
 
@@ -34,10 +34,16 @@ def check_overlaps(model: Model) -> None:
     InvalidInput
         If two overlap.
     """
-    listed = model.memory.array("identity", int(model.memory.scalars["n_contacts"][0]))
-    rigid = [i for i in listed.tolist() if not isinstance(model.system.contacts[i].normal, CompliantNormalLaw)]
-    for contact, one, two in solid_pairs(model, rigid, within=0.0):
-        found = overlap(one, two, overlap_allowed(contact) + one.solid.set_back + two.solid.set_back)
+    contacts, memory = model.system.contacts, model.memory
+    n = int(memory.scalars["n_contacts"][0])
+    blocks = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
+    slots = {number: slot for slot, number in enumerate(memory.array("identity", n).tolist())}
+    rigid = [number for number in slots if not isinstance(contacts[number].normal, CompliantNormalLaw)]
+    for numbers, one, two in solid_pairs(model, rigid, within=0.0):
+        contact = contacts[numbers[0]]
+        allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
+        nearest = min((slots[number] for number in numbers), key=lambda slot: abs(float(blocks[slot, 0])))
+        found = overlap(one, two, allowed, blocks[nearest, 1:4])
         if found > 0.0:
             kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
             raise InvalidInput(
@@ -51,8 +57,8 @@ def check_overlaps(model: Model) -> None:
 
 def solid_pairs(
     model: Model, numbers: Sequence[int], within: float = np.inf
-) -> Iterator[tuple[Contact, Placed, Placed]]:
-    """Yield, once for every two shapes, their first contact and their solids, for shapes that have one.
+) -> Iterator[tuple[list[int], Placed, Placed]]:
+    """Yield, for every two shapes that have solids, their contacts and the solids where they stand.
 
     Parameters
     ----------
@@ -63,25 +69,22 @@ def solid_pairs(
     within : float
         Shapes whose balls about the origins of their frames are farther apart than this are left out [m].
     """
-    seen = set()
+    pairs: dict[tuple[int, ...], list[int]] = {}
     for number in numbers:
         contact = model.system.contacts[number]
-        pair = tuple(map(id, (contact.first, contact.second, *contact.shapes)))
-        if pair in seen:
-            continue
-        seen.add(pair)
-        frames = frames_of(model, number)
+        pairs.setdefault(tuple(map(id, (contact.first, contact.second, *contact.shapes))), []).append(number)
+    for same in pairs.values():
+        contact, frames = model.system.contacts[same[0]], frames_of(model, same[0])
         apart = float(np.linalg.norm(frames[0][:3] - frames[1][:3]))
         if apart - sum(contact.extents) > within:
             continue
-        solids = [shape.solid for shape in contact.shapes]
-        if solids[0] is not None and solids[1] is not None:
+        first, second = (shape.solid for shape in contact.shapes)
+        if first is not None and second is not None:
             one, two = (
                 Placed(solid, frame[:3].copy(), frame[3:].reshape(3, 3).copy())
-                for solid, frame in zip(solids, frames, strict=True)
-                if solid is not None
+                for solid, frame in zip((first, second), frames, strict=True)
             )
-            yield contact, one, two
+            yield same, one, two
 
 
 def frames_of(model: Model, number: int) -> tuple[Vector, Vector]:

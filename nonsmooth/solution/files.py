@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import errno
 import io
 import os
 import tempfile
@@ -25,12 +26,16 @@ _NONE: Coordinates = MappingProxyType({})
 _ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
 
 
+_REMEDY = "Free space there or choose another folder."
+_REMEDIES = {errno.ENOTDIR: "Name a folder; one that is not there is made."}
+
+
 class FileError(NonsmoothError, OSError):
     """A file or folder that could not be written; the message names the path."""
 
     def __init__(self, path: object, error: OSError) -> None:
         reason = error.strerror or error
-        super().__init__(f"{path} could not be written: {reason}. Free space there or choose another folder.")
+        super().__init__(f"{path} could not be written: {reason}. {_REMEDIES.get(error.errno or 0, _REMEDY)}")
 
 
 def prepare(folder: Path) -> None:
@@ -42,6 +47,8 @@ def prepare(folder: Path) -> None:
         If that is not possible.
     """
     try:
+        if folder.exists() and not folder.is_dir():
+            raise NotADirectoryError(errno.ENOTDIR, "It is a file")
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder) as probe:
             probe.write(b"probe")

@@ -89,12 +89,6 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
             [_MU, Variable("heading", -3.1, 3.1)],
         ),
         ("contact time", "the contact time is a finite number >= 0", lambda: _contact_times(law)),
-        row(
-            "no gain accepted",
-            "energy that comes back beyond what was stored does not obey it",
-            _refuses_gain,
-            [Variable("stored", 1e-3, 1e3, 1.0, log=True)],
-        ),
     ]
     if isinstance(law, ImpactProcess):
         rows += process_rows(law)
@@ -240,13 +234,6 @@ def _contact_times(law: ImpactLaw) -> None:
     for one in variants(law):
         if not (math.isfinite(one.contact_time) and one.contact_time >= 0.0):
             raise Broken("it is not a finite number >= 0 [s]", "contact_time", one.contact_time)
-
-
-def _refuses_gain(law: ImpactLaw, case: Case) -> str:
-    stored = case["stored"]
-    if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
-        return f"is_fulfilled accepts {1.01 * stored:g} J back of {stored:g} J"
-    return ""
 
 
 def _plastic(law: ImpactLaw, case: Case) -> str:

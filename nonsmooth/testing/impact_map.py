@@ -21,6 +21,8 @@ from nonsmooth.testing.respond import vectors_of
 
 Array = NDArray[np.float64]
 _MU = 0.3
+_OBEYS = 1e-6
+"""Deviation of velocities that counts as zero, relative to the largest."""
 
 
 def is_planar(law: ImpactLaw) -> bool:
@@ -75,7 +77,12 @@ def map_rows(law: ImpactMap) -> list[Row]:
             "writes its block",
             "it writes every impulse, whatever stood there, and nothing beyond",
             lambda: examine("writes its block", variants(law), space, _writes, 4),
-        )
+        ),
+        (
+            "certificate",
+            "the impulses of the law obey it; larger ones, other friction and none where a contact approaches do not",
+            lambda: examine("certificate", variants(law), space, _certifies, 4),
+        ),
     ]
 
 
@@ -89,3 +96,26 @@ def _writes(law: ImpactMap, case: Case) -> str:
         if np.allclose(clean[: 3 * p.n], used[: 3 * p.n], rtol=1e-9, atol=1e-12)
         else "numbers that stood there before are left"
     )
+
+
+def _certifies(law: ImpactMap, case: Case) -> str:
+    p = problem(case, max(_spaces(law)))
+    vectors = vectors_of([law] * p.n, [case["friction"]] * p.n)
+    own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
+    obeying = _written(p, lambda *given: law.impulses(*given, **own))[: 3 * p.n]
+    delassus, before = p.columns.T @ np.linalg.solve(p.mass, p.columns), p.columns.T @ p.velocity
+    tolerance = _OBEYS * float(np.max(np.abs(before)))
+    across = obeying * np.tile([0.0, 1.0, 1.0], p.n)
+    tried = [("its impulses", obeying, True)]
+    for words, wrong in (
+        ("1.1 times its impulses", 1.1 * obeying),
+        ("1.2 times its friction", obeying + 0.2 * across),
+        ("no impulses", 0.0 * obeying),
+    ):
+        # what changes no velocity is no other solution
+        if np.max(np.abs(delassus @ (wrong - obeying))) > 1e3 * tolerance:
+            tried.append((words, wrong, False))
+    for words, impulses, expected in tried:
+        if bool(law.is_fulfilled(delassus, before, impulses, vectors["friction"], tolerance)) is not expected:
+            return f"is_fulfilled {'refuses' if expected else 'accepts'} {words}"
+    return ""

@@ -36,6 +36,12 @@ def process_rows(law: ImpactProcess) -> list[Row]:
             _accepts,
             [*problem_space(2), Variable("friction", 0.0, 0.6)],
         ),
+        row(
+            "no gain accepted",
+            "energy that comes back beyond what was stored does not obey it",
+            _refuses_gain,
+            [Variable("stored", 1e-3, 1e3, 1.0, log=True)],
+        ),
     ]
 
 
@@ -67,4 +73,11 @@ def _accepts(law: ImpactProcess, case: Case) -> str:
     for stored, returned in zip(r.stored.tolist(), r.returned.tolist(), strict=True):
         if not law.is_fulfilled(stored, returned, 1e-7 * size + 1e-12):
             return f"is_fulfilled refuses {returned:g} J back of {stored:g} J"
+    return ""
+
+
+def _refuses_gain(law: ImpactProcess, case: Case) -> str:
+    stored = case["stored"]
+    if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
+        return f"is_fulfilled accepts {1.01 * stored:g} J back of {stored:g} J"
     return ""

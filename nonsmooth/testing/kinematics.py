@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
+from nonsmooth.model.layout import FRAME, PAIR, PAST_END
 from nonsmooth.testing.callers import compiled_caller, plain_caller
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.draws import Case, Variable, draws
@@ -117,8 +117,8 @@ def _geometry(kinematics: ContactKinematics, pair: _Pair) -> Function:
 
 
 def _written(call: Callable[..., Any], poses: Sequence[Pose]) -> Array:
-    out = np.full(GEOMETRY + ROOM, OLD)
-    out[:GEOMETRY] = 0.0
+    out = np.full(PAIR + ROOM, OLD)
+    out[:PAIR] = 0.0
     call(_frame(poses[0]), _frame(poses[1]), out)
     return out
 
@@ -176,7 +176,7 @@ class _Pair:
         )
         again = other.copy()
         call(_frame(_poses(case)[0]), _frame(_poses(case)[1]), again)
-        wrong = np.flatnonzero(again[:GEOMETRY] != clean[:GEOMETRY])
+        wrong = np.flatnonzero(again[:PAIR] != clean[:PAIR])
         return f"number {wrong[0]} of the block is left from the call before" if len(wrong) else ""
 
     def axes(self, law: ContactKinematics, case: Case) -> str:

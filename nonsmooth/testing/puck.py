@@ -255,8 +255,10 @@ def run(
     rows = np.reshape(slab, (3, 3))
     touch = _Touch(tuple(rows[2].tolist()), tuple(rows[0].tolist()))
     # not by System.contact, which looks for kinematics among those installed
-    name, shapes = "contact of puck and slab", (_Spot(), _Spot())
-    system._contacts.append(Contact(name, base, puck, (0, 0), shapes, touch, (math.inf, 0.0), *laws))
+    spots, reaches = (_Spot(), _Spot()), (math.inf, 0.0)
+    system._contacts.append(
+        Contact("contact of puck and slab", base, puck, (0, 0), spots, touch, reaches, reaches, *laws)
+    )
     system.set_start(puck, np.array([0.0, 0.0, height]), np.array(u, dtype=float))
     options = Options(
         gap_tolerance=min(1e-12, _FINE * puck.length),

@@ -55,13 +55,15 @@ _CHECKS: tuple[tuple[Any, Callable[[Any], list[Property]]], ...] = (
 )
 
 
-def check_registered(group: str, name: str, words: Mapping[str, str]) -> list[Property]:
-    """Return the properties of the component of that name in a group, of each kind that it is.
+def check_class(owner: Any, name: str, words: Mapping[str, str]) -> list[Property]:
+    """Return the properties of a component of a class, of each kind that it is.
 
     Parameters
     ----------
-    group, name : str
-        Where it is installed.
+    owner : type
+        The class.
+    name : str
+        Its name, for messages.
     words : mapping of str to str
         Parameters; those that are required and not given are those of the class's example, or take a value inside of
         their range.
@@ -69,17 +71,15 @@ def check_registered(group: str, name: str, words: Mapping[str, str]) -> list[Pr
     Raises
     ------
     InvalidInput
-        If a value is wrong, or a field without default is no declared number and not in the example.
-    PluginError
-        If it cannot be loaded.
+        If a value is wrong, a field without default is no declared number and not in the example, or the kit does not
+        know its kind.
     """
-    owner = registry.load(group, name)
     if issubclass(owner, ContactKinematics):
         return _of_pair(owner, name, words)
     component = make(owner, name, words)
     found = [prop for base, check in _CHECKS if isinstance(component, base) for prop in check(component)]
     if not found:
-        kind = registry.KINDS[group]
+        kind = registry.kind_of(owner)
         raise InvalidInput(f"check {name}", "must be of a kind that the kit knows", kind, "Nothing would be looked at.")
     return found
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.kernel import call_room
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.model.assembly import lay_out
-from nonsmooth.model.layout import GEOMETRY
+from nonsmooth.model.layout import PAIR
 from nonsmooth.model.options import Options
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
@@ -131,8 +131,8 @@ class Rig:
 
     @property
     def geometry(self) -> Array:
-        """The geometry block, shape [30]."""
-        return self._row("geometry", GEOMETRY)
+        """The geometry block, shape [31]."""
+        return self._row("geometry", PAIR)
 
     @property
     def axes(self) -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 from nonsmooth.interfaces import StatefulFrictionLaw
 from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.testing.callers import compiled_caller, plain_caller
-from nonsmooth.testing.coefficient import SPEED, mu
+from nonsmooth.testing.coefficient import FORCE, HEADING, SPEED, along, mu
 from nonsmooth.testing.component import variants
 from nonsmooth.testing.draws import Case, Variable
 from nonsmooth.testing.examine import FEWEST, Trial, examine
@@ -48,6 +48,15 @@ def state_rows(law: StatefulFrictionLaw) -> list[Row]:
             _reached,
             *speeds,
             *times,
+        ),
+        row(
+            "certificate with states",
+            "it takes the states: a force on the edge of the disc that they give obeys it, one off it does not",
+            _certifies,
+            SPEED,
+            HEADING,
+            FORCE,
+            Variable("moved", -1.0, 1.0, 1.0),
         ),
         row(
             "sustained motion",
@@ -124,6 +133,20 @@ def _reached(law: StatefulFrictionLaw, case: Case) -> str:
             return f"{where} the coefficient is {rest:g} at rest and {fast:g} at this speed"
         if slow > rest * (1.0 + 1e-12) + 1e-12:
             return f"{where} the coefficient is {rest:g} at rest, below {slow:g} of incipient slip"
+    return ""
+
+
+def _certifies(law: StatefulFrictionLaw, case: Case) -> str:
+    speed, heading, force = case["slip_speed"], case["heading"], case["normal_force"]
+    start, scale = np.array(law.initial_state), np.array(law.state_scale)
+    state = start + 10.0 ** case["moved"] * scale
+    slip, tolerance = along(speed, heading), 1e-9 * force
+    bound = _mu(law, speed, state) * force
+    for share, expected in ((-1.0, True), *((share, False) for share in (1.0, -1.001, -0.999) if bound > 1e-5 * force)):
+        given = law.is_fulfilled(slip, force, along(share * bound, heading), tolerance, tuple(state.tolist()))
+        if bool(given) is not expected:
+            word = "refuses" if expected else "accepts"
+            return f"is_fulfilled {word} {share:g} of the bound {bound:g} N along the slip, states {state.tolist()}"
     return ""
 
 

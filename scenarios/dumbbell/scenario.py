@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Dumbbell, Harmonic, Plate
-from laws import Coulomb, Unilateral, closing_time, plane_strain_modulus
+from laws import Coulomb, Unilateral, closing_time, effective_modulus
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, ImpactLaw, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
@@ -215,7 +215,8 @@ class DumbbellScenario(Scenario):
     def _hertz_time(self, aspect_ratio: float) -> float:
         """Return how long the slightest impact of a ball lasts under gravity [s], the dumbbell being level."""
         dumbbell = self._quietly(lambda: self._dumbbell_of(aspect_ratio))
-        modulus = plane_strain_modulus(dumbbell.young_modulus, dumbbell.poisson_ratio)
+        material = dumbbell.young_modulus, dumbbell.poisson_ratio
+        modulus = effective_modulus(material, material)
         return closing_time(dumbbell.level_mass, dumbbell.radius, modulus, GRAVITY)
 
     def _impact_law(self) -> ImpactLaw:

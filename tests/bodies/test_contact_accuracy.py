@@ -18,16 +18,20 @@ OVER_FLAT_PLACES = ("box-boxy, edge", "hull-boxy, edge", "rounded box-boxy, edge
 @pytest.mark.parametrize("pair", NAMES)
 def test_errors_stay_within_what_is_promised(pair: str) -> None:
     """Gaps from 0.1 m to a penetration of 0.1 mm of bodies of 1 cm."""
-    errors = measure(pair, 1 if PLAIN else 2, seed=1)
-    if errors.differences < 3:
-        # next to an apex or a corner features change in most draws
-        errors = measure(pair, 4, seed=1)
-    assert errors.gap <= 1e-12
-    assert errors.normal <= 1e-9
-    assert errors.witness <= (1e-10 if pair in OVER_FLAT_PLACES else 1e-12)
-    assert errors.rate <= 1e-8
-    assert errors.acceleration <= 1e-6
-    assert errors.differences >= 3
+    looked = 0
+    # next to an apex or a corner features change in most draws: more of them, and all must hold
+    for seed in range(1, 5):
+        errors = measure(pair, 1 if PLAIN else 2, seed=seed)
+        assert errors.gap <= 1e-12
+        assert errors.normal <= 1e-9
+        assert errors.witness <= (1e-10 if pair in OVER_FLAT_PLACES else 1e-12)
+        if errors.differences > 0:
+            assert errors.rate <= 1e-8
+            assert errors.acceleration <= 1e-6
+        looked += errors.differences
+        if looked >= 3:
+            break
+    assert looked >= 3
 
 
 def test_the_page_has_a_row_for_every_pair() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -21,6 +22,55 @@ def test_a_law_that_conforms(call: Call) -> None:
     assert lines[0].startswith("stribeck: law of nonsmooth")
     assert any(line.split()[:3] == ["holds", "declared", "bounds"] for line in lines)
     assert lines[-1].split()[1:4] == ["hold,", "0", "fail,"]
+
+
+_LONE = """
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from nonsmooth.certificates import follows_map
+from nonsmooth.interfaces import ImpactMap
+from nonsmooth.parameters import parameter
+
+
+@dataclass(frozen=True)
+class Lone(ImpactMap):
+    one_planar_contact: ClassVar[bool] = True
+    departures: ClassVar[Mapping[str, str]] = {"force and impact level": "it has no friction"}
+    restitution: float = parameter(0.5, doc="ratio of the rates", minimum=0.0, maximum=1.0)
+    contact_time: float = parameter(2e-5, doc="contact time", unit="s", minimum=0.0)
+
+    @staticmethod
+    def impulses(n, delassus, rates, out, friction, restitution):
+        if n > 1:
+            raise ValueError("one contact only")
+        out[0] = -(1.0 + restitution[0]) * min(rates[0], 0.0) / delassus[0]
+        out[1] = out[2] = 0.0
+
+    def is_fulfilled(self, delassus, before, impulses, friction, tolerance):
+        return follows_map(self, delassus, before, impulses, friction, tolerance)
+"""
+
+
+def test_a_class_of_a_file(call: Call, tmp_path: Path) -> None:
+    """A map of one contact alone, which raises for more: it is asked for no more."""
+    (tmp_path / "lone.py").write_text(_LONE)
+    status, output, _ = call("check", f"{tmp_path / 'lone.py'}:Lone", "--set", "restitution=0.4")
+    assert status == 0
+    lines = output.splitlines()
+    assert lines[0] == f"Lone: law of {tmp_path / 'lone.py'}"
+    words = lines[-1].split()
+    assert words[1:4] == ["hold,", "0", "fail,"]
+    assert int(words[0]) > 15
+
+
+def test_a_file_without_such_a_class(call: Call, tmp_path: Path) -> None:
+    """The class that is meant is told."""
+    (tmp_path / "lone.py").write_text(_LONE)
+    status, _, errors = call("check", f"{tmp_path / 'lone.py'}:Lonely")
+    assert status == 2
+    assert "Did you mean 'Lone'?" in errors
 
 
 def test_a_known_departure_is_no_failure(call: Call) -> None:
@@ -63,14 +113,27 @@ def test_every_kind_of_that_name(call: Call) -> None:
     ]
 
 
-def _built_in() -> list[str]:
-    """Return the names of all built-ins, of every kind."""
-    return sorted({name for group in registry.GROUPS for name in registry.names(group)} - {"tiny"})
+ONE_OF_A_KIND = {
+    "bodies": "line_body",
+    "guards": "tilt_guard",
+    "joints": "ball_joint",
+    "kinematics": "plane_vertex",
+    "laws": "stribeck",
+    "loads": "function_load",
+    "motions": "table",
+    "scenarios": "sliding_rod",
+    "shapes": "convex_hull",
+}
+"""One name for each group; what the properties say of all others is in tests/testing."""
 
 
-@pytest.mark.skipif(PLAIN, reason="many minutes in plain mode")
-@pytest.mark.parametrize("name", _built_in())
-def test_every_built_in_can_be_checked(call: Call, name: str) -> None:
+def test_there_is_one_of_every_kind() -> None:
+    assert set(ONE_OF_A_KIND) == set(registry.GROUPS)
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+@pytest.mark.parametrize("name", ONE_OF_A_KIND.values())
+def test_a_built_in_of_every_kind_is_checked(call: Call, name: str) -> None:
     """By its name alone: what numbers cannot give is in the example of its class."""
     status, output, _ = call("check", name)
     assert status == 0, output

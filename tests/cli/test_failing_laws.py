@@ -85,7 +85,7 @@ class Process(ImpactProcess):
 class Map(ImpactMap):
     impulses, contact_time = staticmethod(turning_map), 1e-5
 
-    def is_fulfilled(self, stored, returned, tolerance):
+    def is_fulfilled(self, delassus, before, impulses, friction, tolerance):
         return True
 """
 _NAMES = ("Turning", "Misspelt", "Process", "Map")

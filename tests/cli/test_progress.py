@@ -46,6 +46,17 @@ def test_a_terminal_has_one_line_that_is_gone_in_the_end() -> None:
     assert written.endswith("\r\x1b[K")
 
 
+def test_what_came_before_the_run_is_not_in_the_estimate() -> None:
+    """The engine may have been compiled for half a minute."""
+    clock, stream = _Clock(), io.StringIO()
+    progress = Progress(stream, LINES, clock)
+    clock.now = 30.0
+    progress(1.0, 10.0)
+    clock.now = 41.0
+    progress(2.0, 10.0)
+    assert stream.getvalue().splitlines() == ["t = 1 of 10 s (10%)", "t = 2 of 10 s (20%), about 88 s to go"]
+
+
 def test_the_next_of_several_runs_is_estimated_by_itself() -> None:
     clock, stream = _Clock(), io.StringIO()
     progress = Progress(stream, LINES, clock)

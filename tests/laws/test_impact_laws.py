@@ -102,9 +102,6 @@ def test_certificates_refuse() -> None:
     assert law.is_fulfilled(4.0, 1.0, 1e-12)
     assert not law.is_fulfilled(4.0, 1.1, 1e-3)
     assert not law.is_fulfilled(4.0, 0.9, 1e-3)
-    newton = NewtonImpact(0.5)
-    assert newton.is_fulfilled(1.0, 0.9, 0.0)
-    assert not newton.is_fulfilled(1.0, 1.1, 1e-3)
 
 
 def test_functions_of_the_energetic_law() -> None:

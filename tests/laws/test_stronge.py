@@ -103,9 +103,3 @@ def test_refuses_more_than_one_contact_and_a_turning_slip() -> None:
     ) as caught:
         ns.simulate(system, 0.1)
     assert caught.value.solution is not None
-
-
-def test_certificate() -> None:
-    """The share e^2, nothing else."""
-    assert StrongeImpact(0.5).is_fulfilled(4.0, 1.0, 1e-12)
-    assert not StrongeImpact(0.5).is_fulfilled(4.0, 1.1, 1e-3)

@@ -247,3 +247,26 @@ def test_two_contacts_that_share_their_friction(mu: float) -> None:
     assert np.all(normal.T @ result.velocity >= -1e-12)
     lost = 0.5 * u @ mass @ u - 0.5 * result.velocity @ mass @ result.velocity
     assert lost == pytest.approx(np.sum(result.stored - result.returned + result.friction_loss), rel=1e-9)
+
+
+@pytest.mark.parametrize("e", [0.05, 0.102, 0.2])
+def test_a_tetrahedron_on_three_corners_rattles_to_the_end(e: float) -> None:
+    """Slips start from rest and stop again while next to nothing of the motion is left: each is passed once."""
+    columns = np.array(
+        [
+            [-550.0, 13.0, -11.0, -961.0, 19.0, -20.0, -634.0, 17.0, -12.0],
+            [7.0, 182.0, -528.0, 24.0, 372.0, -869.0, 29.0, 318.0, -571.0],
+            [-10.0, -690.0, -306.0, -10.0, -690.0, -306.0, -10.0, -690.0, -306.0],
+            [2112.0, -41.0, 45.0, -2044.0, 12.0, -51.0, 1265.0, -3.0, 33.0],
+            [-152.0, -1313.0, 1737.0, 30.0, 678.0, -1844.0, 85.0, 111.0, 1290.0],
+            [-2073.0, 61.0, -72.0, -535.0, -46.0, 120.0, 2608.0, -15.0, -48.0],
+        ]
+    )
+    u = np.array([5.895e-06, 2.514e-07, 1.612e-07, -3.647e-06, -3.333e-08, 1.083e-06])
+    normal, tangential = columns[:, ::3], np.stack([columns[:, 1::3], columns[:, 2::3]], axis=2)
+    laws, friction = [EnergeticImpact(e)] * 3, [Coulomb(0.191)] * 3
+    result = ns.solve_impact(np.eye(6), normal, tangential, u, laws, friction, tolerance=1e-8)
+    assert result.phases < 1000
+    assert np.min(normal.T @ result.velocity) > -1e-8 * np.max(np.abs(normal.T @ u))
+    lost = np.sum(result.restitution_loss) + np.sum(result.friction_loss)
+    assert result.velocity @ result.velocity + 2.0 * lost == pytest.approx(u @ u, rel=1e-7)

@@ -31,7 +31,7 @@ class Derivation:
         self.v = sp.Matrix(sp.symbols(" ".join(f"d{n}" for n in NAMES)))
         theta, beta, gamma = self.q[3:]
         turn = sp.rot_axis3(-(sp.pi / 2 + theta)) * sp.rot_axis2(beta) * sp.rot_axis1(-gamma)
-        self.axes = sp.simplify(turn)
+        self.axes = sp.expand(turn)
         spin = self.axes.T * self.rate(self.axes)
         # the body components of the angular velocity, from R^T R'
         self.omega = sp.simplify(sp.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]]))
@@ -43,11 +43,11 @@ class Derivation:
             self.m * (self.centre_velocity.T * self.centre_velocity)[0] + (self.omega.T * inertia * self.omega)[0]
         ) / 2
         self.potential = self.m * self.g * self.centre[2]
-        self.mass = sp.simplify(sp.hessian(self.kinetic, list(self.v)))
+        self.mass = sp.hessian(self.kinetic, list(self.v))
         down = sp.Matrix([0, 0, -self.r])
         arms = (down, self.length * self.axes[:, 0] + down)
         world = self.axes * self.omega
-        points = [sp.simplify(self.rate(first) + world.cross(arm)) for arm in arms]
+        points = [self.rate(first) + world.cross(arm) for arm in arms]
         gaps = sp.Matrix([(first + arm)[2] for arm in arms])
         self.normal = gaps.jacobian(self.q).T
         self.slip = [sp.Matrix(p[:2]).jacobian(self.v).T for p in points]

@@ -111,7 +111,7 @@ class Map(ImpactMap):
         """Any."""
         return 1e-5
 
-    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
+    def is_fulfilled(self, delassus: Any, before: Any, impulses: Any, friction: Any, tolerance: float) -> bool:
         """Not asked for here."""
         return True
 
@@ -238,7 +238,9 @@ class Stateful(StatefulFrictionLaw):
         """Of slow slip."""
         return (0.1,)
 
-    def is_fulfilled(self, slip: Any, normal_force: float, tangential_force: Any, tolerance: float) -> bool:
+    def is_fulfilled(
+        self, slip: Any, normal_force: float, tangential_force: Any, tolerance: float, state: Any = None
+    ) -> bool:
         """Not asked for here."""
         return True
 

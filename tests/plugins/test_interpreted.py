@@ -7,7 +7,7 @@ import re
 import signal
 import types
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -289,7 +289,16 @@ def _stubborn(speed: float, level: float) -> float:
     return level
 
 
+@pytest.fixture
+def _ctrl_c() -> Iterator[None]:
+    """Python's own handler: a process in the background of a script is started with Ctrl-C ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @NATIVE
+@pytest.mark.usefixtures("_ctrl_c")
 @pytest.mark.parametrize("function", [_interrupting, _stubborn])
 def test_ctrl_c_in_python_is_an_interrupted_run(function: Callable[..., float]) -> None:
     """Once: the step is finished.  Again in the same call: it is given up.  What was computed is kept."""

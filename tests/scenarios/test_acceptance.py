@@ -1,6 +1,6 @@
 """The run of other parameters is not accepted by the criteria of a scenario's default run.
 
-That the default run of every scenario is accepted is a property that ``nonsmooth check`` looks at (tests/cli).
+That the default run of every scenario is accepted is a property that the kit looks at (tests/testing).
 """
 
 from __future__ import annotations

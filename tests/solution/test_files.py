@@ -91,3 +91,5 @@ def test_prepare_refuses_what_is_no_folder(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(files.FileError, match="could not be written"):
         files.prepare(tmp_path / "file" / "results")
+    with pytest.raises(files.FileError, match=r"file could not be written: It is a file\. Name a folder"):
+        files.prepare(tmp_path / "file")

@@ -9,10 +9,11 @@ from types import MappingProxyType
 from typing import Any, ClassVar
 
 from laws import NewtonImpact
+from nonsmooth.certificates import follows_map
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
 from nonsmooth.parameters import parameter
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
 
 _newton: Any = compiled(NewtonImpact(0.5).impulses)
 Certificate = Callable[[float, float, float, float], bool]
@@ -182,6 +183,7 @@ class Map(ImpactMap):
     departures: ClassVar[Mapping[str, str]] = NewtonImpact.departures
     restitution: float = parameter(0.5, doc="restitution", minimum=0.0, maximum=1.0)
     function: Callable[..., None] = newton
+    judges: Callable[..., bool] = follows_map
 
     @property
     def impulses(self) -> Callable[..., None]:
@@ -191,8 +193,8 @@ class Map(ImpactMap):
     def contact_time(self) -> float:
         return 2e-5
 
-    def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
-        return returned <= stored + tolerance
+    def is_fulfilled(self, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float) -> bool:
+        return self.judges(self, delassus, before, impulses, friction, tolerance)
 
 
 @dataclass(frozen=True)
@@ -237,6 +239,8 @@ DUMMIES: list[tuple[str, ImpactLaw]] = [
     ("certificate", Process(certificate=never)),
     ("writes its block", Map(function=adding)),
     ("writes its block", Map(function=beyond)),
+    ("certificate", Map(judges=lambda *words: True)),
+    ("certificate", Map(judges=lambda *words: False)),
     ("limit e -> 0", Process(shares=never_plastic, certificate=no_more)),
     ("limit e -> 1", Process(shares=never_elastic, certificate=no_more)),
 ]

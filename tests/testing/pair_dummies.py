@@ -25,6 +25,7 @@ FAULTS = {
     "frame invariance": 8.0,
 }
 """Faults by the property made for them."""
+BEYOND = 20.0
 
 
 def evaluate(a: Floats, b: Floats, out: Floats, fault: float) -> None:
@@ -49,6 +50,8 @@ def evaluate(a: Floats, b: Floats, out: Floats, fault: float) -> None:
         x, y, z = 1.0 - out[1] * out[1], -out[1] * out[2], -out[1] * out[3]
         length = math.sqrt(x * x + y * y + z * z)
         out[4], out[5], out[6] = x / length, y / length, z / length
+    if fault == 20.0:
+        out[31] = 0.0
     if fault == 8.0:
         shift = 3e-9 * a[0]
         out[0] = out[0] + shift
@@ -65,7 +68,7 @@ class Pair(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        return tuple(cls(fault) for fault in (0.0, *FAULTS.values()))
+        return tuple(cls(fault) for fault in (0.0, *FAULTS.values(), BEYOND))
 
     def parameters(self) -> dict[str, Any]:
         return {"fault": self.fault}
@@ -90,5 +93,6 @@ class Single(Pair):
 
 DUMMIES: list[tuple[str, ContactKinematics]] = [
     *((name, Pair(fault)) for name, fault in FAULTS.items()),
+    ("writes its block", Pair(BEYOND)),
     ("pair", Single()),
 ]

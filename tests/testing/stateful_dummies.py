@@ -66,6 +66,7 @@ class Warm(StatefulFrictionLaw):
     change: Callable[..., None] = rates
     start: tuple[float, ...] = (0.0,)
     size: tuple[float, ...] = (1.0,)
+    remembers: bool = True
 
     @property
     def coefficient(self) -> Callable[..., float]:
@@ -83,8 +84,16 @@ class Warm(StatefulFrictionLaw):
     def state_scale(self) -> tuple[float, ...]:
         return self.size
 
-    def is_fulfilled(self, slip: Pair, normal_force: float, tangential_force: Pair, tolerance: float) -> bool:
-        return opposes_slip(self, slip, normal_force, tangential_force, tolerance)
+    def is_fulfilled(
+        self,
+        slip: Pair,
+        normal_force: float,
+        tangential_force: Pair,
+        tolerance: float,
+        state: tuple[float, ...] | None = None,
+    ) -> bool:
+        known = state if self.remembers else self.start
+        return opposes_slip(self, slip, normal_force, tangential_force, tolerance, known)
 
 
 DUMMIES: list[tuple[str, StatefulFrictionLaw]] = [
@@ -96,5 +105,6 @@ DUMMIES: list[tuple[str, StatefulFrictionLaw]] = [
     ("writes its block", Warm(change=clamping)),
     ("states that are reached", Warm(change=cooling)),
     ("sustained motion", Warm(change=switching)),
+    ("certificate with states", Warm(remembers=False)),
 ]
 """The property made for the fault, and the law; faults that any friction law can have are among those of friction."""

@@ -1,6 +1,6 @@
 """All built-ins have the properties that plug-ins must have.
 
-Those of scenarios, as of the example of every class, are looked at by way of ``nonsmooth check`` (tests/cli).
+That ``nonsmooth check`` finds and runs them by their names is looked at in tests/cli, of one name for each group.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ from nonsmooth.testing import (
     check_shape,
     check_traction_law,
 )
-from nonsmooth.testing.registered import make
+from nonsmooth.testing.registered import check_class, make
 from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.tippe_top.friction import SpinningCoulomb
 from tests.bodies.meshes import parts
@@ -134,7 +134,7 @@ LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
     (check_normal_law, HuntCrossley(1e8, 0.3)),
     (check_normal_law, LankaraniNikravesh(1e8, 0.7)),
     (check_normal_law, Cohesive(1e4, 1.0, 2.0)),
-    (check_traction_law, Bristle(0.3, 0.4, damping=1.0)),
+    (check_traction_law, Bristle(0.3, 0.4, damping=1.0, viscosity=0.5)),
     (check_traction_law, CoulombContensou(0.3, 0.01, 1e-3, relaxation=1e-4)),
     (check_impact_law, MonoStiffnessImpact(0.6)),
     (check_impact_law, JohnsonImpact()),
@@ -250,6 +250,9 @@ def _all() -> Iterator[Property]:
     for motion in MOTIONS:
         yield from check_motion(motion)
     yield from _of_pairs()
+    for group in ("guards", "scenarios"):
+        for name in registry.names(group):
+            yield from check_class(registry.load(group, name), name, {})
     for shape in {type(one): one for pair in SHAPES for one in pair}.values():
         yield from check_shape(shape)
 
@@ -259,6 +262,12 @@ def _all() -> Iterator[Property]:
 def test_built_in(prop: Property) -> None:
     """What the kit asks of a plug-in holds of ours."""
     prop()
+
+
+@pytest.mark.parametrize(("group", "name"), [(g, n) for g in registry.GROUPS for n in registry.names(g)])
+def test_every_built_in_can_be_checked(group: str, name: str) -> None:
+    """There are properties of it by its name alone: what numbers cannot give is in the example of its class."""
+    assert len(check_class(registry.load(group, name), name, {})) > 3
 
 
 def test_all_are_there() -> None:

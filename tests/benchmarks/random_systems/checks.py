@@ -57,7 +57,7 @@ def findings(case: Case, solution: ns.Solution) -> list[str]:
     if not all(np.all(np.isfinite(a)) for a in (records.t, records.q, records.before, records.after)):
         return ["not-finite: a number in the solution"]
     found = [*_inside(case, records), *_jumps(case, records), *_joints(case, records)]
-    return [*found, *_energy(case, solution), *_momentum(case, solution)]
+    return [*found, *_energy(case, solution), *_momentum(case, records, solution)]
 
 
 def _columns(case: Case, q: Vector) -> Iterator[tuple[int, Any, Vector]]:
@@ -91,11 +91,15 @@ def _energies(case: Case, q: Vector, u: Vector) -> Vector:
 
 def _inertia(body: Any) -> Vector:
     yz, xz, xy = body.products
-    return np.diag(body.inertia) + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
+    principal = np.diag(body.inertia)
+    return np.asarray(principal + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]]))
 
 
-def _indentation(case: Case, records: Records, stiffness: float, exponent: float) -> float:
-    """Return how deep all the energy there is can press a contact [m]."""
+def _indentation(case: Case, records: Records, normal: Any) -> float:
+    """Return how deep all the energy there is can press a contact by its law [m]; a rigid one not at all."""
+    if type(normal) is Unilateral:
+        return 0.0
+    exponent = getattr(normal, "exponent", 1.0)
     velocities, energy = _velocities(case, records.after), 0.0
     for k, body, own in _columns(case, records.q):
         if body.n_q:
@@ -103,16 +107,13 @@ def _indentation(case: Case, records: Records, stiffness: float, exponent: float
             kinetic = 0.5 * body.total_mass * np.sum(v[:, :3] ** 2, axis=1)
             kinetic += 0.5 * np.einsum("ni,ij,nj->n", v[:, 3:], _inertia(body), v[:, 3:])
             energy += float(np.max(kinetic)) + body.total_mass * case.gravity * float(np.ptp(own[:, 2]) + 1e-3)
-    return float(((exponent + 1.0) * energy / stiffness) ** (1.0 / (exponent + 1.0)))
+    return float(((exponent + 1.0) * energy / normal.stiffness) ** (1.0 / (exponent + 1.0)))
 
 
 def _inside(case: Case, records: Records) -> Iterator[str]:
     poses = [poses_of(body, records.t, own) for _, body, own in _columns(case, records.q)]
     for i, j, laws in case.contacts:
-        allowed = DEPTH
-        if type(laws.normal) is not Unilateral:
-            law: Any = laws.normal
-            allowed += _indentation(case, records, law.stiffness, getattr(law, "exponent", 1.0))
+        allowed = DEPTH + _indentation(case, records, laws.normal)
         found = [
             o
             for o in overlaps(case.bodies[i], case.bodies[j], (poses[i], poses[j]))
@@ -155,7 +156,7 @@ def _jumps(case: Case, records: Records) -> Iterator[str]:
 def _angles(q: Vector) -> Vector:
     unit = q / np.linalg.norm(q, axis=1)[:, None]
     same = np.sign(np.sum(unit[1:] * unit[:-1], axis=1))[:, None] * unit[:-1]
-    return 4.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(unit[1:] - same, axis=1), 0.0, 1.0))
+    return np.asarray(4.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(unit[1:] - same, axis=1), 0.0, 1.0)))
 
 
 def _joints(case: Case, records: Records) -> Iterator[str]:
@@ -200,7 +201,7 @@ def _energy(case: Case, solution: ns.Solution) -> Iterator[str]:
         yield f"energy-gained: {gain / scale:.3g} of what was exchanged, from one sample to the next"
 
 
-def _momentum(case: Case, solution: ns.Solution) -> Iterator[str]:
+def _momentum(case: Case, records: Records, solution: ns.Solution) -> Iterator[str]:
     """Between free bodies alone nothing changes the momentum but the weight, nor the spin about the mass centre."""
     if any(not body.n_q for body in case.bodies):
         return
@@ -222,7 +223,10 @@ def _momentum(case: Case, solution: ns.Solution) -> Iterator[str]:
         ]
     )
     spin = np.sum(parts + own, axis=0)
-    size = float(np.max(np.sum(np.linalg.norm(parts, axis=2) + np.linalg.norm(own, axis=2), axis=0))) + 1e-15
-    change = float(np.max(np.linalg.norm(spin - spin[0], axis=1))) / size
-    if change > _OPEN:
-        yield f"spin: changes by {change:.3g} of the sum of its parts"
+    reach = float(np.max(np.linalg.norm(arms, axis=2)))
+    # friction acts at a point of either body: an indentation parts them, and makes a couple of what they exchange
+    lever = max((_indentation(case, records, laws.normal) for _, _, laws in case.contacts), default=0.0)
+    turned = float(np.max(np.sum(np.linalg.norm(own, axis=2), axis=0)))
+    change = float(np.max(np.linalg.norm(spin - spin[0], axis=1)))
+    if change > _OPEN * (size * reach + turned) + 2.0 * size * lever:
+        yield f"spin: changes by {change:.3g} kg m^2/s, with {size * reach + turned:.3g} in its parts"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Literal
 
 import numpy as np
 
@@ -65,8 +66,8 @@ def _bristle(random: Random) -> TangentialLaw:
     return Bristle(kinetic, number(random, kinetic, 1.5 * kinetic), stiffness=1e4, damping=number(random, 0.0, 2.0))
 
 
-def _side(random: Random) -> str:
-    return ("first", "second")[int(random.integers(2))]
+def _side(random: Random) -> Literal["first", "second"]:
+    return "first" if random.random() < 0.5 else "second"
 
 
 _FRICTION: tuple[tuple[float, Callable[[Random], TangentialLaw]], ...] = (

@@ -12,6 +12,7 @@ import math
 
 import numba
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.interfaces.body import Vector
 
@@ -77,65 +78,72 @@ def _difference(
 
 
 @numba.njit(cache=True)  # type: ignore[untyped-decorator]
+def _dot(a: Vector, b: Vector) -> float:
+    return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+
+
+@numba.njit(cache=True)  # type: ignore[untyped-decorator]
+def _weights(edges: Vector, right: Vector, m: int, weights: Vector) -> bool:
+    """Write the weights of m + 1 points in the one nearest to the origin of their face, and whether it is inside."""
+    gram = np.empty((3, 3))
+    for i in range(m):
+        for j in range(m):
+            gram[i, j] = _dot(edges[i], edges[j])
+    for i in range(m):
+        # a face that is next to degenerate is left to its own faces
+        if gram[i, i] <= 1e-13 * abs(right[i]) or gram[i, i] < 1e-26:
+            return False
+        for j in range(i + 1, m):
+            factor = gram[j, i] / gram[i, i]
+            for k in range(i, m):
+                gram[j, k] -= factor * gram[i, k]
+            right[j] -= factor * right[i]
+    weights[0] = 1.0
+    inside = True
+    for i in range(m - 1, -1, -1):
+        s = right[i]
+        for k in range(i + 1, m):
+            s -= gram[i, k] * weights[k + 1]
+        weights[i + 1] = s / gram[i, i]
+        weights[0] -= weights[i + 1]
+        inside = inside and weights[i + 1] >= 0.0
+    return inside and weights[0] >= 0.0
+
+
+@numba.njit(cache=True)  # type: ignore[untyped-decorator]
 def _nearest(points: Vector, n: int, v: Vector) -> int:
     """Write the point nearest to the origin of the simplex of the first n points; keep those that carry it.
 
     All faces are tried: of a few points that is as fast as any rule, and none is left out by round-off.
     """
     best, chosen = math.inf, 0
-    weights, kept = np.zeros(4), np.zeros(4)
-    index = np.zeros(4, dtype=np.int64)
-    gram, right, trial = np.empty((3, 3)), np.empty(3), np.empty(3)
+    weights, index = np.zeros(4), np.zeros(4, dtype=np.int64)
+    edges, right, trial = np.empty((3, 3)), np.empty(3), np.empty(3)
     for subset in range(1, 1 << n):
         m = 0
         for k in range(n):
             if subset >> k & 1:
                 index[m] = k
                 m += 1
-        base = points[index[0]]
-        for i in range(m - 1):
-            e = points[index[i + 1]] - base
-            right[i] = -(e[0] * base[0] + e[1] * base[1] + e[2] * base[2])
-            for j in range(m - 1):
-                f = points[index[j + 1]] - base
-                gram[i, j] = e[0] * f[0] + e[1] * f[1] + e[2] * f[2]
-        good = True
-        # elimination; a face that is next to degenerate is left to its own faces
-        for i in range(m - 1):
-            if not gram[i, i] > 1e-13 * (abs(right[i]) + gram[i, i]) or gram[i, i] < 1e-26:
-                good = False
-                break
-            for j in range(i + 1, m - 1):
-                factor = gram[j, i] / gram[i, i]
-                for k in range(i, m - 1):
-                    gram[j, k] -= factor * gram[i, k]
-                right[j] -= factor * right[i]
-        if not good:
-            continue
-        rest = 1.0
-        for i in range(m - 2, -1, -1):
-            s = right[i]
-            for k in range(i + 1, m - 1):
-                s -= gram[i, k] * weights[k + 1]
-            weights[i + 1] = s / gram[i, i]
-            rest -= weights[i + 1]
-            good = good and weights[i + 1] >= 0.0
-        weights[0] = rest
-        if not good or rest < 0.0:
+        for k in range(m - 1):
+            for i in range(3):
+                edges[k, i] = points[index[k + 1], i] - points[index[0], i]
+            right[k] = -_dot(edges[k], points[index[0]])
+        if not _weights(edges, right, m - 1, weights):
             continue
         for i in range(3):
             trial[i] = 0.0
             for k in range(m):
                 trial[i] += weights[k] * points[index[k], i]
-        size = trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2]
-        if size < best:
-            best, chosen = size, subset
-            v[0], v[1], v[2] = trial[0], trial[1], trial[2]
-            kept[:] = weights
+        if _dot(trial, trial) < best:
+            best, chosen = _dot(trial, trial), subset
+            for i in range(3):
+                v[i] = trial[i]
     m = 0
     for k in range(n):
         if chosen >> k & 1:
-            points[m] = points[k]
+            for i in range(3):
+                points[m, i] = points[k, i]
             m += 1
     return m
 
@@ -160,25 +168,29 @@ def bounds(
     points, w, v = np.empty((4, 3)), np.empty(3), np.empty(3)
     lower, n = -math.inf, 0
     upper = math.inf
-    v[:] = d
+    for i in range(3):
+        v[i] = d[i]
     for _ in range(_STEPS):
-        size = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+        size = math.sqrt(_dot(v, v))
         if size < 1e-14:
             return min(lower, 0.0), 0.0
-        v /= size
+        for i in range(3):
+            v[i] /= size
         if n > 0:
             upper = min(upper, size)
         _difference(kinds, numbers, one, two, axes, between, shrink, v, w)
-        proved = v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
+        proved = _dot(v, w)
         if proved > lower:
             lower = proved
-            d[:] = v
-        if lower >= enough or upper - lower <= 1e-10 * upper + 1e-12:
+            for i in range(3):
+                d[i] = v[i]
+        if lower >= enough or (n > 0 and upper - lower <= 1e-10 * upper + 1e-12):
             break
         for k in range(n):
             if points[k, 0] == w[0] and points[k, 1] == w[1] and points[k, 2] == w[2]:
                 return lower, upper
-        points[n] = w
+        for i in range(3):
+            points[n, i] = w[i]
         n = _nearest(points, n + 1, v)
         if n == 4:
             return min(lower, 0.0), 0.0
@@ -196,20 +208,44 @@ def unproven(
     places: Vector,
     sweep: float,
     reach: float,
-) -> Vector:
+) -> NDArray[np.bool_]:
     """Return which of the poses no plane proves to be apart, of solids made smaller by a little, shape [n]."""
     n = len(places)
     left = np.zeros(n, dtype=np.bool_)
-    axes, d = np.empty((2, 3, 3)), np.array([0.0, 0.0, 1.0])
+    axes, d, away = np.empty((2, 3, 3)), np.array([0.0, 0.0, 1.0]), np.empty(3)
     for k in range(n):
-        away = places[k]
-        far = math.sqrt(away[0] * away[0] + away[1] * away[1] + away[2] * away[2])
-        if far > reach:
+        for i in range(3):
+            away[i] = places[k, i]
+            for j in range(3):
+                axes[0, i, j], axes[1, i, j] = first[k, i, j], second[k, i, j]
+        if _dot(away, away) > reach * reach:
             continue
-        axes[0], axes[1] = first[k], second[k]
-        lower, _ = bounds(kinds, numbers, one, two, axes, away, SHRINK, sweep * (1.0 - SHRINK) + 1e-12, d)
+        enough = sweep * (1.0 - SHRINK) + 1e-12
+        lower, _ = bounds(kinds, numbers, one, two, axes, away, SHRINK, enough, d)
         left[k] = not lower >= sweep * (1.0 - SHRINK)
     return left
+
+
+@numba.njit(cache=True)  # type: ignore[untyped-decorator]
+def _plane(kinds: Vector, numbers: Vector, one: Vector, two: Vector, axes: Vector, between: Vector, d: Vector) -> float:
+    """Return the gap of two cores along a direction [m]."""
+    w = np.empty(3)
+    _difference(kinds, numbers, one, two, axes, between, 0.0, d, w)
+    return float(_dot(d, w))
+
+
+@numba.njit(cache=True)  # type: ignore[untyped-decorator]
+def tangent(d: Vector, angle: float, step: float, out: Vector) -> None:
+    """Write a unit vector that is off another one by about a step, to the side that an angle tells."""
+    flat = math.sqrt(d[0] * d[0] + d[1] * d[1])
+    x, y = (d[0] / flat, d[1] / flat) if flat > 1e-9 else (1.0, 0.0)
+    along, across = step * math.cos(angle), step * math.sin(angle)
+    out[0] = d[0] - along * y - across * x * d[2]
+    out[1] = d[1] + along * x - across * y * d[2]
+    out[2] = d[2] + across * flat
+    size = math.sqrt(_dot(out, out))
+    for i in range(3):
+        out[i] /= size
 
 
 @numba.njit(cache=True)  # type: ignore[untyped-decorator]
@@ -219,38 +255,32 @@ def overlap(
     """Return the gap of two solids along the best direction that a search from many finds [m]; negative inside."""
     n_best = 6
     values, best = np.full(n_best, -math.inf), np.zeros((n_best, 3))
-    w = np.empty(3)
     for k in range(len(ways)):
-        _difference(kinds, numbers, one, two, axes, between, 0.0, ways[k], w)
-        value = ways[k, 0] * w[0] + ways[k, 1] * w[1] + ways[k, 2] * w[2]
-        worst = int(np.argmin(values))
+        value = _plane(kinds, numbers, one, two, axes, between, ways[k])
+        worst = 0
+        for j in range(n_best):
+            if values[j] < values[worst]:
+                worst = j
         if value > values[worst]:
             values[worst] = value
-            best[worst] = ways[k]
+            for i in range(3):
+                best[worst, i] = ways[k, i]
+    found, trial = -math.inf, np.empty(3)
     for k in range(n_best):
-        d, step = best[k].copy(), 0.1
-        side, other, trial = np.empty(3), np.empty(3), np.empty(3)
+        step = 0.1
         for _ in range(10 * _STEPS):
             if step < 1e-9:
                 break
-            better = False
-            least = int(np.argmin(np.abs(d)))
-            e = np.zeros(3)
-            e[least] = 1.0
-            side[:] = np.cross(d, e)
-            side /= np.linalg.norm(side)
-            other[:] = np.cross(d, side)
+            step *= 0.5
+            # along two tangents and between them, there and back
             for turn in range(8):
-                angle = turn * math.pi / 4.0
-                trial[:] = d + step * (math.cos(angle) * side + math.sin(angle) * other)
-                trial /= np.linalg.norm(trial)
-                _difference(kinds, numbers, one, two, axes, between, 0.0, trial, w)
-                value = trial[0] * w[0] + trial[1] * w[1] + trial[2] * w[2]
+                tangent(best[k], turn * math.pi / 4.0, step, trial)
+                value = _plane(kinds, numbers, one, two, axes, between, trial)
                 if value > values[k] + 1e-12:
                     values[k] = value
-                    d[:] = trial
-                    better = True
+                    for i in range(3):
+                        best[k, i] = trial[i]
+                    step *= 2.0
                     break
-            if not better:
-                step *= 0.5
-    return float(np.max(values)) - sweep
+        found = max(found, values[k])
+    return float(found) - sweep

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from bodies import BallJoint, ConstantVelocity, Distance, DrivenBody, Fixed, Harmonic, Hinge, Plate, Rest, Slider
@@ -109,14 +111,14 @@ def _joint(random: Random, poses: tuple[tuple[Vector, tuple[float, ...]], tuple[
     along = tuple((first_axes.T @ axis).tolist()), tuple((second_axes.T @ axis).tolist())
     kind = int(random.choice(5, p=[0.3, 0.25, 0.2, 0.1, 0.15]))
     if kind == 0:
-        return BallJoint(first, second)  # type: ignore[arg-type]
+        return BallJoint(first, second)
     if kind == 1:
-        return Hinge(first, second, *along)  # type: ignore[arg-type]
+        return Hinge(first, second, *along)
     if kind == 2:
         return Distance(length=float(np.linalg.norm(two - one)))
     if kind == 3:
-        return Fixed(first, second, seen)  # type: ignore[arg-type]
-    return Slider(first, second, along[0], seen)  # type: ignore[arg-type]
+        return Fixed(first, second, seen)
+    return Slider(first, second, along[0], seen)
 
 
 def _pose(body: Body, start: Start | None) -> tuple[Vector, tuple[float, ...]] | None:
@@ -160,7 +162,7 @@ def case_of(seed: int) -> Case:
         towards = (middle - place) * float(random.uniform(0.0, 15.0)) if thrown else np.zeros(3)
         velocity = np.round(towards + (0.3 * random.normal(size=3) if thrown else 0.0), 4)
         spin = (0.0, 0.0, 0.0) if random.random() < 0.5 else _vector(random, float(random.choice([15.0, 15.0, 150.0])))
-        at = {"position": tuple(place.tolist()), "orientation": turn(random)}
+        at: dict[str, Any] = {"position": tuple(place.tolist()), "orientation": turn(random)}
         how = ("touching", "touching", "at_height", "resting")[int(random.integers(4))] if lies else "place"
         if how == "at_height":
             at = {"height": float(f"{10.0 ** random.uniform(-5.0, -2.0):.2g}"), **at}

@@ -26,9 +26,10 @@ def _smaller(case: Case) -> Iterator[Case]:
     for k in range(len(case.contacts)):
         yield replace(case, contacts=case.contacts[:k] + case.contacts[k + 1 :])
     for laws in _SIMPLE:
-        if any(row[2] != laws for row in case.contacts):
-            yield replace(case, contacts=tuple((i, j, laws) for i, j, _ in case.contacts))
-    for part in (0.3, 0.7):
+        if all(row[2] == laws for row in case.contacts):
+            break
+        yield replace(case, contacts=tuple((i, j, laws) for i, j, _ in case.contacts))
+    for part in (0.3, 0.7) if case.t_end > 2.0 * case.sample_interval else ():
         yield replace(case, t_end=float(f"{part * case.t_end:.2g}"))
     for k, start in enumerate(case.starts):
         if start is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +17,6 @@ from bodies import (
     Cylinder,
     Disc,
     Ellipsoid,
-    Frustum,
     Harmonic,
     Plane,
     Plate,
@@ -119,12 +119,12 @@ def pieces_of_shape(shape: Shape) -> list[Piece]:
         radius = s.radius - s.rounding
         return [_frustum(s, (radius, 0.0, radius, 0.0))]
     if type(s) is Cylinder:
-        radius, half = s.radius - s.rounding, s.half_length - s.rounding
-        return [_frustum(s, (radius, -half, radius, half))]
+        radius, top = s.radius - s.rounding, s.half_length - s.rounding
+        return [_frustum(s, (radius, -top, radius, top))]
     if type(s) is Cone:
         # the inner parallel cone: all its sides are moved in by the rounding
-        inner = s.radius * s.height / (s.radius + np.hypot(s.radius, s.height))
-        part = 1.0 - s.rounding / inner
+        widest = s.radius * s.height / (s.radius + math.hypot(s.radius, s.height))
+        part = 1.0 - s.rounding / widest
         return [_frustum(s, (part * s.radius, s.rounding, 0.0, s.rounding + part * s.height))]
     if type(s) in (Ellipsoid, Superellipsoid):
         along, across = (s.exponent_along, s.exponent_across) if type(s) is Superellipsoid else (1.0, 1.0)
@@ -132,10 +132,10 @@ def pieces_of_shape(shape: Shape) -> list[Piece]:
         numbers = np.array([s.semi_x, s.semi_y, s.semi_z, 2.0 / (2.0 - along), 2.0 / (2.0 - across)])
         return [Piece(NORM, numbers, np.zeros((1, 3)), sweep, np.array([s.x, s.y, s.z]), _axes(s))]
     if type(s) is TriangleMesh:
-        corners = s.drawing()[0]
+        corners, surface = s.drawing()[0], vars(s)["surface"]
         n = len(corners) // 2
-        return [_solid(corners[[*row, *(k + n for k in row)]]) for row in PIECES[s.surface.name]]
-    raise TypeError(f"{type(s).__name__}: {Frustum.__name__} or what else?")
+        return [_solid(corners[[*row, *(k + n for k in row)]]) for row in PIECES[surface.name]]
+    raise TypeError(f"what are the pieces of {type(s).__name__}?")
 
 
 def pieces_of(body: Body) -> list[Piece]:

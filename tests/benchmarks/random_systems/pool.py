@@ -9,8 +9,8 @@ from multiprocessing.connection import Connection, wait
 from typing import Any
 
 Task = tuple[Any, ...]
-LOADING = 300.0
-"""Time that the first task of a process has in addition, as the engine is loaded or compiled in it [s]."""
+LOADING = 60.0
+"""Time that the first task of a process has in addition, as the engine is loaded in it [s]."""
 
 
 def _serve(work: Callable[..., Any], pipe: Connection) -> None:

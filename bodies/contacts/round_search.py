@@ -1,0 +1,256 @@
+"""Where a smooth body is nearest to a circle or a segment, by the place on it alone: slow, and not to be led astray.
+
+The distance of a point from a convex body is a convex function of the point.  Round a circle it falls where the normal
+has a part along the way, so that a search between angles at which it falls and rises halves what is left.  It needs no
+radius of curvature of the circle across its normal, which goes through all sizes next to the circle's axis, where
+Newton's method on the normal does not get on.  Of bodies that overlap, the largest of the gaps along all directions is
+gone up to by steps.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from bodies.contacts.boxy_newton import Answer, Point
+from bodies.contacts.smooth_core import Axes, back, bend, forth
+from bodies.contacts.smooth_newton import widest_of_round
+from bodies.contacts.smooth_starts import starts_of, uphill
+from bodies.shapes.support_function import support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_FIRST = 1e-3
+"""First step round the circle; the others are twice as long [rad]."""
+_LOOKS, _STEPS, _PATIENCE = 16, 120, 3
+_SAME = 4e-16
+"""Angle between directions that are the same, and a slope that is none."""
+_ACROSS = 1e-9
+"""Slope of an answer, from which the gap errs by the square."""
+_TOP, _OVER = 1e-9, 1e-6
+"""How close steps go to a top [rad], and how far the points there are off each other, in units of the size."""
+_NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
+"""Steps, residual in units of the size, and angle between normal and axis up to which they are made [rad]."""
+
+Look: TypeAlias = tuple[float, Answer]
+"""Slope of the distance round the circle, over the radius, and gap, point and normal."""
+
+
+@compiled
+def _look(point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, radius: float, angle: float) -> Look:
+    c, s = math.cos(angle), math.sin(angle)
+    cx, cy = radius * c, radius * s
+    g, px, py, pz, nx, ny, nz = widest_of_round(point, core, turn, x - cx, y - cy, z, x - cx, y - cy, z)
+    return nx * s - ny * c, (g, px + cx, py + cy, pz, nx, ny, nz)
+
+
+@compiled
+def round_circle(
+    point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, radius: float, sx: float, sy: float
+) -> Answer:
+    """Return gap, point and normal of a smooth body where the distance from a circle has a least value.
+
+    The circle is about the origin and the third axis; the normal points out of its disc.  The gap is nan where no such
+    angle was found.
+
+    Parameters
+    ----------
+    point, core : Floats
+        A point as a core, and the smooth body's core.
+    turn : Axes
+        Rotation from the axes of the core to those of the circle.
+    x, y, z : float
+        The core's centre [m].
+    radius : float
+        That of the circle [m].
+    sx, sy : float
+        The direction in the plane of the circle to begin with, of any length.
+    """
+    begin = math.atan2(sy, sx)
+    none: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    look: Look = _look(point, core, turn, x, y, z, radius, begin)
+    slope, reached = look
+    # downhill from there, and then in every part of the circle
+    way = -math.copysign(1.0, slope)
+    low, falling, step = begin, slope, _FIRST
+    if abs(slope) > _SAME:
+        while step < math.pi:
+            angle = begin + way * step
+            slope, _ = _look(point, core, turn, x, y, z, radius, angle)
+            if way * slope >= 0.0:
+                answer: Answer = _between(point, core, turn, x, y, z, radius, low, angle, falling, slope)
+                if _is_outward(answer):
+                    return answer
+                break
+            low, falling, step = angle, slope, 2.0 * step
+    elif _is_outward(reached):
+        return reached
+    last, before = begin, look[0]
+    for i in range(1, _LOOKS + 1):
+        angle = begin + 2.0 * math.pi * i / _LOOKS
+        slope, _ = _look(point, core, turn, x, y, z, radius, angle)
+        if before < 0.0 <= slope:
+            answer = _between(point, core, turn, x, y, z, radius, last, angle, before, slope)
+            if _is_outward(answer):
+                return answer
+        last, before = angle, slope
+    return none
+
+
+@compiled
+def _is_outward(found: Answer) -> bool:
+    g, px, py, _, nx, ny, _ = found
+    cx, cy = px - g * nx, py - g * ny
+    return bool(cx * nx + cy * ny >= -_SAME * (abs(cx) + abs(cy)))
+
+
+@compiled
+def _between(
+    point: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    radius: float,
+    low: float,
+    high: float,
+    falling: float,
+    rising: float,
+) -> Answer:
+    """Return what is found between an angle at which the distance falls on the way to another and that one."""
+    side, slow = 0, 0
+    look: Look = _look(point, core, turn, x, y, z, radius, high)
+    for _ in range(_STEPS):
+        width = abs(high - low)
+        # by secants, each of which may leave more than half of the angle only so often
+        middle = (low * rising - high * falling) / (rising - falling)
+        if slow >= _PATIENCE or not (min(low, high) < middle < max(low, high)):
+            middle, slow = 0.5 * (low + high), 0
+        look = _look(point, core, turn, x, y, z, radius, middle)
+        slope = look[0]
+        if abs(slope) <= _SAME or width <= _SAME or middle == low or middle == high:
+            break
+        if (slope < 0.0) == (falling < 0.0):
+            low, falling = middle, slope
+            rising = 0.5 * rising if side == 1 else rising
+            side = 1
+        else:
+            high, rising = middle, slope
+            falling = 0.5 * falling if side == -1 else falling
+            side = -1
+        slow = slow + 1 if abs(high - low) > 0.5 * width else 0
+    found = look[1]
+    if not abs(look[0]) <= _ACROSS:
+        # a circle deep in the body, where the nearest point of the surface jumps
+        return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
+    return found
+
+
+@compiled
+def next_to_axis(
+    core: Floats, turn: Axes, x: float, y: float, z: float, radius: float, sx: float, sy: float, up: float
+) -> Answer:
+    """Return the same as :func:`round_circle` where the normal is nearly the axis, of a body with radii of curvature.
+
+    The unknowns are the angle between normal and axis, at first 0, and the angle round the axis.  In these Newton's
+    method meets no large numbers; of bodies that overlap the distance of a point has no such use.  The axis is to be
+    taken upward if ``up`` is 1, else -1.
+    """
+    tilt, angle = 0.0, math.atan2(sy, sx)
+    size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + radius
+    for _ in range(_NEWTON):
+        c, s = math.cos(angle), math.sin(angle)
+        sine, cosine = math.sin(tilt), math.cos(tilt)
+        nx, ny, nz = sine * c, sine * s, up * cosine
+        ox, oy, oz = cosine * c, cosine * s, -up * sine
+        mx, my, mz = back(turn, -nx, -ny, -nz)
+        b = support_of(core, mx, my, mz)
+        px, py, pz = forth(turn, b[1], b[2], b[3])
+        px, py, pz = x + px, y + py, z + pz
+        g = nx * px + ny * py + nz * pz - radius * sine
+        over, beside = ox * px + oy * py + oz * pz - radius * cosine, c * py - s * px
+        tx, ty, tz = back(turn, ox, oy, oz)
+        ux, uy, uz = back(turn, -s, c, 0.0)
+        h11, h12 = bend(b, tx, ty, tz, tx, ty, tz), bend(b, tx, ty, tz, ux, uy, uz)
+        h22 = bend(b, ux, uy, uz, ux, uy, uz)
+        a11, a12, a21 = -g - h11, cosine * beside - sine * h12, -h12
+        a22 = -(c * px + s * py) - sine * h22
+        det = a11 * a22 - a12 * a21
+        if not (a11 < 0.0 and det > 0.0):
+            break
+        if abs(over) + abs(beside) <= _CLOSED * size:
+            if tilt < -_CLOSED:
+                break
+            return g, px, py, pz, nx, ny, nz
+        tilt -= (a22 * over - a12 * beside) / det
+        angle -= (a11 * beside - a21 * over) / det
+        if abs(tilt) > _STEEPEST:
+            break
+    return math.nan, x, y, z, 0.0, 0.0, 1.0
+
+
+@compiled
+def along_segment(
+    core: Floats, turn: Axes, x: float, y: float, z: float, ex: float, ey: float, ez: float, length: float
+) -> tuple[Answer, float]:
+    """Return gap, point and normal of a smooth body where it is nearest to a segment, and how far along that is [m].
+
+    The segment goes from the origin along the unit vector e.  The other arguments are those of :func:`round_circle`.
+    """
+    point = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)
+    low, high = 0.0, length
+    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    place = 0.0
+    for i in range(_STEPS):
+        # both ends first, then halves
+        s = 0.0 if i == 0 else length if i == 1 else 0.5 * (low + high)
+        cx, cy, cz = x - s * ex, y - s * ey, z - s * ez
+        g, px, py, pz, nx, ny, nz = widest_of_round(point, core, turn, cx, cy, cz, cx, cy, cz)
+        ahead = nx * ex + ny * ey + nz * ez
+        best, place = (g, px + s * ex, py + s * ey, pz + s * ez, nx, ny, nz), s
+        if g != g or (i == 0 and ahead <= 0.0) or (i == 1 and ahead >= 0.0):
+            break
+        if i > 1 and (abs(ahead) <= _SAME or s == low or s == high):
+            break
+        if ahead > 0.0:
+            low = s
+        else:
+            high = s
+    return best, place
+
+
+@compiled
+def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, up: float, lean: Point) -> Answer:
+    """Return gap, point and normal of a smooth body and a circle that overlap, along the direction with the largest.
+
+    Parameters
+    ----------
+    circle : Floats
+        The circle as a core.
+    core, turn, x, y, z : Floats, Axes, float
+        As in :func:`round_circle`.
+    up : float
+        1 or -1, the side of the circle to which normals may lean; 0 for any.
+    lean : tuple of float
+        Cosine and sine of the normal to which they may lean on the other side, and the size of both bodies [m].
+    """
+    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    for start in starts_of(circle, core, turn, x, y, z):
+        g, nx, ny, nz = uphill(circle, core, turn, x, y, z, start, _TOP)
+        found: Answer = widest_of_round(circle, core, turn, x, y, z, nx, ny, nz)
+        if not found[0] >= g - _TOP * lean[2]:
+            mx, my, mz = back(turn, -nx, -ny, -nz)
+            b = support_of(core, mx, my, mz)
+            px, py, pz = forth(turn, b[1], b[2], b[3])
+            found = g, x + px, y + py, z + pz, nx, ny, nz
+        g, px, py, pz, nx, ny, nz = found
+        away = math.sqrt(nx * nx + ny * ny)
+        share = circle[0] / away if away > 0.0 else 0.0
+        # the points of both have to be over each other
+        ox, oy, oz = px - share * nx - g * nx, py - share * ny - g * ny, pz - g * nz
+        astray = math.sqrt(ox * ox + oy * oy + oz * oz)
+        inside = up == 0.0 or up * (lean[0] * nz - lean[1] * away) >= -_TOP
+        if astray <= _OVER * lean[2] and inside and not g <= best[0]:
+            best = found
+    return best

@@ -1,0 +1,275 @@
+"""Short runs and single problems of every kind, whose numbers are compared between compiled and plain.
+
+``NONSMOOTH_PLAIN=1 python -m tests.engine.plain_cases FILE`` writes them to a file, with the names of the engine's
+functions that they entered.
+"""
+
+from __future__ import annotations
+
+import math
+import pickle
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import FrameType
+from typing import Any, TypeAlias
+
+import numpy as np
+
+import nonsmooth as ns
+from bodies import Ball, BallJoint, BoxBody, Dumbbell, Harmonic, PlanarBody, Plate, Point, Spring
+from laws import (
+    Anisotropic,
+    Bristle,
+    Coulomb,
+    EnergeticImpact,
+    Frictionless,
+    HuntCrossley,
+    MonoStiffnessImpact,
+    NewtonImpact,
+    RateAndState,
+    Unilateral,
+)
+from nonsmooth.engine.modes import POLICIES
+from nonsmooth.model.solvers import SOLVERS
+from tests.physics.test_own_guards import Level
+
+Numbers: TypeAlias = dict[str, Any]
+
+
+def _numbers(system: ns.System, t_end: float, **options: Any) -> Numbers:
+    """Return what a run gives; one that ends early, too."""
+    try:
+        s = ns.simulate(system, t_end, sample_interval=t_end / 20.0, options=ns.Options(**options))
+    except ns.RunFailed as failure:
+        if not isinstance(failure.solution, ns.Solution):
+            raise
+        s = failure.solution
+    return {
+        "status": [s.status],
+        "cause": s.events.cause,
+        "after": s.events.after,
+        "time": s.events.time,
+        "q": s.q,
+        "u": s.u,
+        "impulse": s.events.impulse,
+    }
+
+
+_IMPACT, _FRICTION = EnergeticImpact(0.65), Coulomb(0.2, 0.25)
+
+
+def _rigid(impact: Any = _IMPACT, friction: Any = _FRICTION) -> Numbers:
+    return {"normal": Unilateral(), "friction": friction, "impact": impact}
+
+
+def _soft(friction: Any) -> Numbers:
+    return {"normal": HuntCrossley(1e8, 0.5), "friction": friction}
+
+
+def _dumbbell(laws: Numbers, periods: float, skew: float = 0.1) -> Numbers:
+    plate = Plate(Harmonic(amplitude=0.9 * 9.81 / (50 * math.pi) ** 2, frequency=25.0))
+    body = Dumbbell()
+    system = ns.System([plate, body])
+    system.contact(plate, body, **laws)
+    half, tilt = body.centre_distance / 2, math.radians(10)
+    system.place(
+        body,
+        position=(half * math.cos(tilt), 0, body.radius + half * math.sin(tilt)),
+        orientation=(math.cos(tilt / 2), 0, -math.sin(tilt / 2), 0),
+        velocity=(0, skew, 0),
+    )
+    return _numbers(system, periods / 25.0)
+
+
+def _jam(policy: str, share: float) -> Numbers:
+    """Let a dumbbell slide ahead of its mass centre with a share of the friction for which no force exists."""
+    plate, body = Plate(), Dumbbell(rod_mass_fraction=0.9)
+    half, tilt = body.centre_distance / 2, math.radians(45.0)
+    x, z = half * math.cos(tilt), half * math.sin(tilt) + body.radius
+    critical = (body.inertia[1] / body.total_mass + x * x) / (x * z)
+    system = ns.System([plate, body])
+    system.contact(plate, body, **_rigid(EnergeticImpact(0.3), Coulomb(share * critical)))
+    system.place(
+        body, position=(x, 0, z), orientation=(math.cos(tilt / 2), 0, -math.sin(tilt / 2), 0), velocity=(-1.0, 0.0, 0.0)
+    )
+    return _numbers(system, 5e-4, painleve=policy)
+
+
+def _box(tilt: float, spin: float, t_end: float, slope: float = 0.0) -> Numbers:
+    plate, box = Plate(), BoxBody(0.01, 0.012, 0.02)
+    system = ns.System([plate, box])
+    system.contact(plate, box, **_rigid(EnergeticImpact(0.3), Coulomb(0.4)))
+    low = 0.02 * math.cos(tilt) + 0.01 * math.sin(abs(tilt))
+    system.place(
+        box,
+        position=(0.0, 0.0, low),
+        orientation=(math.cos(tilt / 2), 0.0, math.sin(tilt / 2), 0.0),
+        velocity=(slope, 0.0, 0.0),
+        angular_velocity=(0.0, 0.0, spin),
+    )
+    return _numbers(system, t_end)
+
+
+def _tower(n: int) -> Numbers:
+    """Put boxes on each other, whose contacts are redundant."""
+    plate, boxes = Plate(), [BoxBody(0.01, 0.01, 0.01) for _ in range(n)]
+    system = ns.System([plate, *boxes])
+    for i, box in enumerate(boxes):
+        system.contact(boxes[i - 1] if i else plate, box, **_rigid(EnergeticImpact(0.3), Coulomb(0.3)))
+        system.place(box, position=(0.0, 0.0, 0.01 + 0.02 * i))
+    return _numbers(system, 1e-4)
+
+
+def _shaken() -> Numbers:
+    """Shake a plate with a block on it: stick, slip, stick."""
+    plate, block = Plate(Harmonic(1e-3, 10.0, 0.0, 1.0, 0.0, 0.0)), PlanarBody(2.0, 1.0, (Point(),))
+    system = ns.System([plate, block])
+    system.contact(plate, block, **_rigid(friction=Coulomb(0.1, 0.2)))
+    system.place(block, velocity=(2e-3 * math.pi * 10.0, 0.0))
+    return _numbers(system, 0.12)
+
+
+def _pendulum() -> Numbers:
+    """Hang two balls on joints, drawn by a spring; the lower one strikes the plate and passes a level."""
+    plate, upper, lower = Plate(), Ball(0.01), Ball(0.01)
+    system = ns.System([plate, upper, lower])
+    system.contact(plate, lower, **_rigid())
+    system.joint(BallJoint((0.0, 0.0, 0.08), (0.0, 0.0, 0.05)), plate, upper)
+    system.joint(BallJoint((0.0, 0.0, 0.0), (0.0, 0.0, 0.03)), upper, lower)
+    system.load(Spring(stiffness=5.0, length=0.05), plate, lower)
+    system.guard(Level(0.04))
+    x, z = -0.05 * math.sin(0.8), 0.08 - 0.05 * math.cos(0.8)
+    system.place(upper, position=(x, 0.0, z), orientation=(math.cos(0.4), 0.0, math.sin(0.4), 0.0))
+    system.place(lower, position=(x, 0.0, z - 0.03))
+    return _numbers(system, 0.05)
+
+
+def _balls(n: int, plate: bool, laws: Numbers, t_end: float, **options: Any) -> Numbers:
+    """Strike a row that touches at one end, on a plate or in empty space."""
+    ground, balls = Plate(), [Ball(0.01) for _ in range(n)]
+    system = ns.System([*([ground] if plate else []), *balls], gravity=9.81 if plate else 0.0)
+    for i, ball in enumerate(balls):
+        if plate:
+            system.contact(ball, ground, **laws)
+        if i:
+            system.contact(balls[i - 1], ball, **laws)
+        end = i == n - 1
+        system.place(ball, position=(0.02 * i + 1e-4 * end, 0.0, 0.01), velocity=(-1.0 * end, 0.0, 0.0))
+    return _numbers(system, t_end, **options)
+
+
+def _cloud(n: int) -> Numbers:
+    """Let balls on a lattice fly at each other, all pairs of them in contact."""
+    rng, balls = np.random.default_rng(3), [Ball(0.01) for _ in range(n)]
+    system = ns.System(balls, gravity=0.0)
+    side = math.ceil(n ** (1.0 / 3.0))
+    for i, (ball, cell) in enumerate(zip(balls, np.ndindex(side, side, side), strict=False)):
+        for other in balls[:i]:
+            system.contact(other, ball, **_rigid(EnergeticImpact(0.9), Frictionless()))
+        place = 0.05 * (np.array(cell) - 0.5 * (side - 1))
+        system.place(ball, position=place, velocity=-4.0 * place + 0.3 * rng.normal(size=3))
+    return _numbers(system, 0.05)
+
+
+def _contact_problem(seed: int, n: int, n_u: int, solver: str, sliding: bool) -> Numbers:
+    """Solve for random contacts, more of them than the velocities need where n_u is small."""
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(n_u, n_u))
+    normal, tangential = rng.normal(size=(n_u, n)), rng.normal(size=(n_u, n, 2))
+    slip = rng.normal(size=(n, 2)) * (rng.uniform(size=(n, 1)) < 0.4) if sliding else np.zeros((n, 2))
+    force = -normal.sum(axis=1) + 0.3 * rng.normal(size=n_u)
+    try:
+        result = ns.solve_contact(
+            root @ root.T + n_u * np.eye(n_u),
+            normal,
+            tangential,
+            force,
+            [Coulomb(0.3, 0.4)] * n,
+            slip=slip,
+            solver=solver,
+        )
+    except ns.NonsmoothError as error:
+        return {"refused": [str(error)]}
+    return {"modes": result.modes, "acceleration": result.acceleration, "normal": result.normal_force}
+
+
+def _doubled_chain(n: int, solver: str) -> Numbers:
+    """Press points against each other and a wall by two contacts each: redundant, and each acts on few others."""
+    columns = np.zeros((3 * n, 2 * n, 3))
+    for i in range(n):
+        for c in (2 * i, 2 * i + 1):
+            columns[3 * i : 3 * i + 3, c] = np.eye(3)
+            if i:
+                columns[3 * i - 3 : 3 * i, c] = -np.eye(3)
+    laws = [Coulomb(0.3), Coulomb(0.02)] * n
+    force = np.tile([-1.0, 0.08, 0.06], n)
+    result = ns.solve_contact(np.eye(3 * n), columns[:, :, 0], columns[:, :, 1:], force, laws, solver=solver)
+    return {"modes": result.modes, "acceleration": result.acceleration, "normal": result.normal_force}
+
+
+def _impact_problem(seed: int, n: int, law: Any) -> Numbers:
+    rng = np.random.default_rng(seed)
+    n_u = 3 * n + 1
+    normal, tangential, u = rng.normal(size=(n_u, n)), rng.normal(size=(n_u, n, 2)), rng.normal(size=n_u)
+    u = -u if np.all(normal.T @ u >= 0.0) else u
+    mass = np.diag(rng.uniform(0.5, 2.0, n_u))
+    result = ns.solve_impact(mass, normal, tangential, u, [law] * n, [Coulomb(0.2, 0.3)] * n)
+    return {"velocity": result.velocity, "normal": result.normal_impulse, "stored": result.stored}
+
+
+CASES: dict[str, Callable[[], Numbers]] = {
+    "drift": lambda: _dumbbell(_rigid(), 4, 0.0),
+    "skew": lambda: _dumbbell(_rigid(), 1, 1.0),
+    "newton": lambda: _dumbbell(_rigid(NewtonImpact(0.65)), 1),
+    "mono-stiffness": lambda: _dumbbell(_rigid(MonoStiffnessImpact(0.65)), 1),
+    "compliant": lambda: _dumbbell(_soft(Coulomb(0.2, 0.25)), 1),
+    "bristle": lambda: _dumbbell(_soft(Bristle(0.2, 0.25)), 1),
+    "anisotropic": lambda: _dumbbell(_rigid(friction=Anisotropic(0.2, 0.3)), 1),
+    "rate and state": lambda: _dumbbell(_rigid(friction=RateAndState(0.2, 0.01, 0.02, 1e-3, 1e-4)), 1),
+    **{f"no force, {policy}": lambda policy=policy: _jam(policy, 1.001) for policy in POLICIES},  # type: ignore[misc]
+    "into the singularity": lambda: _jam("impact", 0.999),
+    "axis along the normal": lambda: _dumbbell(_rigid(friction=Anisotropic(0.2, 0.3, (0.0, 0.0, 1.0), "first")), 0.5),
+    "tower": lambda: _tower(2),
+    "rocking box": lambda: _box(0.1, 0.0, 0.12),
+    "sliding box": lambda: _box(0.0, 0.0, 0.05, 0.2),
+    "spinning box": lambda: _box(0.3, 3.0, 0.08),
+    "pendulum": _pendulum,
+    "shaken": _shaken,
+    "row": lambda: _balls(5, False, _rigid(EnergeticImpact(0.9), Frictionless()), 1e-3),
+    "row on a plate": lambda: _balls(4, True, _rigid(EnergeticImpact(0.5), Coulomb(0.3)), 1e-3),
+    "long row": lambda: _balls(18, False, _rigid(EnergeticImpact(0.9), Frictionless()), 2e-4, impact_tolerance=1e-5),
+    "cloud": lambda: _cloud(13),
+    **{
+        f"contact problem, {solver}, {n} contacts, {n_u} velocities, sliding {sliding}": (
+            lambda solver=solver, n=n, n_u=n_u, sliding=sliding: _contact_problem(n, n, n_u, solver, sliding)  # type: ignore[misc]
+        )
+        for solver in SOLVERS
+        for n, n_u, sliding in ((2, 6, True), (3, 9, False), (4, 6, False))
+    },
+    **{f"doubled chain of {n}": lambda n=n: _doubled_chain(n, "auto") for n in (2, 6)},  # type: ignore[misc]
+    **{f"impact problem {n}": lambda n=n: _impact_problem(n, n, EnergeticImpact(0.6)) for n in (1, 2, 3)},  # type: ignore[misc]
+}
+"""By name; every one gives arrays by name."""
+
+
+def entered(run: Callable[[], Any]) -> tuple[Any, set[str]]:
+    """Return what a function returns and the functions of the engine that it entered, as "module.function"."""
+    codes = set()
+
+    def note(frame: FrameType, event: str, argument: Any) -> None:
+        if event == "call":
+            codes.add(frame.f_code)
+
+    sys.setprofile(note)
+    try:
+        result = run()
+    finally:
+        sys.setprofile(None)
+    paths = {(Path(code.co_filename), code.co_name) for code in codes}
+    return result, {f"{path.stem}.{name}" for path, name in paths if path.parent.name == "engine"}
+
+
+if __name__ == "__main__":
+    found = entered(lambda: {name: case() for name, case in CASES.items()})
+    Path(sys.argv[1]).write_bytes(pickle.dumps(found))
