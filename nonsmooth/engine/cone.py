@@ -10,12 +10,13 @@ import math
 
 from nonsmooth.engine.delassus import add_product, own_block
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.linear import SINGULAR
 from nonsmooth.engine.watch import interrupted
 
 SWEEPS = 4000
 _SETTLED = 1e-15
 _FLAT = 1e-14
-"""Determinant of a tangential block, relative to its trace squared, below which it has rank one."""
+"""What is added to a tangential block at least, relative to its trace, where friction is cut to its disc."""
 
 
 @kernel("f8(S, F, I, i8, i8)")
@@ -56,7 +57,7 @@ def _update_tangent(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     k[S.tangent_held + a] = 1
     determinant = g11 * g22 - g12 * g12
     trace = g11 + g22
-    if determinant > _FLAT * trace * trace:
+    if determinant > SINGULAR * trace * trace:
         t1, t2 = (g12 * c2 - g22 * c1) / determinant, (g12 * c1 - g11 * c2) / determinant
     elif trace > 0.0:
         # motion along one line only: the least force, G^+ c = G c / trace^2 for a matrix of rank one

@@ -11,6 +11,8 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.modes import OPEN, SLIDE, STICK
 
 _TOLERANCE = 1e-9
+_SOLVED = 1e-5
+"""Part of what counts as zero in an island that round-off of its largest forces leaves in all of them."""
 _ARRIVED = 0.1
 _DISAGREEMENT = 1e3
 """More contacts than can hold independently may disagree on the motion by so many times what counts as zero."""
@@ -55,6 +57,17 @@ def set_scales(S: Scalars, w: Floats, k: Integers) -> None:
     S.small_acceleration, S.small_force = _TOLERANCE * scale, _TOLERANCE * force_scale
 
 
+@kernel("f8(S, F, I, i8)")
+def small_force(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+    """Return what counts as zero among the forces of one contact: beside a heavy body a light one has its own scale."""
+    own, size = w[own_block(S, k, a)], 0.0
+    for r in range(3):
+        size = max(size, abs(w[S.f + 3 * a + r]))
+    if own > 0.0:
+        size = max(size, S.acceleration_scale / own)
+    return float(_TOLERANCE * size + _SOLVED * S.small_force)
+
+
 @room("i8(S, F, I)")
 def verify(S: Scalars, w: Floats, k: Integers) -> int:
     """Find the forces of the modes under trial; return 1 if modes and forces fulfil the laws themselves.
@@ -70,11 +83,11 @@ def verify(S: Scalars, w: Floats, k: Integers) -> int:
 def _compare(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
     set_scales(S, w, k)
-    small, small_force = S.small_acceleration, S.small_force
+    small = S.small_acceleration
     held = small if S.deficient == 0 else _DISAGREEMENT * small
     result = 1
     for a in range(S.n_active):
-        mode = k[S.mode_tried + a]
+        mode, faint = k[S.mode_tried + a], small_force(S, w, k, a)
         normal = w[S.acceleration + 3 * a]
         if mode == OPEN:
             if not normal >= -small:
@@ -85,7 +98,7 @@ def _compare(S: Scalars, w: Floats, k: Integers) -> int:
         # sliding on which more force gives more approach is balanced on an edge, and falls off either side
         if mode == SLIDE and k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
             return 0
-        if not w[S.f + 3 * a] >= -small_force:
+        if not w[S.f + 3 * a] >= -faint:
             if S.lenient == 0 or S.deficient == 0:
                 return 0
             result = 2
@@ -94,7 +107,7 @@ def _compare(S: Scalars, w: Floats, k: Integers) -> int:
             if not abs(a1) + abs(a2) <= held:
                 return 0
             t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
-            if not math.sqrt(t1 * t1 + t2 * t2) <= w[S.mu_static + a] * w[S.f + 3 * a] + small_force:
+            if not math.sqrt(t1 * t1 + t2 * t2) <= w[S.mu_static + a] * w[S.f + 3 * a] + faint:
                 if k[S.redundant + a] == 0:
                     return 0
                 result = 2

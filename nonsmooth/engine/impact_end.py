@@ -9,9 +9,7 @@ from nonsmooth.engine.forces import resolve
 from nonsmooth.engine.impact_rates import COMPRESSION, EXPANSION, IDLE, STRIDE, evaluate_impact_rates
 from nonsmooth.engine.impact_scales import REST
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
-
-_BALANCED = 1e-12
-"""Accelerations below this part of what single forces would give are round-off."""
+from nonsmooth.engine.linear import SINGULAR
 
 
 @kernel("void(S, F, I, i8)")
@@ -69,7 +67,7 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
-    return 1 if left <= _BALANCED * size else 0
+    return 1 if left <= SINGULAR * size else 0
 
 
 @kernel("void(S, F, I)")

@@ -66,7 +66,7 @@ def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     small = REST * float(S.speed_scale)
     if mobility < w[g]:
         small *= math.sqrt(mobility / w[g])
-    return max(small, _CIRCLING * S.impact_rtol * moved)
+    return float(max(small, _CIRCLING * S.impact_rtol * moved))
 
 
 @kernel("f8(S, F, I, i8)")

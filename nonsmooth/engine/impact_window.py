@@ -16,10 +16,10 @@ from nonsmooth.engine.impact_problem import (
     MOVED,
     first_step,
     run_impact,
-    scale_impact,
     start_impact,
 )
 from nonsmooth.engine.impact_rates import COMPRESSION, EXPANSION, IDLE, NOISE, STRIDE
+from nonsmooth.engine.impact_scales import scale_impact
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import row
 from nonsmooth.model.layout import TOTALS

@@ -15,7 +15,7 @@ from nonsmooth.engine.self_check import EXPLAINED, blame, energy_of_bodies, expl
 
 _DAMPING = 1e-8
 """Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
-would move a body by more than half the gap over the root of this."""
+would move a body by more than half the gap over the root of this.  A contact alone repeats none."""
 _FARTHEST = 10.0
 """Corrections move bodies by no more than so many times what the tolerances explain of a gap."""
 _MOST_ITERATIONS = 5
@@ -47,7 +47,8 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
         w[S.mu + a] = 0.0
         for r in range(3):
             w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
-    _damp(S, w, k, _DAMPING)
+    part = _DAMPING if m > 1 else 0.0
+    _damp(S, w, k, part)
     resolve(S, w, k)
     add_response(S, w, k, S.f, S.y + S.n_q)
     loss = 0.0
@@ -55,7 +56,7 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
         c = k[S.active + a]
         for r in range(3):
             impulse = w[S.f + 3 * a + r]
-            damping = w[own_block(S, k, a) + 4 * r] * _DAMPING / (1.0 + _DAMPING)
+            damping = w[own_block(S, k, a) + 4 * r] * part / (1.0 + part)
             loss -= 0.5 * impulse * (w[S.rate + 3 * c + r] - damping * impulse)
             S.driven_work -= impulse * w[S.prescribed_rate + 3 * c + r]
     return loss
@@ -92,7 +93,8 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
         k[S.tangent_held + a] = 0
         w[S.f + 3 * a] = w[S.mu + a] = 0.0
         w[S.b + 3 * a] = held_gap(S, w, c)
-    _damp(S, w, k, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
+    if m > 1:
+        _damp(S, w, k, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
     resolve(S, w, k)
     add_response(S, w, k, S.f, S.y_stage + S.n_q)
     return 1

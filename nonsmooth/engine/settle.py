@@ -10,6 +10,7 @@ from nonsmooth.engine.compliance import (
     rubs_unasked,
 )
 from nonsmooth.engine.contact_problem import accelerate, free_acceleration, set_up, solve_contact
+from nonsmooth.engine.contact_trial import small_force
 from nonsmooth.engine.delassus import add_response, assemble_delassus
 from nonsmooth.engine.forces import reduced_coefficient
 from nonsmooth.engine.impact_problem import ENDLESS, FINISHED, energetic_impact
@@ -232,7 +233,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
         accelerate(S, w, k)
         for a in range(S.n_active):
             c = k[S.active + a]
-            w[S.small_force_of + c] = S.small_force
+            w[S.small_force_of + c] = small_force(S, w, k, a)
             k[S.mode_agreed + c] = k[S.mode_tried + a]
             for i in range(2):
                 w[S.direction_agreed + 2 * c + i] = w[S.d + 2 * a + i]

@@ -88,7 +88,7 @@ def test_the_first_of_many_collisions_within_one_step_is_found() -> None:
 
 
 @pytest.mark.parametrize("body", [EllipsoidBody(0.03, 0.005, 0.008, 2700.0), BoxBody(0.02, 0.004, 0.006, 2700.0)])
-def test_a_body_that_tumbles_past_a_ball_is_missed_by_no_step(body: ns.Body) -> None:
+def test_a_body_that_tumbles_past_a_ball_is_missed_by_no_step(body: EllipsoidBody | BoxBody) -> None:
     """The first collision of long steps is that of steps a hundred times as short."""
     rng = np.random.default_rng(3)
     met = 0

@@ -26,11 +26,12 @@ NOT_ENTERED = {
     "contact_spread": {"_add_disc_curve", "_disc_excess"},
     "impact_clock": {"_restore_phases"},
     "impact_end": {"cut_short", "faded"},
-    "location": {"_behind_jump", "_sampled", "_soonest"},
+    "location": {"_advance", "_behind_jump", "_sampled", "_soonest"},
+    "self_check": {"blame"},
     "settle": {"_force_gone"},
     "solver_enumeration": {"_sweep_slips"},
 }
-"""By module, what no case enters: ways out of rare difficulties, run compiled by other tests."""
+"""By module, what no case enters: ways out of rare difficulties and of faults, run compiled by other tests."""
 COMPILING = {"kernel", "modes", "native", "native_build", "native_cache", "native_types", "plain"}
 """Modules of the engine that compile, or run in Python only."""
 

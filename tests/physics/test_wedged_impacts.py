@@ -39,6 +39,20 @@ def test_a_point_on_a_line_rebounds_unless_the_line_is_in_the_cone_of_friction(
     assert result.returned[0] == pytest.approx(e**2 * stored if friction < 1.0 else 0.0, abs=1e-9 * before)
 
 
+@pytest.mark.parametrize("heavy", [1e11, 1e12, 1e13, 1e14, 1e15])
+@pytest.mark.parametrize("heading", np.linspace(0.0, 3.0, 7))
+def test_a_line_that_round_off_makes_a_plane_wedges_all_the_same(heading: float, heavy: float) -> None:
+    """Joints leave their coefficients with errors like those of a second, very heavy, way to move."""
+    _, normal, tangential, u = _on_a_line(1.0)
+    across = np.array([[0.3, math.cos(heading), math.sin(heading)]])
+    normal, tangential = np.vstack([normal, across[:, :1]]), np.vstack([tangential, across[:, None, 1:]])
+    mass, u = np.diag([0.7, heavy]), np.array([u[0], 0.0])
+    result = ns.solve_impact(mass, normal, tangential, u, [EnergeticImpact(0.5)], [Coulomb(1.2)], tolerance=1e-8)
+    stored = 0.5 * 0.7 * u[0] ** 2 / (1.0 + 1.2 * math.tan(1.0))
+    assert result.stored[0] == pytest.approx(stored, rel=1e-7)
+    assert abs(result.velocity[0]) < 1e-7
+
+
 def _jointed(seed: int) -> tuple[Any, Any, Any, Any]:
     """M, W, N, u of a body on a ball joint, a hinge or a slider, one or two points of which collide."""
     random = np.random.default_rng(seed)

@@ -63,12 +63,13 @@ class Outcome:
 
 
 def cause_of(message: str) -> str:
-    """Return a message's first sentence without times, numbers and values."""
+    """Return a message's first sentence without times, numbers, values and kinds of bodies."""
     text = re.sub(r"^At t = \S+ s ", "", message).split(" What was computed")[0]
     text = re.split(r"[,:] but it is|\. ", text)[0]
     text = re.sub(r"\([^()]*\)", "", re.sub(r"\[[^\]]*\]", "", text))
+    text = re.sub(r"\b(\w+Body|Ball|Rod|Dumbbell|Plate)\b", "*", text)
     text = re.sub(r"(number |contact )?[-+]?\d[\d.e+-]*", "#", text)
-    return " ".join(text.split())[:110]
+    return " ".join(text.split())[:110].rstrip(".")
 
 
 def run(case: Case, seconds: float = 20.0, repeat: bool = False) -> Outcome:
