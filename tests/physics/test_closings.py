@@ -60,7 +60,8 @@ def _capsule(random: Any) -> ns.System:
 
 
 def _box(random: Any) -> ns.System:
-    box, plate = BoxBody(*(float(side) for side in random.uniform(0.01, 0.03, 3)), 2700.0), Plate(Rest())
+    x, y, z = (float(side) for side in random.uniform(0.01, 0.03, 3))
+    box, plate = BoxBody(x, y, z, 2700.0), Plate(Rest())
     system = ns.System([plate, box])
     system.contact(plate, box, **_laws(random))
     system.place(box, position=(0.0, 0.0, 0.04), orientation=tuple(_turn(random, 0.1)))
