@@ -127,6 +127,17 @@ def fall_of_rate(S: Scalars, w: Floats, k: Integers, c: int, h: float, du: int) 
     return float(fall)
 
 
+@kernel("i8(f8, f8, f8, f8, f8)")
+def _too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> int:
+    """Return 1 if a gap does not close by speed alone, the surfaces moving by ``way`` at most between its two ends.
+
+    Only what faces each other says how far it is apart; of what does so at neither end the smaller number stands in.
+    """
+    if past0 > 0.0:
+        return 1 if (min(g0, g1) if past1 > 0.0 else g1) > way else 0
+    return 1 if (g0 if past1 > 0.0 else g0 + g1) > way else 0
+
+
 @room("void(S, F, I, f8)")
 def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """List the open contacts whose gaps may close within the step by the speeds alone; the bodies stand at its end.
@@ -138,7 +149,8 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         if k[S.mode + c] != OPEN:
             continue
         start = 0.0 if k[S.guard_deflated + 2 * c] == 1 else w[S.guard_first + 2 * c]
-        if start + w[S.gap_end + c] > h * (w[S.speed_first + c] + w[S.speed_end + c]):
+        way = h * (w[S.speed_first + c] + w[S.speed_end + c])
+        if _too_far(start, w[S.past_first + c], w[S.gap_end + c], w[S.past_end + c], way) == 1:
             continue
         if w[S.past_first + c] > 0.0 or w[S.past_end + c] > 0.0:
             k[S.astray + S.n_astray] = c
@@ -197,7 +209,7 @@ def stays_open(w: Floats, one: int, two: int, h: float, speed: float, fall: floa
     """
     span = (w[two] - w[one]) * h
     g0, r0, g1, r1 = w[one + 1], w[one + 2], w[two + 1], w[two + 2]
-    if g0 + g1 > span * speed:
+    if _too_far(g0, w[one + 3], g1, w[two + 3], span * speed) == 1:
         return 1
     if w[one + 3] > 0.0 or w[two + 3] > 0.0 or min(g0, g1) < -tolerance:
         return 0

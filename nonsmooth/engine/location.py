@@ -34,6 +34,8 @@ _FEW_ROOTS = 4
 """After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
 _SAMPLES = 16
 """Parts of a step, at least, at whose ends it is asked whether features face each other,"""
+_FARTHEST = 0.25
+"""Part of the size of the smaller body that features which do not face each other may move unseen, however far."""
 _JUMP = 1e-3
 """A guard of which this part of the start value is left next to its root jumps."""
 _WAYS = 14
@@ -129,14 +131,15 @@ def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
 def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return for how long the features that do not face each other need not be looked at, as they are now [s].
 
-    What they report as their gap is no more than their distance, which closes no faster than their speed.
+    What they report as their gap closes no faster than their speed as long as they do, and may be less than it says.
     """
     longest = h / _SAMPLES
     least = longest
     for i in range(S.n_astray):
         c = k[S.astray + i]
         speed = w[S.speed_first + c] + w[S.speed_end + c]
-        way = max(w[S.geometry + GEOMETRY * c], WAY * min(w[S.lever_a + c], w[S.lever_b + c]))
+        size = min(w[S.lever_a + c], w[S.lever_b + c])
+        way = min(_FARTHEST * size, max(w[S.geometry + GEOMETRY * c], WAY * size))
         if way < least * speed:
             least = way / speed
     return least
