@@ -64,6 +64,8 @@ class Outcome:
 
 def cause_of(message: str) -> str:
     """Return a message's first sentence without times, numbers, values and kinds of bodies."""
+    if said := re.search(r"raises (\w+\(\"[^\"]*)\"\)", message):
+        return said[1].replace('("', ": ")[:110]
     text = re.sub(r"^At t = \S+ s ", "", message).split(" What was computed")[0]
     text = re.split(r"[,:] but it is|\. ", text)[0]
     text = re.sub(r"\([^()]*\)", "", re.sub(r"\[[^\]]*\]", "", text))
