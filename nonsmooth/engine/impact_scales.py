@@ -63,7 +63,7 @@ def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
         for i in range(3, 9):
             moved = max(moved, abs(w[S.delassus + 9 * block + i]) * impulse)
     mobility = max(w[g + 4], w[g + 8])
-    small = REST * float(S.speed_scale)
+    small = float(S.rest_speed)
     if mobility < w[g]:
         small *= math.sqrt(mobility / w[g])
     return float(max(small, _CIRCLING * S.impact_rtol * moved))
