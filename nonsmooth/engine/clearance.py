@@ -55,6 +55,17 @@ def _relative_motion(S: Scalars, w: Floats, a: int, b: int) -> None:
     _add_cross(w, a + 15, d, -1.0, d + 3)
 
 
+@kernel("f8(F, i8, i8)")
+def _speed_seen(w: Floats, a: int, b: int) -> float:
+    """Return the speed of the origin of frame ``b`` as seen from frame ``a`` [m/s]."""
+    x, y, z = w[b] - w[a], w[b + 1] - w[a + 1], w[b + 2] - w[a + 2]
+    ox, oy, oz = w[a + 15], w[a + 16], w[a + 17]
+    vx = w[b + 12] - w[a + 12] - oy * z + oz * y
+    vy = w[b + 13] - w[a + 13] - oz * x + ox * z
+    vz = w[b + 14] - w[a + 14] - ox * y + oy * x
+    return math.sqrt(vx * vx + vy * vy + vz * vz)
+
+
 @kernel("void(S, F, I)")
 def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     """Write how fast the gaps of the open contacts can change where the bodies stand, to ``speed_end``.
@@ -66,16 +77,17 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             continue
-        a, b = k[S.frame_a + c], k[S.frame_b + c]
-        if w[S.lever_b + c] > w[S.lever_a + c]:
-            a, b = b, a
+        a, b, lever = k[S.frame_a + c], k[S.frame_b + c], w[S.lever_b + c]
+        if lever > w[S.lever_a + c]:
+            a, b, lever = b, a, w[S.lever_a + c]
+        # the contacts of two bodies follow one another
         if a != last_a or b != last_b:
-            _relative_motion(S, w, a, b)
-            speed = math.sqrt(_dot(w, S.relative + 3, S.relative + 3))
-            turning = math.sqrt(_dot(w, S.relative + 6, S.relative + 6))
+            speed, turning = _speed_seen(w, a, b), -1.0
             last_a, last_b = a, b
-        lever = min(w[S.lever_a + c], w[S.lever_b + c])
-        w[S.speed_end + c] = speed + turning * lever
+        if lever > 0.0 and turning < 0.0:
+            x, y, z = w[b + 15] - w[a + 15], w[b + 16] - w[a + 16], w[b + 17] - w[a + 17]
+            turning = math.sqrt(x * x + y * y + z * z)
+        w[S.speed_end + c] = speed + turning * lever if lever > 0.0 else speed
 
 
 @kernel("void(S, F, I, i8, i8, i8, i8)")
