@@ -259,8 +259,7 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
             gaps, rates = max(abs(w[left + 1]), abs(w[right + 1])), max(abs(w[left + 2]), abs(w[right + 2]))
             rests = gaps <= _RESTS * S.gap_tolerance and rates <= _RESTS * S.velocity_tolerance
             astray = w[left + 3] > 0.0 or w[right + 3] > 0.0
-            way = WAY * min(w[S.lever_a + c], w[S.lever_b + c])
-            enough = span <= _COARSE and (rests or (astray and span * h * speed <= way))
+            enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * w[S.size + c]))
             if span * h > S.time_tolerance and not enough:
                 n += 1
                 _look(S, w, k, h, w[left] + 0.5 * span, c, left + SECTOR * n)

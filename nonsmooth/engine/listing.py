@@ -32,7 +32,7 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     for i in range(_WIDTH):
         k[S.body_a + i * S.n_slots + c] = k[row + i]
     w[S.contact_time + c], w[S.reach + c], w[S.closing_rate + c] = w[floats], w[floats + 3], w[floats + 4]
-    w[S.lever_a + c], w[S.lever_b + c] = w[floats + 5], w[floats + 6]
+    w[S.lever_a + c], w[S.lever_b + c], w[S.size + c] = w[floats + 5], w[floats + 6], w[floats + 7]
     w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = w[floats + 1], w[floats + 2]
     k[S.facing + c] = 1
     k[S.touching + c] = 0

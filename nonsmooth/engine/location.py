@@ -36,6 +36,8 @@ _SAMPLES = 16
 """Parts of a step, at least, at whose ends it is asked whether features face each other,"""
 _FARTHEST = 0.25
 """Part of the size of the smaller body that features which do not face each other may move unseen, however far."""
+_SHORTEST = 1e-4
+"""Part of a step in which nothing is looked at twice: the step itself resolves no more."""
 _JUMP = 1e-3
 """A guard of which this part of the start value is left next to its root jumps."""
 _WAYS = 14
@@ -138,11 +140,10 @@ def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for i in range(S.n_astray):
         c = k[S.astray + i]
         speed = w[S.speed_first + c] + w[S.speed_end + c]
-        size = min(w[S.lever_a + c], w[S.lever_b + c])
-        way = min(_FARTHEST * size, max(w[S.geometry + GEOMETRY * c], WAY * size))
+        way = min(_FARTHEST * w[S.size + c], max(w[S.geometry + GEOMETRY * c], WAY * w[S.size + c]))
         if way < least * speed:
             least = way / speed
-    return least
+    return float(max(least, _SHORTEST * h))
 
 
 @kernel("f8(S, F, I, f8, f8)")

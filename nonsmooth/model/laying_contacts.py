@@ -105,7 +105,7 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
     for name, value in fields.items():
         row[CATALOGUE.index(name)] = value
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * (number + 1))[CATALOGUE_FLOATS * number :]
-    floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach, 0.0, *contact.levers
+    floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach, 0.0, *contact.levers, contact.size
 
 
 def _friction_functions(law: TangentialLaw) -> list[_Function]:

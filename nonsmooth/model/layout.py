@@ -109,8 +109,8 @@ CATALOGUE = (
     "mode",
 )
 """Integers of a declared contact; in a slot each of them is an array of its own."""
-CATALOGUE_FLOATS = 7
-"""Floats of a declared contact: contact time, slip direction, reach, rate at which it closed, levers of the shapes."""
+CATALOGUE_FLOATS = 8
+"""Floats of a contact: contact time, slip direction, reach, rate at which it closed, levers, size of the smaller."""
 SECTORS = 48
 """Halvings of a step in search of a gap that closes: as many as its fractions can be told apart."""
 SECTOR = 4
@@ -189,6 +189,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "small_force_of": _per(1, "n_slots"),
     "lever_a": _per(1, "n_slots"),
     "lever_b": _per(1, "n_slots"),
+    "size": _per(1, "n_slots"),
     "relative": lambda n: 24,
     "sectors": lambda n: SECTOR * (SECTORS + 1),
     "guard_end": _guards,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -28,6 +29,12 @@ from tests.testing import (
 )
 
 RIGID: dict[str, Any] = {"normal": Unilateral(), "impact": NewtonImpact(0.5)}
+
+
+@pytest.fixture(autouse=True)
+def _untried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Forget what other tests have tried: a function is tried with some sets of parameters only."""
+    monkeypatch.setattr(bounds, "_tried", defaultdict(set))
 
 
 def _landing(**laws: Any) -> ns.System:
