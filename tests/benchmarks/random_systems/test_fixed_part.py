@@ -14,8 +14,8 @@ from tests.benchmarks.random_systems.case import Case
 from tests.benchmarks.random_systems.run import run
 
 _SECONDS = 1.5
-_PARTS = [(generate.case_of, range(k, k + 10)) for k in range(0, 100, 10)]
-_PARTS += [(drops.case_of, range(k, k + 20)) for k in range(0, 60, 20)]
+_PARTS = [(generate.case_of, range(k, k + 10)) for k in range(0, 60, 10)]
+_PARTS += [(drops.case_of, range(k, k + 20)) for k in range(0, 40, 20)]
 
 
 @pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
