@@ -43,7 +43,7 @@ from nonsmooth.engine.watch import interrupted
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
 """How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
 
-_MOST_STEPS = 100000
+_MOST_STEPS = 1000000
 _LARGEST = 1e6
 _PATIENCE = 20
 """Steps that a slip may take next to rest without slowing down."""
