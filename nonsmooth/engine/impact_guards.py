@@ -20,8 +20,8 @@ from nonsmooth.engine.impact_rates import (
     STRIDE,
     efficiency,
     evaluate_impact_forces,
-    try_impact_step,
 )
+from nonsmooth.engine.impact_step import try_impact_step
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import dense_state
 from nonsmooth.engine.watch import interrupted

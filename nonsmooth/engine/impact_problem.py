@@ -31,11 +31,10 @@ from nonsmooth.engine.impact_rates import (
     STRIDE,
     efficiency,
     evaluate_impact_forces,
-    try_impact_step,
-    try_linear_step,
     write_impact_slope,
 )
 from nonsmooth.engine.impact_scales import impulse_scale, scale_impact
+from nonsmooth.engine.impact_step import try_impact_step, try_linear_step
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.watch import interrupted
@@ -43,7 +42,7 @@ from nonsmooth.engine.watch import interrupted
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
 """How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
 
-_MOST_STEPS = 1000000
+_MOST_STEPS = 100000
 _LARGEST = 1e6
 _PATIENCE = 20
 """Steps that a slip may take next to rest without slowing down."""

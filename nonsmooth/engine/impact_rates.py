@@ -14,10 +14,8 @@ import math
 
 from nonsmooth.engine.contact_problem import friction_coefficient
 from nonsmooth.engine.forces import resolve
-from nonsmooth.engine.impact_scales import impulse_scale
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 from nonsmooth.engine.modes import COMPLIANT
-from nonsmooth.engine.runge_kutta import stage_state, step_errors
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
@@ -27,9 +25,6 @@ STRIDE = 8
 
 NOISE = 1e-12
 """Rates below this, relative to the impact speed, do not switch a phase."""
-
-_STRAIGHT = 1e-13
-"""Second differences of slopes below this, relative to the slopes, count as zero."""
 
 
 @kernel("f8(S, F, I, i8, f8)")
@@ -134,55 +129,4 @@ def write_impact_slope(S: Scalars, w: Floats, k: Integers, out: int) -> None:
             w[o + 3] = 0.0
         w[o + 4] = w[f] * rate
         w[o + 5] = -(w[f + 1] * w[z + 1] + w[f + 2] * w[z + 2])
-
-
-@kernel("f8(S, F, I, f8)")
-def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance."""
-    n = STRIDE * S.n_active
-    for stage in range(1, 7):
-        out = S.impact_new if stage == 6 else S.impact_stage
-        stage_state(S, w, S.impact_y, S.impact_slopes, n, stage, h, out)
-        impact_slope(S, w, k, out, S.impact_slopes + stage * n)
-    step_errors(S, w, S.impact_slopes, n, h, S.impact_stage)
-    worst = 0.0
-    for a in range(S.n_active):
-        impulse = impulse_scale(S, w, k, a)
-        for r in range(STRIDE):
-            error = abs(w[S.impact_stage + STRIDE * a + r])
-            if r == 3:
-                error /= w[S.impact_x_scale + a]
-            elif r > 3:
-                error /= w[S.impact_energy_scale + a]
-            else:
-                error /= impulse
-            if error > worst or error != error:
-                worst = error
-    return worst / float(S.impact_rtol)
-
-
-@kernel("i8(S, F, I, f8)")
-def try_linear_step(S: Scalars, w: Floats, k: Integers, h: float) -> int:
-    """Take one step of ``h`` to ``impact_new`` by the midpoint rule; return 1 if the slope is linear and it is exact.
-
-    A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
-    """
-    n = STRIDE * S.n_active
-    middle, end = S.impact_slopes + n, S.impact_slopes + 6 * n
-    for i in range(n):
-        w[S.impact_stage + i] = w[S.impact_y + i] + 0.5 * h * w[S.impact_slopes + i]
-    impact_slope(S, w, k, S.impact_stage, middle)
-    for i in range(n):
-        w[S.impact_new + i] = w[S.impact_y + i] + h * w[middle + i]
-    impact_slope(S, w, k, S.impact_new, end)
-    # a component that is round-off next to the contact's force is as straight as that force
-    for a in range(S.n_active):
-        force = abs(w[S.f + 3 * a]) + abs(w[S.f + 3 * a + 1]) + abs(w[S.f + 3 * a + 2])
-        for i in range(STRIDE * a, STRIDE * (a + 1)):
-            first, half, last = w[S.impact_slopes + i], w[middle + i], w[end + i]
-            size = abs(first) + abs(last) + abs(half)
-            if i < STRIDE * a + 3:
-                size = max(size, force)
-            if not abs(first + last - 2.0 * half) <= _STRAIGHT * size:
-                return 0
-    return 1
+        w[o + 7] = 0.0

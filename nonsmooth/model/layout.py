@@ -123,6 +123,8 @@ MOST_BLOCKS = 2**22
 """Pairs of contacts that act on one another, of which a system has room for all up to so many."""
 MOST_ENTRIES = 2**26
 """Entries of a matrix of the contacts' unknowns, of which there is room for all up to so many."""
+STIFF = 8
+"""Contacts of an impact, at most, whose stiff slips are integrated implicitly."""
 N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair."""
 TOTALS = 9
@@ -239,6 +241,9 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "impact_x_scale": _per(1, "n_slots"),
     "impact_f_scale": _per(1, "n_slots"),
     "impact_energy_scale": _per(1, "n_slots"),
+    "stiff_rates": lambda n: 4 * STIFF**2,
+    "stiff_matrix": lambda n: 4 * STIFF**2,
+    "stiff_slip": lambda n: 2 * STIFF,
     "impact_kept": _per(8, "n_slots"),
     "books_kept": _per(5, "n_slots"),
     "impact_mark": _per(1, "n_slots"),
@@ -259,6 +264,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "matrix": _entries,
     "basis": _entries,
     "null": _entries,
+    "stiff_slopes": _per(8 * 2 * STIFF, "n_slots"),
     "tableau": lambda n: 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2),
 }
 INTEGER_ARRAYS: dict[str, Size] = {
@@ -335,6 +341,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "turn": _per(3, "n_slots"),
     "first_unknown": lambda n: n["n_slots"] + 1,
     "phase": _per(1, "n_slots"),
+    "stiff": lambda n: STIFF,
     "phase_kept": _per(1, "n_slots"),
     "held_kept": _per(1, "n_slots"),
     "colliding": _per(1, "n_slots"),
