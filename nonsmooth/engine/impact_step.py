@@ -20,8 +20,8 @@ from nonsmooth.model.layout import STIFF
 
 _EXTRAPOLATED = 6
 """Results that are extrapolated; they lie where the stages of the explicit step do, behind the first."""
-_STIFF = 2.0
-"""Relaxations of a direction within a step that an explicit one just bears."""
+_STIFF = 1.0
+"""Relaxations of a direction within a step that an explicit one bears."""
 _NEAR = 1e-3
 """The Jacobian is one of differences over this part of the slip; it need not be exact."""
 _UNUSABLE = 1e300
@@ -43,6 +43,7 @@ def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         stiff = _find_stiff(S, w, k, h)
         if stiff > 0:
             return _try_implicit_step(S, w, k, h, stiff)
+        evaluate_impact_rates(S, w, k, S.impact_new)
     return error
 
 
@@ -129,7 +130,7 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int)
 
 @kernel("void(S, F, I, i8)")
 def _differentiate(S: Scalars, w: Floats, k: Integers, stiff: int) -> None:
-    """Write the derivatives of the slope by the slips of the ``stiff`` contacts, and what slips those derivatives make."""
+    """Write the derivatives of the slope by the slips of the ``stiff`` contacts, and the slips that those make."""
     n = STRIDE * S.n_active
     for j in range(2 * stiff):
         a = k[S.stiff + j // 2]
