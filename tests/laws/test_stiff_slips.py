@@ -1,0 +1,71 @@
+"""Slips that stay next to rest during an impact, where their direction follows the forces at once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+import nonsmooth as ns
+from laws import Coulomb, EnergeticImpact
+from nonsmooth.testing.draws import Case
+from nonsmooth.testing.reference import Problem, problem, problem_space
+
+_SEEDS = st.integers(0, 10**6)
+
+
+def _random(seed: int, contacts: int) -> tuple[Problem, float]:
+    """Return a body with leaning contacts on long arms, half of its numbers zero, and a coefficient up to 2."""
+    random = np.random.default_rng(seed)
+    case: Case = {v.name: random.uniform(v.low, v.high) * random.integers(2) for v in problem_space(contacts)}
+    case["velocity_z"] -= 0.1
+    return problem(case, contacts), float(random.uniform(0.1, 2.0))
+
+
+@settings(max_examples=60)
+@given(seed=_SEEDS, excess=st.floats(-5.0, -0.3), e=st.floats(0.1, 1.0))
+def test_a_contact_just_past_its_bound_slips_along_a_ray(seed: int, excess: float, e: float) -> None:
+    """From rest the direction does not change, so that rates are linear in the normal impulse: closed form."""
+    random = np.random.default_rng(seed)
+    axes, _ = np.linalg.qr(random.normal(size=(6, 3)))
+    columns = axes @ (np.eye(3) + 0.3 * random.normal(size=(3, 3)))
+    delassus = columns.T @ columns
+    velocity = columns @ np.linalg.solve(delassus, [-1.0, 0.0, 0.0])
+    sticking = np.linalg.solve(delassus[1:, 1:], delassus[1:, 0])
+    mu = (1.0 - 10.0**excess) * float(np.linalg.norm(sticking))
+
+    def change(angle: float) -> NDArray[np.float64]:
+        rates: NDArray[np.float64] = delassus @ [1.0, -mu * np.cos(angle), -mu * np.sin(angle)]
+        return rates
+
+    def turn(angle: float) -> float:
+        rates = change(angle)
+        return float(rates[2] * np.cos(angle) - rates[1] * np.sin(angle))
+
+    start = float(np.arctan2(sticking[1], sticking[0]))
+    angle = brentq(turn, start - 1.0, start + 1.0, xtol=1e-15)
+    growth = change(angle)[0]
+    assume(growth > 0.1 and mu < 2.0)
+    impulse = (1.0 + e) / growth
+    expected = velocity + impulse * columns @ [1.0, -mu * np.cos(angle), -mu * np.sin(angle)]
+    result = ns.solve_impact(
+        np.eye(6), columns[:, :1], columns[:, 1:].reshape(6, 1, 2), velocity, [EnergeticImpact(e)], [Coulomb(mu)]
+    )
+    np.testing.assert_allclose(result.velocity, expected, rtol=0, atol=2e-7)
+    assert result.steps < 2000
+
+
+@settings(max_examples=60, deadline=None)
+@given(seed=_SEEDS)
+def test_two_contacts_with_much_friction_end_where_small_steps_do(seed: int) -> None:
+    """Contacts that leave their bounds slowly need no more steps than others, and no smaller tolerance."""
+    p, mu = _random(seed, 2)
+    laws, friction = [EnergeticImpact(0.7)] * 2, [Coulomb(mu)] * 2
+    found = ns.solve_impact(p.mass, p.normal, p.tangential, p.velocity, laws, friction)
+    fine = ns.solve_impact(p.mass, p.normal, p.tangential, p.velocity, laws, friction, tolerance=1e-12)
+    np.testing.assert_allclose(found.velocity, fine.velocity, rtol=0, atol=1e-6)
+    lost = 0.5 * (p.velocity @ p.mass @ p.velocity - found.velocity @ p.mass @ found.velocity)
+    assert lost == pytest.approx(float(np.sum(found.restitution_loss + found.friction_loss)), abs=1e-8)
