@@ -246,6 +246,8 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
         w[S.past_first + c], w[S.speed_first + c] = w[S.past_end + c], w[S.speed_end + c]
+        w[S.fall_first + 2 * c] = w[S.fall_end + 2 * c] if S.fresh == 1 else -1.0
+        w[S.fall_first + 2 * c + 1] = w[S.fall_end + 2 * c + 1]
     # a gap that closes exactly where the last step ended is an event of that step
     for c in range(S.n_contacts):
         arrived = w[S.guard_end + 2 * c] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance
