@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies import evaluate_body
+from nonsmooth.engine.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.guards import grown, has_fired
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
@@ -141,6 +141,18 @@ def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) ->
     w[out], w[out + 1] = fall, grows
 
 
+@kernel("void(S, F, I, f8)")
+def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+    """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
+
+    The bodies stand there; later they would have to be put there.
+    """
+    for c in range(S.n_contacts):
+        if k[S.mode + c] == OPEN and w[S.past_first + c] <= 0.0:
+            if w[S.guard_end + 2 * c] <= 2.0 * h * w[S.speed_first + c]:
+                write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + 2 * c)
+
+
 @kernel("i8(f8, f8, f8, f8, f8)")
 def _too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> int:
     """Return 1 if a gap does not close by speed alone, the surfaces moving by ``way`` at most between its two ends.
@@ -180,10 +192,12 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
 @kernel("void(S, F, I, f8, f8, i8)")
 def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
     """Put the two bodies of a contact where they are at a fraction of the step, and evaluate its geometry."""
-    # driven bodies may then stand elsewhere than all others
-    S.looked, S.driven_t = 1, -math.inf
+    S.looked = 1
     for side in range(2):
         body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        if k[S.body_nu + body] == 0:
+            evaluate_driven_bodies(S, w, k, S.t + theta * h, S.y)
+            continue
         state = S.y if theta == 0.0 else S.y_new
         if 0.0 < theta < 1.0:
             state = S.y_stage
