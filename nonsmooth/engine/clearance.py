@@ -313,17 +313,19 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
 def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
 
-    Contacts are to stand at ``high``, unless some are astray.  If none closes, those that were looked at stand there
-    again.
+    Contacts are to stand at ``high``, unless some are astray.  If none closes, those that were looked at stand at the end
+    of the step again, if that is ``high``, and that of the guard ``trigger`` in any case; what others report is not
+    asked for at an event.
     """
     found = 0.0
     stands = 1 if S.n_astray == 0 else 0
     for i in range(S.n_doubtful):
+        c = k[S.doubtful + i]
         S.looked = 0
-        theta = _first_dip(S, w, k, h, k[S.doubtful + i], high, stands)
+        theta = _first_dip(S, w, k, h, c, high, stands)
         if theta > 0.0:
             found = high = theta
             stands = 0
-        elif S.looked == 1:
-            _look(S, w, k, h, high, k[S.doubtful + i], S.sectors)
+        elif S.looked == 1 and (high == 1.0 or c == S.trigger // 2):
+            _look(S, w, k, h, high, c, S.sectors)
     return found
