@@ -107,8 +107,9 @@ def _frame_acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, d
 def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) -> None:
     """Write how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
 
-    The second number is by how much more for every second of a step.  With the normal fixed to the first body a convex second one is no nearer than along this normal, whatever the
-    normal does; the terms of the turning bodies hold for all points of its surface.
+    The second number is by how much more for every second of a step.  With the normal fixed to the first body a convex
+    second one is no nearer than along this normal, whatever the normal does; the terms of the turning bodies hold for
+    all points of its surface.
     """
     second = w[S.lever_b + c] <= w[S.lever_a + c]
     a, b = (k[S.frame_a + c], k[S.frame_b + c]) if second else (k[S.frame_b + c], k[S.frame_a + c])
@@ -148,9 +149,9 @@ def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     The bodies stand there; later they would have to be put there.
     """
     for c in range(S.n_contacts):
-        if k[S.mode + c] == OPEN and w[S.past_first + c] <= 0.0:
-            if w[S.guard_end + 2 * c] <= 2.0 * h * w[S.speed_first + c]:
-                write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + 2 * c)
+        faces = k[S.mode + c] == OPEN and w[S.past_first + c] <= 0.0
+        if faces and w[S.guard_end + 2 * c] <= 2.0 * h * w[S.speed_first + c]:
+            write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + 2 * c)
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
@@ -313,9 +314,9 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
 def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
 
-    Contacts are to stand at ``high``, unless some are astray.  If none closes, those that were looked at stand at the end
-    of the step again, if that is ``high``, and that of the guard ``trigger`` in any case; what others report is not
-    asked for at an event.
+    Contacts are to stand at ``high``, unless some are astray.  If none closes, those that were looked at stand at the
+    end of the step again, if that is ``high``, and that of the guard ``trigger`` in any case; what others report is
+    not asked for at an event.
     """
     found = 0.0
     stands = 1 if S.n_astray == 0 else 0
