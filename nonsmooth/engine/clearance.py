@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies import evaluate_body
+from nonsmooth.engine.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.guards import grown, has_fired
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
@@ -103,12 +103,13 @@ def _frame_acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, d
         w[out + r] = total
 
 
-@kernel("f8(S, F, I, i8, f8, i8)")
-def fall_of_rate(S: Scalars, w: Floats, k: Integers, c: int, h: float, du: int) -> float:
-    """Return how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
+@kernel("void(S, F, I, i8, i8, i8)")
+def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) -> None:
+    """Write how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
 
-    With the normal fixed to the first body a convex second one is no nearer than along this normal, whatever the
-    normal does; the terms of the turning bodies hold for all points of its surface.
+    The second number is by how much more for every second of a step.  With the normal fixed to the first body a convex
+    second one is no nearer than along this normal, whatever the normal does; the terms of the turning bodies hold for
+    all points of its surface.
     """
     second = w[S.lever_b + c] <= w[S.lever_a + c]
     a, b = (k[S.frame_a + c], k[S.frame_b + c]) if second else (k[S.frame_b + c], k[S.frame_a + c])
@@ -132,11 +133,25 @@ def fall_of_rate(S: Scalars, w: Floats, k: Integers, c: int, h: float, du: int) 
     lever = min(w[S.lever_a + c], w[S.lever_b + c])
     fall = max(0.0, -along if second else along)
     fall += (math.sqrt(_dot(w, of_b + 3, of_b + 3)) + rate * rate) * lever
+    grows = 0.0
     if lever > 0.0:
-        fall += _CURVED * rate * (rate * lever + h * math.sqrt(_dot(w, of_b, of_b)))
+        fall += _CURVED * rate * rate * lever
+        grows = _CURVED * rate * math.sqrt(_dot(w, of_b, of_b))
         if max(w[S.lever_a + c], w[S.lever_b + c]) < 1e300:
             fall += _CURVED * rate * speed
-    return float(fall)
+    w[out], w[out + 1] = fall, grows
+
+
+@kernel("void(S, F, I, f8)")
+def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+    """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
+
+    The bodies stand there; later they would have to be put there.
+    """
+    for c in range(S.n_contacts):
+        faces = k[S.mode + c] == OPEN and w[S.past_first + c] <= 0.0
+        if faces and w[S.guard_end + 2 * c] <= 2.0 * h * w[S.speed_first + c]:
+            write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + 2 * c)
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
@@ -154,10 +169,12 @@ def _too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> in
 def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """List the open contacts whose gaps may close within the step by the speeds alone; the bodies stand at its end.
 
-    Those whose features do not face each other at an end of the step are a list of their own.
+    Those whose features do not face each other at an end of the step are a list of their own.  How fast the rates of
+    the others can fall there is kept, for this step and the next one.
     """
     S.n_doubtful = S.n_astray = 0
     for c in range(S.n_contacts):
+        w[S.fall_end + 2 * c] = -1.0
         if k[S.mode + c] != OPEN:
             continue
         start = 0.0 if k[S.guard_deflated + 2 * c] == 1 else w[S.guard_first + 2 * c]
@@ -168,6 +185,7 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
             k[S.astray + S.n_astray] = c
             S.n_astray += 1
             continue
+        write_fall(S, w, k, c, S.slopes + 6 * S.n_y + S.n_q, S.fall_end + 2 * c)
         k[S.doubtful + S.n_doubtful] = c
         S.n_doubtful += 1
 
@@ -175,8 +193,12 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
 @kernel("void(S, F, I, f8, f8, i8)")
 def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
     """Put the two bodies of a contact where they are at a fraction of the step, and evaluate its geometry."""
+    S.looked = 1
     for side in range(2):
         body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        if k[S.body_nu + body] == 0:
+            evaluate_driven_bodies(S, w, k, S.t + theta * h, S.y)
+            continue
         state = S.y if theta == 0.0 else S.y_new
         if 0.0 < theta < 1.0:
             state = S.y_stage
@@ -191,18 +213,17 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
 @kernel("f8(S, F, I, f8, i8)")
 def _largest_fall(S: Scalars, w: Floats, k: Integers, h: float, c: int) -> float:
     """Return how fast the rate of the gap of ``c`` can fall within the step, from how fast it can at its ends."""
-    _put(S, w, k, h, 1.0, c)
-    end = fall_of_rate(S, w, k, c, h, S.slopes + 6 * S.n_y + S.n_q)
-    _put(S, w, k, h, 0.0, c)
-    start = fall_of_rate(S, w, k, c, h, S.slopes + S.n_q)
+    first, last = S.fall_first + 2 * c, S.fall_end + 2 * c
+    if w[first] < 0.0:
+        _put(S, w, k, h, 0.0, c)
+        write_fall(S, w, k, c, S.slopes + S.n_q, first)
+    start, end = w[first] + h * w[first + 1], w[last] + h * w[last + 1]
     return float(max(start, end) + abs(end - start))
 
 
 @kernel("void(S, F, I, f8, f8, i8, i8)")
-def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
-    """Evaluate the gap of ``c`` at a fraction of the step and write an end of a part of it."""
-    _put(S, w, k, h, theta, c)
-    evaluate_rates(S, w, k, c)
+def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
+    """Write an end of a part of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
     gap = w[S.geometry + GEOMETRY * c]
     w[S.gap_rate + c] = w[S.rate + 3 * c]
     w[S.guard + 2 * c] = grown(S, w, k, 2 * c, gap, theta * h)
@@ -211,6 +232,14 @@ def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, ou
     w[out], w[out + 2] = theta, w[S.rate + 3 * c]
     w[out + 1] = gap - w[S.guard_start + 2 * c] if k[S.guard_deflated + 2 * c] == 1 else gap
     w[out + 3] = w[S.geometry + GEOMETRY * c + PAST_END]
+
+
+@kernel("void(S, F, I, f8, f8, i8, i8)")
+def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
+    """Evaluate the gap of ``c`` at a fraction of the step and write an end of a part of it."""
+    _put(S, w, k, h, theta, c)
+    evaluate_rates(S, w, k, c)
+    _keep(S, w, k, h, theta, c, out)
 
 
 @kernel("i8(F, i8, i8, f8, f8, f8, f8)")
@@ -237,20 +266,29 @@ def stays_open(w: Floats, one: int, two: int, h: float, speed: float, fall: floa
     return 1 if g0 + s * (r0 - 0.5 * fall * s) >= -tolerance else 0
 
 
-@kernel("f8(S, F, I, f8, i8, f8)")
-def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float) -> float:
-    """Return a fraction of the step, up to ``high``, at which the gap of ``c`` has closed, or 0 if it stays open."""
+@kernel("f8(S, F, I, f8, i8, f8, i8)")
+def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float, stands: int) -> float:
+    """Return a fraction of the step, up to ``high``, at which the gap of ``c`` has closed, or 0 if it stays open.
+
+    It has been evaluated at ``high`` if the contact stands there (1).
+    """
     left, n = S.sectors, 1
     deflated = k[S.guard_deflated + 2 * c] == 1
     w[left], w[left + 1] = 0.0, 0.0 if deflated else w[S.guard_first + 2 * c]
     w[left + 2], w[left + 3] = w[S.gap_rate_first + c], w[S.past_first + c]
     right = left + SECTOR
     if high < 1.0:
-        _look(S, w, k, h, high, c, right)
+        if stands == 1:
+            _keep(S, w, k, h, high, c, right)
+        else:
+            _look(S, w, k, h, high, c, right)
     else:
         w[right], w[right + 2], w[right + 3] = 1.0, w[S.gap_rate_end + c], w[S.past_end + c]
         w[right + 1] = w[S.gap_end + c] - (w[S.guard_start + 2 * c] if deflated else 0.0)
-    speed, fall = w[S.speed_first + c] + w[S.speed_end + c], _largest_fall(S, w, k, h, c)
+    speed = w[S.speed_first + c] + w[S.speed_end + c]
+    if high < 1.0 and _too_far(w[left + 1], w[left + 3], w[right + 1], w[right + 3], high * h * speed) == 1:
+        return 0.0
+    fall = _largest_fall(S, w, k, h, c)
     while n > 0:
         right = left + SECTOR * n
         span = w[right] - w[left]
@@ -276,14 +314,19 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
 def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
 
-    If they do the bodies that were looked at stand at the end of the step again.
+    Contacts are to stand at ``high``, unless some are astray.  If none closes, those that were looked at stand at the
+    end of the step again, if that is ``high``, and that of the guard ``trigger`` in any case; what others report is
+    not asked for at an event.
     """
     found = 0.0
+    stands = 1 if S.n_astray == 0 else 0
     for i in range(S.n_doubtful):
-        theta = _first_dip(S, w, k, h, k[S.doubtful + i], high)
+        c = k[S.doubtful + i]
+        S.looked = 0
+        theta = _first_dip(S, w, k, h, c, high, stands)
         if theta > 0.0:
             found = high = theta
-        _put(S, w, k, h, 1.0, k[S.doubtful + i])
-    # driven bodies may stand elsewhere than all others
-    S.driven_t = -math.inf
+            stands = 0
+        elif S.looked == 1 and (high == 1.0 or c == S.trigger // 2):
+            _look(S, w, k, h, high, c, S.sectors)
     return found

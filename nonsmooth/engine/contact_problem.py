@@ -44,9 +44,7 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(n_u):
             total = 0.0
             for j in range(n_u):
-                entry = w[force + n_u + i * n_u + j]
-                if entry != 0.0:
-                    total += entry * w[force + j]
+                total += w[force + n_u + i * n_u + j] * w[force + j]
             w[S.du + k[S.body_u + body] + i] = total
     if S.n_joints > 0:
         for linkage in range(S.n_linkages):

@@ -215,7 +215,7 @@ def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
 def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` of a contact has fired."""
     value = w[S.guard + i]
-    if (value < 0.0 and k[S.guard_armed + i] == 1) or value < _wrong(S, w, k, i):
+    if value < 0.0 and (k[S.guard_armed + i] == 1 or value < _wrong(S, w, k, i)):
         return 1 - _slides_on(S, w, k, i)
     return 0
 

@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.anisotropy import turn_facing
 from nonsmooth.engine.bodies import evaluate_bodies, evaluate_driven_bodies
-from nonsmooth.engine.clearance import bound_speeds
+from nonsmooth.engine.clearance import bound_speeds, foresee
 from nonsmooth.engine.delassus import assemble_delassus
 from nonsmooth.engine.flow import right_hand_side, slope, try_step
 from nonsmooth.engine.guards import arm_guards, keep_end, watch_features, write_guards
@@ -84,6 +84,8 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         h = min(h, S.h_first)
     if S.sample_interval > 0.0:
         h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
+    if S.fresh == 0:
+        foresee(S, w, k, h)
     for _attempt in range(200):
         if S.stopped == 1:
             return NOT_FINITE
@@ -246,6 +248,8 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
         w[S.past_first + c], w[S.speed_first + c] = w[S.past_end + c], w[S.speed_end + c]
+        w[S.fall_first + 2 * c] = w[S.fall_end + 2 * c] if S.fresh == 1 else -1.0
+        w[S.fall_first + 2 * c + 1] = w[S.fall_end + 2 * c + 1]
     # a gap that closes exactly where the last step ended is an event of that step
     for c in range(S.n_contacts):
         arrived = w[S.guard_end + 2 * c] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance

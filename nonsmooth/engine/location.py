@@ -216,20 +216,20 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
                 return theta
     # what has fired at the end is located first, and what closes before it searched then
     if fired < 0 and S.n_astray + S.n_doubtful > 0:
-        looks += 1
+        looks += S.n_astray
         theta = _closed_before(S, w, k, h, 1.0)
         if theta > 0.0:
             return theta
-    if looks == 0:
-        return 1.0 if fired >= 0 else 0.0
-    if forces + S.n_own_guards + S.n_astray > 0:
+    if looks > 0:
         evaluate_bodies(S, w, k, S.t + h, S.y_new)
-    for i in range(3 * S.n_contacts + S.n_own_guards):
-        w[S.guard + i] = w[S.guard_end + i]
-    for c in range(S.n_contacts):
-        w[S.gap_rate + c] = w[S.gap_rate_end + c]
-        w[S.geometry + GEOMETRY * c + PAST_END] = w[S.past_end + c]
-    deflate(S, w, k, h)
+        for i in range(3 * S.n_contacts + S.n_own_guards):
+            w[S.guard + i] = w[S.guard_end + i]
+        for c in range(S.n_contacts):
+            w[S.gap_rate + c] = w[S.gap_rate_end + c]
+            w[S.geometry + GEOMETRY * c + PAST_END] = w[S.past_end + c]
+        deflate(S, w, k, h)
+    elif fired >= 0 or S.n_doubtful == 0:
+        return 1.0 if fired >= 0 else 0.0
     # guards armed only within the step count as well
     return 1.0 if first_fired(S, w, k, 1, -1) >= 0 else 0.0
 
@@ -398,7 +398,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             earlier = _closed_before(S, w, k, h, theta)
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
-            else:
+            elif S.n_astray > 0:
                 guards_within(S, w, k, h, theta, closed)
     i = S.trigger
     step = theta * h

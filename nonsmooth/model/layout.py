@@ -188,6 +188,8 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "past_first": _per(1, "n_slots"),
     "speed_end": _per(1, "n_slots"),
     "speed_first": _per(1, "n_slots"),
+    "fall_end": _per(2, "n_slots"),
+    "fall_first": _per(2, "n_slots"),
     "small_force_of": _per(1, "n_slots"),
     "lever_a": _per(1, "n_slots"),
     "lever_b": _per(1, "n_slots"),

@@ -77,6 +77,7 @@ INTEGER_SCALARS = (
     "approaching",
     "sample_index",
     "n_doubtful",
+    "looked",
     "n_astray",
     "calls",
     "work",
