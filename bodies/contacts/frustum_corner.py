@@ -9,6 +9,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.across import across
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.disc_tip import tip_past_rim
 from bodies.contacts.frames import point_in_world, vector_in_body
 from bodies.contacts.frustum import (
     FLANK,
@@ -21,7 +22,7 @@ from bodies.contacts.frustum import (
     write_part,
 )
 from bodies.contacts.surface_search import depth_inside
-from bodies.contacts.surface_tables import Numbers, star_of, surface_numbers
+from bodies.contacts.surface_tables import Numbers, star_lengths, star_of, surface_numbers
 from bodies.contacts.surface_vertex import ASTRAY
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import DEEP, REACH
@@ -68,6 +69,7 @@ def _evaluate(
     corner_z: float,
     n_star: float,
     star: Floats,
+    lengths: Floats,
     surface: Floats,
     size: float,
 ) -> None:
@@ -92,11 +94,14 @@ def _evaluate(
             beyond = max(beyond, deepest)
         beyond = max(beyond - margin, size * (_leaning(b, n_star, star, nx, ny, nz) - ASTRAY))
         if flat and height < -DEEP * size and beyond <= 0.0:
-            # and behind a disc what has the disc inside of it
+            # and behind a disc what has come through it, or has it inside
+            past_rim = tip_past_rim(
+                b, n_star, star, lengths, px - cx, py - cy, pz - cz, nx, ny, nz, -height, frustum[0]
+            )
             x, y, z = px - height * nx - b[0], py - height * ny - b[1], pz - height * nz - b[2]
             x, y, z = vector_in_body(b, x, y, z)
-            if depth_inside(surface, x, y, z) == 0.0:
-                beyond = -height
+            if past_rim > 0.0 and depth_inside(surface, x, y, z) == 0.0:
+                beyond = min(-height, past_rim)
         key = height * height + max(beyond, 0.0) * max(beyond, 0.0)
         if key < best:
             best, found, gap, past = key, part, height, beyond
@@ -128,8 +133,8 @@ class FrustumCorner(ContactKinematics):
         The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
     place : tuple of float
         The corner in its body frame [m].
-    star : tuple of float
-        Unit vectors along its edges.
+    star, lengths : tuple of float
+        Unit vectors along its edges, and their lengths [m].
     surface : tuple of float
         The surface (:mod:`bodies.contacts.surface_tables`).
     size : float
@@ -143,6 +148,7 @@ class FrustumCorner(ContactKinematics):
     frustum: Numbers
     place: tuple[float, float, float]
     star: Numbers
+    lengths: Numbers
     surface: Numbers
     size: float
     corner: int
@@ -160,7 +166,8 @@ class FrustumCorner(ContactKinematics):
         surface = surface_numbers(second, patches_for_body(second, 0.0))
         places = second.vertices[list(second.corners)].tolist()
         return tuple(
-            cls(first, (x, y, z), tuple(star_of(second, i)), surface, size, i) for i, (x, y, z) in enumerate(places)
+            cls(first, (x, y, z), tuple(star_of(second, i)), tuple(star_lengths(second, i)), surface, size, i)
+            for i, (x, y, z) in enumerate(places)
         )
 
     def parameters(self) -> dict[str, Value]:
@@ -173,6 +180,7 @@ class FrustumCorner(ContactKinematics):
             "corner_z": z,
             "n_star": float(len(self.star) // 3),
             "star": self.star,
+            "lengths": self.lengths,
             "surface": self.surface,
             "size": self.size,
         }

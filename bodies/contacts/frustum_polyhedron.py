@@ -10,6 +10,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.across import across
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.disc_tip import tip_past_rim
 from bodies.contacts.flank_edge import FlankEdge
 from bodies.contacts.frames import point_in_world, vector_in_body
 from bodies.contacts.frustum import (
@@ -24,7 +25,7 @@ from bodies.contacts.frustum import (
 )
 from bodies.contacts.frustum_edge import size_of_both
 from bodies.contacts.frustum_swept import FrustumSwept, check_number
-from bodies.contacts.polytope_tables import FACE, Numbers, face_table, vertex_table
+from bodies.contacts.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
 from bodies.contacts.rim_edge import RimEdge
 from bodies.contacts.rim_face import RimFace
 from bodies.contacts.tangents import write_tangent
@@ -67,6 +68,9 @@ def _evaluate(
     n_vertices: float,
     vertices: Floats,
     vertex: float,
+    n_star: float,
+    star: Floats,
+    lengths: Floats,
     n_faces: float,
     faces: Floats,
     size: float,
@@ -112,7 +116,12 @@ def _evaluate(
             continue
         if height < 0.0:
             # behind a part only what lies inside of the body can touch it; of a disc, what has the disc inside of it
-            beyond = max(beyond, height_over(b, n_faces, faces, qx, qy, qz) if flat else deepest)
+            inside = deepest
+            if flat:
+                x, y, z = px - cx, py - cy, pz - cz
+                inside = tip_past_rim(b, n_star, star, lengths, x, y, z, nx, ny, nz, -height, frustum[0])
+                inside = min(inside, height_over(b, n_faces, faces, qx, qy, qz))
+            beyond = max(beyond, inside)
         beyond -= margin
         if not flat:
             beyond = max(beyond, -least - 0.5 * depth)
@@ -153,6 +162,8 @@ class FrustumPolyhedron(ContactKinematics):
         All vertices of the second [m].
     vertex : int
         Number of this one.
+    star, lengths : tuple of float
+        Unit vectors along its edges, and their lengths [m].
     faces : tuple of float
         All faces of the second body.
     size : float
@@ -164,6 +175,8 @@ class FrustumPolyhedron(ContactKinematics):
     frustum: Numbers
     vertices: Numbers
     vertex: int
+    star: Numbers
+    lengths: Numbers
     faces: Numbers
     size: float
 
@@ -180,7 +193,10 @@ class FrustumPolyhedron(ContactKinematics):
         core, size = second.core, size_of_both(first, second)
         check_number(len(core.edges))
         vertices, faces = vertex_table(core), face_table(core)
-        own = (cls(first.frustum, vertices, i, faces, size) for i in range(len(vertices) // 3))
+        own = (
+            cls(first.frustum, vertices, i, star_of(core, i), star_lengths(core, i), faces, size)
+            for i in range(len(vertices) // 3)
+        )
         edges = FlankEdge.between(first, second), RimEdge.between(first, second)
         return tuple(itertools.chain(RimFace.between(first, second), own, *edges))
 
@@ -191,6 +207,9 @@ class FrustumPolyhedron(ContactKinematics):
             "n_vertices": float(len(self.vertices) // 3),
             "vertices": self.vertices,
             "vertex": float(self.vertex),
+            "n_star": float(len(self.lengths)),
+            "star": self.star,
+            "lengths": self.lengths,
             "n_faces": float(len(self.faces) // FACE),
             "faces": self.faces,
             "size": self.size,

@@ -57,3 +57,11 @@ def star_of(polytope: Polytope, vertex: int) -> Numbers:
             way = points[one] + points[two] - 2.0 * points[vertex]
             star += (way / np.linalg.norm(way)).tolist()
     return tuple(star)
+
+
+def star_lengths(polytope: Polytope, vertex: int) -> Numbers:
+    """Return the lengths of the same edges [m]."""
+    points = np.array(polytope.vertices)
+    return tuple(
+        float(np.linalg.norm(points[two] - points[one])) for one, two, *_ in polytope.edges if vertex in (one, two)
+    )

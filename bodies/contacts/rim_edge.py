@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.curvature import SIDE_A, write_sweep
-from bodies.contacts.frustum import HIGH_RIM, LOW_RIM, center_in_world, write_part
+from bodies.contacts.frustum import HIGH_RIM, LOW_RIM, center_in_world, nearest_part, write_part
 from bodies.contacts.frustum_edge import (
     astray_of_edge,
     edge_in_frustum,
@@ -22,6 +22,8 @@ from bodies.contacts.frustum_edge import (
 )
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.smooth_core import axes_in_world, forth
+from bodies.contacts.surface_search import THROUGH
+from bodies.contacts.vertex_face import height_over
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
@@ -74,6 +76,30 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
             angle = after
     c, s = math.cos(angle), math.sin(angle)
     return (c if x >= 0.0 else -c), s, none
+
+
+@compiled
+def _aside(
+    b: Floats,
+    frustum: Floats,
+    n_faces: float,
+    faces: Floats,
+    px: float,
+    py: float,
+    pz: float,
+    x: float,
+    y: float,
+    z: float,
+) -> bool:
+    """Return whether bodies that seem to overlap at a crossing are on the far sides of each other.
+
+    Then neither has the other's point: the frustum's in the world, the edge's in the axes of the frustum.  Of a sharp
+    rim across a sharp edge neither has it as well, so that it tells of deep overlaps only.
+    """
+    if height_over(b, n_faces, faces, px, py, pz) <= 0.0:
+        return False
+    outside, _, _, _ = nearest_part(frustum, z, math.sqrt(x * x + y * y))
+    return bool(outside > 0.0)
 
 
 def evaluate_rim_edge(
@@ -150,6 +176,10 @@ def evaluate_rim_edge(
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
         past, over = max(past, size), size
     qx, qy, qz = forth(axes, px, py, pz)
+    if past <= 0.0 and total == 0.0 and n_faces > 0.0 and gap < -THROUGH * size:
+        wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
+        if _aside(b, frustum, n_faces, faces, cx + qx, cy + qy, cz + qz, wx, wy, wz):
+            past = -gap
     overlap = 0.0
     if past > 0.0:
         wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz

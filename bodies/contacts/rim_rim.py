@@ -31,7 +31,7 @@ _ASIDE = 0.01
 """Part of the reach by which the normal of two rims at a distance is beyond those of a side, at the least."""
 _LEAN = 0.02
 """Sine of the angle by which the normal may leave those of the rims where they overlap."""
-_SAMPLES, _STEPS = 16, 60
+_SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 
 
 @compiled
@@ -125,12 +125,19 @@ def _evaluate(
     gx, gy, gz = gx / length, gy / length, gz / length
     hx, hy, hz = half * (ay * gz - az * gy), half * (az * gx - ax * gz), half * (ax * gy - ay * gx)
     low, high = -_BOTH, math.pi + _BOTH
-    step = (high - low) / _SAMPLES
-    best, angle = 1e300, low
-    for i in range(_SAMPLES + 1):
-        square, _, _ = _slope(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz, low + i * step)
-        if square < best:
-            best, angle = square, low + i * step
+    begin, step, angle = low, (high - low) / _SAMPLES, low
+    for _ in range(_LEVELS):
+        best, curved, chosen = 1e300, 0.0, 0
+        for i in range(_SAMPLES + 1):
+            square, _, bend = _slope(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz, begin + i * step)
+            if square < best:
+                best, curved, chosen = square, bend, i
+        angle = begin + chosen * step
+        if curved > 0.0 or low + 0.5 * step < angle < high - 0.5 * step:
+            break
+        # circles that cross next to the line of centres are farthest on it
+        begin = low if angle < 1.0 else high - step
+        step /= _SAMPLES
     least, most = angle - step, angle + step
     for _ in range(_STEPS):
         _, slope, bend = _slope(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz, angle)

@@ -93,6 +93,12 @@ def star_of(features: Features, number: int) -> list[float]:
     return [float(x) for x in (ways / np.linalg.norm(ways, axis=1)[:, None]).ravel()]
 
 
+def star_lengths(features: Features, number: int) -> list[float]:
+    """Return the lengths of the edges of a corner [m]."""
+    ways = features.vertices[list(features.stars[number])] - features.vertices[features.corners[number]]
+    return [float(x) for x in np.linalg.norm(ways, axis=1)]
+
+
 def _triangles(features: Features) -> list[Sequence[float]]:
     corners = features.vertices[features.triangles]
     normals = features.planes[features.face_of, :3]

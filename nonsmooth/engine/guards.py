@@ -239,13 +239,19 @@ def _closes_now(S: Scalars, w: Floats, k: Integers, i: int) -> int:
 def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> int:
     """Return the first guard that has fired, or -1; at the root of guard ``but`` those that fired before it.
 
-    A gap that closes at the same instant did not.
+    A gap that closes at the same instant did not.  Gaps that jump, a sign that another contact was passed, come last:
+    where it was none of them has a root to look for.
     """
+    jumps = -1
     for i in range(2 * S.n_contacts):
         if forces == 0 and k[S.mode + i // 2] != OPEN:
             continue
         if i != but and has_fired(S, w, k, i) == 1 and (but < 0 or _closes_now(S, w, k, i) == 0):
-            return i
+            if k[S.mode + i // 2] != OPEN or is_gap(S, w, k, i) == 1:
+                return i
+            jumps = i if jumps < 0 else jumps
+    if jumps >= 0:
+        return jumps
     for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
         if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
             return i

@@ -400,6 +400,9 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
             elif S.n_astray > 0:
                 guards_within(S, w, k, h, theta, closed)
+    if first >= 0:
+        # guards that go on firing one before the other hide what closed before them
+        return -1.0
     i = S.trigger
     step = theta * h
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step

@@ -21,6 +21,9 @@ _STEPS = 120
 SHRINK = 2e-5
 """Part by which cores are made smaller, so that solids in touch are apart: as much of the size is overlooked."""
 
+_APART = 0.1
+"""Part of their overlap by which solids are moved farther apart than they overlap."""
+
 
 @numba.njit(cache=True)  # type: ignore[untyped-decorator]
 def _core(kind: int, numbers: Vector, corners: Vector, d: Vector, out: Vector) -> None:
@@ -249,10 +252,39 @@ def tangent(d: Vector, angle: float, step: float, out: Vector) -> None:
 
 
 @numba.njit(cache=True)  # type: ignore[untyped-decorator]
+def _climbed(
+    kinds: Vector, numbers: Vector, one: Vector, two: Vector, axes: Vector, between: Vector, d: Vector, value: float
+) -> float:
+    """Return the gap of two cores that overlap, from the direction ``d``, where it is the largest there is nearby.
+
+    Moved apart along a direction by a little more than they overlap in it, solids have a distance; along its direction
+    the gap is no less than along the one before.
+    """
+    apart, trial = np.empty(3), np.empty(3)
+    for _ in range(_STEPS):
+        way = max(-value, 0.0) + _APART * max(abs(value), 1e-6)
+        for i in range(3):
+            apart[i] = between[i] + way * d[i]
+            trial[i] = d[i]
+        bounds(kinds, numbers, one, two, axes, apart, 0.0, math.inf, trial)
+        after = _plane(kinds, numbers, one, two, axes, between, trial)
+        if not after > value + 1e-13:
+            break
+        value = after
+        for i in range(3):
+            d[i] = trial[i]
+    return value
+
+
+@numba.njit(cache=True)  # type: ignore[untyped-decorator]
 def overlap(
     kinds: Vector, numbers: Vector, one: Vector, two: Vector, axes: Vector, between: Vector, ways: Vector, sweep: float
 ) -> float:
-    """Return the gap of two solids along the best direction that a search from many finds [m]; negative inside."""
+    """Return the gap of two solids along the best direction that a search from many finds [m]; negative inside.
+
+    The gap by direction has ridges where features change, along which small steps find no way up; so the ends of the
+    search are climbed from by distances.
+    """
     n_best = 6
     values, best = np.full(n_best, -math.inf), np.zeros((n_best, 3))
     for k in range(len(ways)):
@@ -282,5 +314,5 @@ def overlap(
                         best[k, i] = trial[i]
                     step *= 2.0
                     break
-        found = max(found, values[k])
+        found = max(found, _climbed(kinds, numbers, one, two, axes, between, best[k], values[k]))
     return float(found) - sweep

@@ -27,13 +27,14 @@ from bodies import (
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
-from tests.benchmarks.random_systems import drops, generate
+from tests.benchmarks.random_systems import convex, drops, generate
 from tests.benchmarks.random_systems.campaign import _kept, table
 from tests.benchmarks.random_systems.case import Case, Start
 from tests.benchmarks.random_systems.checks import findings
 from tests.benchmarks.random_systems.gaps import distance, overlaps
 from tests.benchmarks.random_systems.minimise import minimise
 from tests.benchmarks.random_systems.misbehaving import task
+from tests.benchmarks.random_systems.pieces import pieces_of
 from tests.benchmarks.random_systems.pool import spread
 from tests.benchmarks.random_systems.run import Outcome, run
 
@@ -69,6 +70,25 @@ def test_depth_and_distance_along_the_axis_in_any_orientation(one: Body, two: Bo
             else:
                 assert not [depth for depth in depths if depth > 0.0]
                 assert distance(one, two, poses) == pytest.approx(gap, abs=1e-9)
+
+
+@pytest.mark.parametrize("falling", [CylinderBody(0.005, 0.007), ConeBody(0.007, 0.02), DiscBody(0.006)])
+def test_depth_of_a_rim_across_an_edge_whatever_the_lean(falling: Body) -> None:
+    box, (piece,) = BoxBody(0.03, 0.02, 0.01), pieces_of(falling)
+    for seed in range(40):
+        # along a normal of the edge the rim's farthest point is the depth below it
+        random, lean, turn = np.random.default_rng(seed), _rotation(seed), _rotation(seed + 100)
+        angle, depth = random.uniform(0.3, 1.2), 10.0 ** -(4.0 + seed % 3)
+        normal, point = np.array([0.0, np.sin(angle), np.cos(angle)]), np.empty(3)
+        convex._core(piece.kind, piece.numbers, piece.corners, -lean.T @ normal, point)
+        tangent = lean @ np.cross([0.0, 0.0, 1.0], point)
+        if np.hypot(*tangent[1:]) < 0.3 * np.linalg.norm(tangent) or np.linalg.norm(tangent) == 0.0:
+            # a rim next to parallel to the edge has a shorter way out, an apex another test
+            continue
+        edge = np.array([random.uniform(-0.01, 0.01), 0.02, 0.01])
+        place = turn @ (edge - depth * normal - lean @ (piece.place + point))
+        poses = (np.zeros((1, 3)), turn[None]), (place[None], (turn @ lean)[None])
+        assert max(found.depth for found in overlaps(box, falling, poses)) == pytest.approx(depth, abs=1e-9)
 
 
 def test_depth_below_a_plate_is_that_of_the_lowest_point() -> None:
