@@ -14,7 +14,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import nonsmooth as ns
-from bodies import Ball, Plate
+from bodies import Ball, DrivenBody, Plate, Sphere
 from laws import (
     Cohesive,
     Coulomb,
@@ -182,6 +182,30 @@ def test_it_comes_to_rest_on_its_indentation() -> None:
     solution = _drop(HuntCrossley(stiffness, 30.0), 0.05, 0.6, gap=1e-5, gravity=G)
     assert RADIUS - solution.q_end[2] == pytest.approx((MASS * G / stiffness) ** (2.0 / 3.0), rel=1e-6)
     assert abs(solution.u_end[2]) < 1e-8
+
+
+@settings(max_examples=40)
+@given(
+    stiffness=st.floats(4.0, 8.0),
+    beside=st.floats(0.0, 0.8),
+    height=st.floats(2.1, 6.0),
+    speed=st.floats(0.0, 2.0),
+    t_end=st.floats(0.05, 0.3),
+)
+def test_no_long_step_goes_through(stiffness: float, beside: float, height: float, speed: float, t_end: float) -> None:
+    """A ball comes no nearer to a held one than its energy takes it, however long the steps before they touch."""
+    stiffness = 10.0**stiffness
+    held, ball = DrivenBody(carried=(Sphere(radius=RADIUS),)), Ball(RADIUS)
+    system = ns.System([held, ball], gravity=G)
+    system.contact(held, ball, normal=HertzCompliant(stiffness), friction=Frictionless())
+    system.place(ball, position=(beside * RADIUS, 0.0, height * RADIUS), velocity=(0.0, 0.0, -speed))
+    solution = ns.simulate(system, t_end)
+    energy = MASS * (0.5 * speed**2 + G * height * RADIUS)
+    nearest = float(np.min(np.linalg.norm(solution.q[:, :3], axis=1)))
+    assert nearest >= 2.0 * RADIUS - (2.5 * energy / stiffness) ** 0.4
+    end = MASS * (0.5 * np.sum(solution.u_end[:3] ** 2) + G * solution.q_end[2])
+    stored = stiffness * max(0.0, 2.0 * RADIUS - float(np.linalg.norm(solution.q_end[:3]))) ** 2.5 / 2.5
+    assert end + stored == pytest.approx(energy, rel=1e-6)
 
 
 def test_among_rigid_contacts() -> None:
