@@ -19,7 +19,7 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.modes import OPEN
 from nonsmooth.engine.runge_kutta import dense_part
-from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END, SECTOR, SECTORS
+from nonsmooth.model.layout import FALL, FRAME, GEOMETRY, PAST_END, SECTOR, SECTORS
 
 _CURVED = 4.0
 """By so much a curved surface or an edge may turn the normal faster than its body turns."""
@@ -88,6 +88,17 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
             x, y, z = w[b + 15] - w[a + 15], w[b + 16] - w[a + 16], w[b + 17] - w[a + 17]
             turning = math.sqrt(x * x + y * y + z * z)
         w[S.speed_end + c] = speed + turning * lever if lever > 0.0 else speed
+        if lever > 0.0:
+            _write_arm(S, w, k, c, S.arm_end + 3 * c)
+
+
+@kernel("void(S, F, I, i8, i8)")
+def _write_arm(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
+    """Write where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
+    second = w[S.lever_b + c] <= w[S.lever_a + c]
+    frame, point = (k[S.frame_b + c], 10) if second else (k[S.frame_a + c], 7)
+    for r in range(3):
+        w[out + r] = w[S.geometry + GEOMETRY * c + point + r] - w[frame + r]
 
 
 @kernel("void(S, F, I, i8, i8, i8, i8)")
@@ -107,9 +118,9 @@ def _frame_acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, d
 def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) -> None:
     """Write how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
 
-    The second number is by how much more for every second of a step.  With the normal fixed to the first body a convex
-    second one is no nearer than along this normal, whatever the normal does; the terms of the turning bodies hold for
-    all points of its surface.
+    The second number is by how much more for every second of a step, the third how fast the bodies turn.  With the
+    normal fixed to the first body a convex second one is no nearer than along this normal, whatever the normal does;
+    the terms of the turning bodies hold for all points of its surface.
     """
     second = w[S.lever_b + c] <= w[S.lever_a + c]
     a, b = (k[S.frame_a + c], k[S.frame_b + c]) if second else (k[S.frame_b + c], k[S.frame_a + c])
@@ -139,7 +150,7 @@ def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) ->
         grows = _CURVED * rate * math.sqrt(_dot(w, of_b, of_b))
         if max(w[S.lever_a + c], w[S.lever_b + c]) < 1e300:
             fall += _CURVED * rate * speed
-    w[out], w[out + 1] = fall, grows
+    w[out], w[out + 1], w[out + 2] = fall, grows, rate
 
 
 @kernel("void(S, F, I, f8)")
@@ -151,7 +162,7 @@ def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     for c in range(S.n_contacts):
         faces = k[S.mode + c] == OPEN and w[S.past_first + c] <= 0.0
         if faces and w[S.guard_end + 2 * c] <= 2.0 * h * w[S.speed_first + c]:
-            write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + 2 * c)
+            write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + FALL * c)
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
@@ -174,7 +185,7 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """
     S.n_doubtful = S.n_astray = 0
     for c in range(S.n_contacts):
-        w[S.fall_end + 2 * c] = -1.0
+        w[S.fall_end + FALL * c] = -1.0
         if k[S.mode + c] != OPEN:
             continue
         start = 0.0 if k[S.guard_deflated + 2 * c] == 1 else w[S.guard_first + 2 * c]
@@ -185,7 +196,7 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
             k[S.astray + S.n_astray] = c
             S.n_astray += 1
             continue
-        write_fall(S, w, k, c, S.slopes + 6 * S.n_y + S.n_q, S.fall_end + 2 * c)
+        write_fall(S, w, k, c, S.slopes + 6 * S.n_y + S.n_q, S.fall_end + FALL * c)
         k[S.doubtful + S.n_doubtful] = c
         S.n_doubtful += 1
 
@@ -213,7 +224,7 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
 @kernel("f8(S, F, I, f8, i8)")
 def _largest_fall(S: Scalars, w: Floats, k: Integers, h: float, c: int) -> float:
     """Return how fast the rate of the gap of ``c`` can fall within the step, from how fast it can at its ends."""
-    first, last = S.fall_first + 2 * c, S.fall_end + 2 * c
+    first, last = S.fall_first + FALL * c, S.fall_end + FALL * c
     if w[first] < 0.0:
         _put(S, w, k, h, 0.0, c)
         write_fall(S, w, k, c, S.slopes + S.n_q, first)
@@ -232,6 +243,7 @@ def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, ou
     w[out], w[out + 2] = theta, w[S.rate + 3 * c]
     w[out + 1] = gap - w[S.guard_start + 2 * c] if k[S.guard_deflated + 2 * c] == 1 else gap
     w[out + 3] = w[S.geometry + GEOMETRY * c + PAST_END]
+    _write_arm(S, w, k, c, out + 4)
 
 
 @kernel("void(S, F, I, f8, f8, i8, i8)")
@@ -242,11 +254,15 @@ def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, ou
     _keep(S, w, k, h, theta, c, out)
 
 
-@kernel("i8(F, i8, i8, f8, f8, f8, f8)")
-def stays_open(w: Floats, one: int, two: int, h: float, speed: float, fall: float, tolerance: float) -> int:
+@kernel("i8(F, i8, i8, f8, f8, f8, f8, f8, f8)")
+def stays_open(
+    w: Floats, one: int, two: int, h: float, speed: float, fall: float, turning: float, lever: float, tolerance: float
+) -> int:
     """Return 1 if a gap stays above minus the tolerance between two ends of a part of a step, by the bounds.
 
-    It is above both parabolas that fall away from its ends, and lowest where they cross.
+    It is above both parabolas that fall away from its ends, and lowest where they cross.  A witness point that moves
+    farther on its body than the body turns, as on a rim next to flat, makes the rate fall by up to as much as two
+    points so far apart can differ in.
     """
     span = (w[two] - w[one]) * h
     g0, r0, g1, r1 = w[one + 1], w[one + 2], w[two + 1], w[two + 2]
@@ -254,6 +270,9 @@ def stays_open(w: Floats, one: int, two: int, h: float, speed: float, fall: floa
         return 1
     if w[one + 3] > 0.0 or w[two + 3] > 0.0 or min(g0, g1) < -tolerance:
         return 0
+    if turning > 0.0:
+        x, y, z = w[two + 4] - w[one + 4], w[two + 5] - w[one + 5], w[two + 6] - w[one + 6]
+        fall += 2.0 * turning * max(0.0, math.sqrt(x * x + y * y + z * z) / span - turning * lever)
     closing = fall * span + r1 - r0
     ahead = g0 - g1 + r1 * span + 0.5 * fall * span * span
     back = g1 - g0 - r0 * span + 0.5 * fall * span * span
@@ -277,6 +296,8 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     w[left], w[left + 1] = 0.0, 0.0 if deflated else w[S.guard_first + 2 * c]
     w[left + 2], w[left + 3] = w[S.gap_rate_first + c], w[S.past_first + c]
     right = left + SECTOR
+    for r in range(3):
+        w[left + 4 + r], w[right + 4 + r] = w[S.arm_first + 3 * c + r], w[S.arm_end + 3 * c + r]
     if high < 1.0:
         if stands == 1:
             _keep(S, w, k, h, high, c, right)
@@ -289,10 +310,12 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     if high < 1.0 and _too_far(w[left + 1], w[left + 3], w[right + 1], w[right + 3], high * h * speed) == 1:
         return 0.0
     fall = _largest_fall(S, w, k, h, c)
+    turning = w[S.fall_first + FALL * c + 2] + w[S.fall_end + FALL * c + 2]
+    lever = min(w[S.lever_a + c], w[S.lever_b + c])
     while n > 0:
         right = left + SECTOR * n
         span = w[right] - w[left]
-        proved = stays_open(w, left, right, h, speed, fall, S.gap_tolerance)
+        proved = stays_open(w, left, right, h, speed, fall, turning if lever > 0.0 else 0.0, lever, S.gap_tolerance)
         if proved == 0 and n < SECTORS:
             gaps, rates = max(abs(w[left + 1]), abs(w[right + 1])), max(abs(w[left + 2]), abs(w[right + 2]))
             rests = gaps <= _RESTS * S.gap_tolerance and rates <= _RESTS * S.velocity_tolerance

@@ -48,7 +48,7 @@ from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS, record_e
 from nonsmooth.engine.runge_kutta import step_factor
 from nonsmooth.engine.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.settle import settle
-from nonsmooth.model.layout import GEOMETRY, PAST_END
+from nonsmooth.model.layout import FALL, GEOMETRY, PAST_END
 
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
@@ -248,8 +248,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
         w[S.past_first + c], w[S.speed_first + c] = w[S.past_end + c], w[S.speed_end + c]
-        w[S.fall_first + 2 * c] = w[S.fall_end + 2 * c] if S.fresh == 1 else -1.0
-        w[S.fall_first + 2 * c + 1] = w[S.fall_end + 2 * c + 1]
+        for r in range(FALL):
+            w[S.fall_first + FALL * c + r] = w[S.fall_end + FALL * c + r] if S.fresh == 1 else -1.0
+        for r in range(3):
+            w[S.arm_first + 3 * c + r] = w[S.arm_end + 3 * c + r]
     # a gap that closes exactly where the last step ended is an event of that step
     for c in range(S.n_contacts):
         arrived = w[S.guard_end + 2 * c] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance

@@ -113,8 +113,10 @@ CATALOGUE_FLOATS = 8
 """Floats of a contact: contact time, slip direction, reach, rate at which it closed, levers, size of the smaller."""
 SECTORS = 48
 """Halvings of a step in search of a gap that closes: as many as its fractions can be told apart."""
-SECTOR = 4
-"""Floats of an end of a part of a step: fraction, gap, gap rate, how far past the end of the features."""
+SECTOR = 7
+"""Floats of an end of a part of a step: fraction, gap, gap rate, how far past the end of the features, witness arm."""
+FALL = 3
+"""Floats of how fast the rate of a gap can fall: now, by how much more each second, and the turning [rad/s]."""
 ORIENTED = 7
 """Numbers of an anisotropic law: side of the body, its axis, friction forward, backward and across."""
 N_ACCOUNTS = 4
@@ -188,8 +190,10 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "past_first": _per(1, "n_slots"),
     "speed_end": _per(1, "n_slots"),
     "speed_first": _per(1, "n_slots"),
-    "fall_end": _per(2, "n_slots"),
-    "fall_first": _per(2, "n_slots"),
+    "fall_end": _per(FALL, "n_slots"),
+    "fall_first": _per(FALL, "n_slots"),
+    "arm_end": _per(3, "n_slots"),
+    "arm_first": _per(3, "n_slots"),
     "small_force_of": _per(1, "n_slots"),
     "lever_a": _per(1, "n_slots"),
     "lever_b": _per(1, "n_slots"),

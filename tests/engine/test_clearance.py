@@ -10,8 +10,21 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, BoxBody, Cone, ConeBody, DrivenBody, EllipsoidBody, Plate, Rest, Rod, Sphere
-from laws import EnergeticImpact, Frictionless, Unilateral
+from bodies import (
+    Ball,
+    BoxBody,
+    Cone,
+    ConeBody,
+    DiscBody,
+    DrivenBody,
+    EllipsoidBody,
+    Harmonic,
+    Plate,
+    Rest,
+    Rod,
+    Sphere,
+)
+from laws import EnergeticImpact, Frictionless, NewtonImpact, Unilateral
 
 G, R = 9.81, 0.01
 LAWS: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(0.5)}
@@ -192,3 +205,34 @@ def test_features_that_face_each_other_at_one_end_of_a_step_only_do_not_pass() -
         met += len(short)
         np.testing.assert_allclose(long, short, rtol=0.0, atol=1e-8)
     assert met > 3
+
+
+def test_a_disc_that_rocks_through_flat_over_a_falling_plate_strikes_it() -> None:
+    """Its lowest point jumps from side to side as it comes level, and with it the rate of its gap."""
+    rng, radius, rounding, turn = np.random.default_rng(3), 0.01, 0.001, 50.0 * math.pi
+    for _ in range(150):
+        amplitude, phase, restitution = 10.0 ** rng.uniform(-3.3, -2.5), rng.uniform(0.6, 1.6), rng.uniform(0.0, 0.9)
+        tilt, gap, spin = (
+            10.0 ** rng.uniform(-4.0, -2.0),
+            10.0 ** rng.uniform(-6.0, -5.0),
+            10.0 ** rng.uniform(-1.0, 1.0),
+        )
+        plate = Plate(motion=Harmonic(amplitude=amplitude, frequency=25.0, phase=phase))
+        disc = DiscBody(radius=radius, surface_density=1.0, rounding=rounding)
+        system = ns.System([plate, disc], gravity=9.81)
+        system.contact(
+            plate, disc, normal=Unilateral(), friction=Frictionless(), impact=NewtonImpact(restitution=restitution)
+        )
+        rises = amplitude * turn * math.cos(phase) + rng.uniform(-0.2, 1.0) * spin * radius
+        system.place(
+            disc,
+            position=(0.0, 0.0, amplitude * math.sin(phase) + (radius - rounding) * math.sin(tilt) + rounding + gap),
+            orientation=(math.cos(0.5 * tilt), math.sin(0.5 * tilt), 0.0, 0.0),
+            velocity=(0.0, 0.0, rises),
+            angular_velocity=(-spin, 0.1 * spin * rng.normal(), 0.0),
+        )
+        solution = ns.simulate(system, 0.02, sample_interval=2e-5)
+        w, x, y, z = solution.q[:, 3:7].T
+        reach = (radius - rounding) * 2.0 * np.hypot(x * z + w * y, y * z - w * x) + rounding
+        gaps = solution.q[:, 2] - amplitude * np.sin(turn * solution.t + phase) - reach
+        assert float(np.min(gaps)) > -1e-9

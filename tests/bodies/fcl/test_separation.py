@@ -30,14 +30,14 @@ SOLIDS = {name: Solid(shape) for name, shape in SHAPES.items()}
 @pytest.mark.parametrize(("one", "two"), list(itertools.combinations_with_replacement(SHAPES, 2)))
 def test_pairs(one: str, two: str) -> None:
     """In both orders the same distance; points as far apart, on their own bodies; bounded where both are convex."""
-    rng, told, doubtful = np.random.default_rng([3, len(one), len(two)]), 0, 0
+    rng, told = np.random.default_rng([3, len(one), len(two)]), 0
     first, second = SOLIDS[one], SOLIDS[two]
     for _ in range(60):
         pose, other = poses(rng)
         try:
             found, back = separation(first, pose, second, other), separation(second, other, first, pose)
         except DoubtfulDistance:
-            doubtful += 1
+            assert "cylinder" in (one, two)
             continue
         assert found.overlap == back.overlap
         if found.overlap:
@@ -56,7 +56,6 @@ def test_pairs(one: str, two: str) -> None:
                 for direction in rng.normal(size=(20, 3)):
                     assert direction @ own <= direction @ shape.support(direction) + 1e-10
     assert told >= 40
-    assert doubtful <= (6 if "cylinder" in (one, two) else 0)
 
 
 def _single() -> dict[str, tuple[Any, Any]]:

@@ -33,6 +33,7 @@ def test_reference_drift_has_the_velocity_of_the_compliant_limit(dumbbell: Runne
 
 
 def test_newton_restitution_reverses_the_drift(dumbbell: Runner) -> None:
+    """With the velocity that time-stepping engines with Newton's restitution converge to."""
     found = dumbbell(**REFERENCE, impact="newton").summary
     assert (found["attractor"], found["period"]) == ("drift", 1)
     assert found["drift_velocity"][1] == pytest.approx(-10.6e-3, abs=0.15e-3)
@@ -64,6 +65,7 @@ def test_drift_shows_the_mode_words_of_the_paper(dumbbell: Runner) -> None:
 
 
 def test_flutter_is_symmetric_about_level(dumbbell: Runner) -> None:
+    """With the amplitude of the compliant limit, on stiff springs; without friction there is a closed form, below."""
     low, high = dumbbell(mode="flutter", t_end=8.0).summary["beta_range"]
     assert math.degrees(high) == pytest.approx(10.4, abs=0.2)
     assert low == pytest.approx(-high, rel=1e-3)
