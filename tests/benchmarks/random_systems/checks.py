@@ -126,6 +126,11 @@ def _inside(case: Case, records: Records) -> Iterator[str]:
             yield f"inside: {names} by {deepest.depth:.3g} m at t = {worst:.6g} s, first seen at {first:.6g} s"
 
 
+def jumps(case: Case, solution: ns.Solution) -> list[str]:
+    """Return which bodies move farther between two samples than their velocities there tell."""
+    return list(_jumps(case, Records.of(solution)))
+
+
 def _jumps(case: Case, records: Records) -> Iterator[str]:
     compliant = any(type(laws.normal) is not Unilateral for _, _, laws in case.contacts)
     before, after = _velocities(case, records.before), _velocities(case, records.after)

@@ -13,7 +13,7 @@ import numpy as np
 import nonsmooth as ns
 from nonsmooth.interfaces import Body
 from tests.benchmarks.random_systems.case import Case
-from tests.benchmarks.random_systems.checks import findings
+from tests.benchmarks.random_systems.checks import findings, jumps
 from tests.benchmarks.random_systems.gaps import distance
 from tests.benchmarks.random_systems.pieces import poses_of
 
@@ -109,6 +109,10 @@ def run(case: Case, seconds: float = 20.0, repeat: bool = False) -> Outcome:
             solution = ns.simulate(system, case.t_end, sample_interval=case.sample_interval, progress=watch)
             stage = "checks"
             found = [*_placed(case, solution), *findings(case, solution)]
+            if any("jump" in one.split(":")[0] for one in found):
+                # a force that comes and goes between two samples looks like a jump; one stays however fine they are
+                fine = ns.simulate(case.build(), case.t_end, sample_interval=case.sample_interval / 50.0)
+                found = [one for one in found if "jump" not in one.split(":")[0]] + jumps(case, fine)
             if repeat and solution.status == "done":
                 again = ns.simulate(case.build(), case.t_end, sample_interval=case.sample_interval)
                 found += _differs(solution, again)
