@@ -90,6 +90,22 @@ def test_compliant_bodies_may_overlap(build: Any) -> None:
         assemble(_system(build, Ball(0.01), Ball(0.01), place, None, **laws), Options())
 
 
+@pytest.mark.parametrize("name", INSIDE)
+def test_compliant_bodies_that_do_not_feel_their_overlap_are_refused(build: Any, name: str) -> None:
+    """A start in which a force comes from no gap would run as if nothing were there."""
+    laws = {
+        "normal": HuntCrossley(stiffness=1e6, dissipation=0.1),
+        "friction": build.laws(friction=0.0)["friction"],
+    }
+    try:
+        model = assemble(_system(build, *INSIDE[name], **laws), Options())
+    except ns.InvalidInput as error:
+        assert "must not overlap" in str(error)
+    else:
+        assert float(np.min(model.gaps())) < 0.0
+        assert name not in ("crossed bars", "rod through a box", "disc through a disc")
+
+
 @pytest.mark.parametrize(("gap", "starts"), [(0.0, True), (-0.9e-8, True), (-1.1e-7, False)])
 def test_bodies_that_touch_start(build: Any, gap: float, starts: bool) -> None:
     """On faces, edges and rims, up to a millionth of their size and the height of feet."""
