@@ -71,7 +71,8 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     _move(system, body, 0.0, direction, start)
     probe = Probe.of(system, body)
     gaps = probe.gaps()
-    touched = gaps <= _ROUND_OFF * max(contact.size for contact in probe.contacts)
+    # a meeting is told by the solids, and the gap that is left there need not be zero
+    touched = gaps <= max(float(np.min(gaps)), 0.0) + _ROUND_OFF * max(contact.size for contact in probe.contacts)
     contact = probe.contacts[int(np.argmin(gaps))]
     own, other = (0, 1) if contact.first is body else (1, 0)
     carrier = Probe.of(system, (contact.first, contact.second)[other]).frame(contact.frames[other])

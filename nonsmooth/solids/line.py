@@ -15,6 +15,8 @@ from nonsmooth.solids.start import solid_pairs
 _STEPS = 5000
 _FARTHEST = 1e6
 _ROUND_OFF = 1e-9
+_NEAR = 1e-7
+"""Gaps, relative to the size of a contact, that may be left where solids meet: the distance of round ones is rough."""
 _GRAZING = 1e4
 """Gaps may fall so much slower than a body moves along the line, where the engine's gap makes a place exact."""
 
@@ -132,12 +134,12 @@ class Line:
         def over(place: float) -> float:
             return float(np.min(self._gaps(place)))
 
-        gap, near = over(distance), 2.0 * _ROUND_OFF * self._size + self._slack
-        if gap == 0.0 or abs(gap) > near:
+        gap, slack = over(distance), 2.0 * _ROUND_OFF * self._size + self._slack
+        if gap == 0.0 or abs(gap) > _NEAR * self._size + self._slack:
             # features that do not face have gaps that are none
             return distance
         step = np.copysign(max(abs(gap), 1e-16 * self._size), gap)
-        while abs(step) < _GRAZING * near:
+        while abs(step) < _GRAZING * slack:
             if np.sign(over(distance + step)) != np.sign(gap):
                 low, high = sorted((distance, distance + step))
                 tolerances = {"xtol": 1e-16 * _ROUND_OFF * self._size, "rtol": 4.0 * np.finfo(float).eps}

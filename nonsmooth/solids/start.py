@@ -27,7 +27,9 @@ def overlap_allowed(contact: Contact) -> float:
 
 
 def check_overlaps(model: Model) -> None:
-    """Look at the solids of all rigid contacts near each other, whose bodies have been evaluated.
+    """Look at the solids of all contacts near each other, whose bodies have been evaluated.
+
+    Compliant bodies may overlap where that is felt: where they have a gap that is negative.
 
     Raises
     ------
@@ -38,9 +40,11 @@ def check_overlaps(model: Model) -> None:
     n = int(memory.scalars["n_contacts"][0])
     blocks = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
     slots = {number: slot for slot, number in enumerate(memory.array("identity", n).tolist())}
-    rigid = [number for number in slots if not isinstance(contacts[number].normal, CompliantNormalLaw)]
-    for numbers, one, two in solid_pairs(model, rigid, within=0.0):
+    for numbers, one, two in solid_pairs(model, list(slots), within=0.0):
         contact = contacts[numbers[0]]
+        least = min(float(blocks[slots[number], 0]) for number in numbers)
+        if least < 0.0 and isinstance(contact.normal, CompliantNormalLaw):
+            continue
         allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
         nearest = min((slots[number] for number in numbers), key=lambda slot: abs(float(blocks[slot, 0])))
         found = overlap(one, two, allowed, blocks[nearest, 1:4])

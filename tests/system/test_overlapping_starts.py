@@ -19,7 +19,7 @@ from bodies import (
 )
 from laws import HuntCrossley
 from nonsmooth.interfaces import Body
-from nonsmooth.model.assembly import assemble
+from nonsmooth.model.assembly import assemble, lay_out
 from nonsmooth.model.options import Options
 from tests.solids.kinds import angle
 
@@ -88,6 +88,21 @@ def test_compliant_bodies_may_overlap(build: Any) -> None:
     for place in ((0.0, 0.0, 0.0199), (0.0, 0.0, 0.0)):
         laws = {"normal": law, "friction": build.laws(friction=0.0)["friction"]}
         assemble(_system(build, Ball(0.01), Ball(0.01), place, None, **laws), Options())
+
+
+@pytest.mark.parametrize("name", INSIDE)
+def test_compliant_bodies_that_do_not_feel_their_overlap_are_refused(build: Any, name: str) -> None:
+    """A start in which a force comes from no gap would run as if nothing were there."""
+    laws = {
+        "normal": HuntCrossley(stiffness=1e6, dissipation=0.1),
+        "friction": build.laws(friction=0.0)["friction"],
+    }
+    system = _system(build, *INSIDE[name], **laws)
+    if float(np.min(lay_out(system, Options()).gaps())) < 0.0:
+        assemble(system, Options())
+    else:
+        with pytest.raises(ns.InvalidInput, match="must not overlap"):
+            assemble(system, Options())
 
 
 @pytest.mark.parametrize(("gap", "starts"), [(0.0, True), (-0.9e-8, True), (-1.1e-7, False)])

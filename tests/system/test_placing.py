@@ -129,6 +129,19 @@ def test_resting_rides_along(build: Any, motion: Any) -> None:
     np.testing.assert_allclose(model.memory.array("rate", 6), 0.0, rtol=0, atol=1e-14)
 
 
+def test_rounded_boxes_rest_on_balls(build: Any) -> None:
+    """Solids tell their distance roughly, how roughly depends on last digits: the gap is zero all the same."""
+    box, ball = BoxBody(0.004011, 0.005135, 0.005642, rounding=0.0003204), Ball(0.003524)
+    system = ns.System([box, ball])
+    system.contact(box, ball, **build.laws())
+    turn = (-0.24584237067626993, -0.07256437320048659, 0.23220421125129997, 0.938284149284988)
+    system.place(ball, position=(-0.01729, -0.00506, 0.01149), orientation=turn)
+    turn = (0.4150616085610644, -0.7975420478599287, 0.3200078011916544, -0.29873993735450854)
+    for k in range(40):
+        ns.resting(system, box, position=(-0.01923, -0.01572 + 1e-5 * k, 0.01747), orientation=turn)
+        assert float(np.min(_gaps(system))) == pytest.approx(0.0, abs=1e-15)
+
+
 def test_resting_stays_on_a_plate_that_travels(build: Any) -> None:
     """A run from there has one mode: both contacts stick."""
     body = Dumbbell()

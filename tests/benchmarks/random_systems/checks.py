@@ -56,8 +56,10 @@ def findings(case: Case, solution: ns.Solution) -> list[str]:
     records = Records.of(solution)
     if not all(np.all(np.isfinite(a)) for a in (records.t, records.q, records.before, records.after)):
         return ["not-finite: a number in the solution"]
-    found = [*_inside(case, records), *_jumps(case, records), *_joints(case, records)]
-    return [*found, *_energy(case, solution), *_momentum(case, records, solution)]
+    stored = _stored(case, records)
+    energy = sum(stored.values())
+    found = [*_inside(case, records, energy), *_unfelt(case, records, stored), *_jumps(case, records)]
+    return [*found, *_joints(case, records), *_energy(case, solution), *_momentum(case, records, solution, energy)]
 
 
 def _columns(case: Case, q: Vector) -> Iterator[tuple[int, Any, Vector]]:
@@ -95,12 +97,27 @@ def _inertia(body: Any) -> Vector:
     return np.asarray(principal + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]]))
 
 
-def _indentation(case: Case, records: Records, normal: Any) -> float:
+def _stored(case: Case, records: Records) -> dict[tuple[int, int], float]:
+    """Return what compliant contacts that start indented hold of energy [J], by the numbers of their bodies."""
+    poses = [poses_of(body, records.t[:1], own[:1]) for _, body, own in _columns(case, records.q)]
+    stored = {}
+    for i, j, laws in case.contacts:
+        if type(laws.normal) is not Unilateral:
+            found = overlaps(case.bodies[i], case.bodies[j], (poses[i], poses[j]))
+            depth = max((o.depth for o in found), default=0.0)
+            law: Any = laws.normal
+            if depth > DEPTH:
+                exponent = getattr(law, "exponent", 1.0)
+                stored[i, j] = float(law.stiffness * depth ** (exponent + 1.0) / (exponent + 1.0))
+    return stored
+
+
+def _indentation(case: Case, records: Records, normal: Any, stored: float) -> float:
     """Return how deep all the energy there is can press a contact by its law [m]; a rigid one not at all."""
     if type(normal) is Unilateral:
         return 0.0
     exponent = getattr(normal, "exponent", 1.0)
-    velocities, energy = _velocities(case, records.after), 0.0
+    velocities, energy = _velocities(case, records.after), stored
     for k, body, own in _columns(case, records.q):
         if body.n_q:
             v = velocities[k]
@@ -110,10 +127,29 @@ def _indentation(case: Case, records: Records, normal: Any) -> float:
     return float(((exponent + 1.0) * energy / normal.stiffness) ** (1.0 / (exponent + 1.0)))
 
 
-def _inside(case: Case, records: Records) -> Iterator[str]:
+def _unfelt(case: Case, records: Records, stored: dict[tuple[int, int], float]) -> Iterator[str]:
+    """Return which indentations of the start leave both bodies as they are, falling by their weight alone.
+
+    Bodies of joints are left out, as these may hold them; a thousandth of the energy is enough.
+    """
+    velocities, tied = _velocities(case, records.after), {k for i, j, _ in case.joints for k in (i, j)}
+    early = records.t <= records.t[0] + 2.0 * case.sample_interval
+    fall = case.gravity * (records.t[early] - records.t[0])
+    for (i, j), energy in stored.items():
+        free = [k for k in (i, j) if case.bodies[k].n_q and k not in tied]
+        gained = 0.0
+        for k in free:
+            change = velocities[k][early, :3] - velocities[k][0, :3]
+            change[:, 2] += fall
+            gained += 0.5 * _masses(case)[k] * float(np.max(np.sum(change**2, axis=1)))
+        if free and gained < 1e-3 * energy:
+            yield f"unfelt: b{i}, b{j} start indented, with {energy:.3g} J, and gain {gained:.3g} J"
+
+
+def _inside(case: Case, records: Records, stored: float) -> Iterator[str]:
     poses = [poses_of(body, records.t, own) for _, body, own in _columns(case, records.q)]
     for i, j, laws in case.contacts:
-        allowed = DEPTH + _indentation(case, records, laws.normal)
+        allowed = DEPTH + _indentation(case, records, laws.normal, stored)
         found = [
             o
             for o in overlaps(case.bodies[i], case.bodies[j], (poses[i], poses[j]))
@@ -206,7 +242,7 @@ def _energy(case: Case, solution: ns.Solution) -> Iterator[str]:
         yield f"energy-gained: {gain / scale:.3g} of what was exchanged, from one sample to the next"
 
 
-def _momentum(case: Case, records: Records, solution: ns.Solution) -> Iterator[str]:
+def _momentum(case: Case, records: Records, solution: ns.Solution, stored: float) -> Iterator[str]:
     """Between free bodies alone nothing changes the momentum but the weight, nor the spin about the mass centre."""
     if any(not body.n_q for body in case.bodies):
         return
@@ -230,7 +266,7 @@ def _momentum(case: Case, records: Records, solution: ns.Solution) -> Iterator[s
     spin = np.sum(parts + own, axis=0)
     reach = float(np.max(np.linalg.norm(arms, axis=2)))
     # friction acts at a point of either body: an indentation parts them, and makes a couple of what they exchange
-    lever = max((_indentation(case, records, laws.normal) for _, _, laws in case.contacts), default=0.0)
+    lever = max((_indentation(case, records, laws.normal, stored) for _, _, laws in case.contacts), default=0.0)
     turned = float(np.max(np.sum(np.linalg.norm(own, axis=2), axis=0)))
     change = float(np.max(np.linalg.norm(spin - spin[0], axis=1)))
     if change > _OPEN * (size * reach + turned) + 2.0 * size * lever:

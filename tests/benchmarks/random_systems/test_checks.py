@@ -24,7 +24,7 @@ from bodies import (
     Plate,
     SuperellipsoidBody,
 )
-from laws import Coulomb, EnergeticImpact, Unilateral
+from laws import Coulomb, EnergeticImpact, HuntCrossley, Unilateral
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
 from tests.benchmarks.random_systems import convex, drops, generate
@@ -135,6 +135,22 @@ def test_a_run_that_is_right_passes_and_one_that_is_spoilt_does_not() -> None:
     assert "energy-end" in kinds(u_end=1.001 * right.u_end)
     assert "energy" in kinds(energy=dataclasses.replace(right.energy, friction_loss=right.energy.friction_loss + 1e-8))
     assert kinds(q=_shifted(right.q, late, 0, math.nan)) == {"not-finite"}
+
+
+def test_compliant_bodies_may_start_indented_but_must_feel_it() -> None:
+    law = ns.ContactLaws(HuntCrossley(stiffness=1e6, dissipation=0.1), Coulomb(0.3), None)
+    starts = tuple(Start("place", (("position", (x, 0.0, 0.0)),)) for x in (0.0, 0.019))
+    case = Case((Ball(0.01), Ball(0.01)), starts, ((0, 1, law),), (), 0.0, 0.01)
+    right = ns.simulate(case.build(), case.t_end, sample_interval=case.sample_interval)
+    assert findings(case, right) == []
+    unmoved = dataclasses.replace(right, q=0.0 * right.q + right.q[0], u=0.0 * right.u)
+    still = dataclasses.replace(right.events, time=right.events.time[:0], q=right.events.q[:0])
+    still = dataclasses.replace(still, u_before=right.events.u_before[:0], u_after=right.events.u_after[:0])
+    found = findings(case, dataclasses.replace(unmoved, events=still))
+    assert "unfelt" in {text.split(":")[0] for text in found}
+    # deeper than all that the start holds
+    deeper = dataclasses.replace(right, q=_shifted(right.q, slice(len(right.t) // 2, None), 7, 0.005, 0.0))
+    assert "inside" in {text.split(":")[0] for text in findings(case, deeper)}
 
 
 @pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
