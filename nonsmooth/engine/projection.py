@@ -12,6 +12,7 @@ from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import evaluate_contact
 from nonsmooth.engine.modes import JOINTS_APART, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED, RUNNING, STICK
 from nonsmooth.engine.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
+from nonsmooth.model.layout import GEOMETRY, PAST_END
 
 _DAMPING = 1e-8
 """Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
@@ -158,8 +159,14 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     moved = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
+        past = 0.0
         for a in range(S.n_active):
-            evaluate_contact(S, w, k, k[S.active + a], 1)
+            c = k[S.active + a]
+            evaluate_contact(S, w, k, c, 1)
+            past = max(past, w[S.geometry + GEOMETRY * c + PAST_END])
+        if past > S.gap_tolerance:
+            # behind the end of a feature its rate is that of another one; the event that comes drops the contact
+            continue
         loss += project_rates(S, w, k, at_event)
         moved += _add_gaps(S, w, k)
     if moved > 0:

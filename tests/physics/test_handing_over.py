@@ -1,0 +1,42 @@
+"""Closed contacts that pass from one feature of a body to the next: behind the end of one nothing is exchanged."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+import nonsmooth as ns
+from bodies import ConeBody, Rod
+from laws import PoissonImpact, Unilateral, Viscous
+
+
+def _spin(bodies: tuple[Any, ...], q: Any, u: Any) -> Any:
+    """Return the spin of free bodies about the origin [kg m^2/s]."""
+    total = np.zeros(3)
+    for k, body in enumerate(bodies):
+        axes = Rotation.from_quat(np.roll(q[7 * k + 3 : 7 * k + 7], -1)).as_matrix()
+        total += body.total_mass * np.cross(q[7 * k : 7 * k + 3], u[6 * k : 6 * k + 3])
+        total += axes @ (np.asarray(body.inertia) * u[6 * k + 3 : 6 * k + 6])
+    return total
+
+
+def test_a_rod_that_slides_over_the_middle_of_a_flank_keeps_the_spin() -> None:
+    """The halves of the flank are contacts of their own; the velocities were put on the wrong one's constraint."""
+    cone = ConeBody(radius=0.004643, height=0.007806, density=2700.0, rounding=0.0006163)
+    rod = Rod(length=0.01279, radius=0.001738, density=2700.0)
+    system = ns.System([cone, rod], gravity=0.0)
+    friction = Viscous(0.5321, growth=0.01632, largest=1.083)
+    system.contact(cone, rod, normal=Unilateral(), friction=friction, impact=PoissonImpact(0.0))
+    turns = (
+        (-0.6430760866567861, 0.681134776435129, -0.15406355221007426, -0.31428169686011714),
+        (-0.578819459205251, -0.2421225552873325, 0.1210684716150793, -0.7692120169675343),
+    )
+    system.place(cone, position=(-0.0111, 0.00304, 0.0144), orientation=turns[0], velocity=(-0.0867, -0.349, -0.1))
+    system.place(rod, position=(-0.017, -0.02, 0.0057), orientation=turns[1], velocity=(0.15, 0.64, 0.29))
+    solution = ns.simulate(system, 0.029, sample_interval=5e-4)
+    spins = np.array([_spin((cone, rod), q, u) for q, u in zip(solution.q, solution.u, strict=True)])
+    size = cone.total_mass * 0.36 * 0.02
+    assert "end of a feature" in solution.events.causes()
+    assert float(np.max(np.abs(spins - spins[0]))) < 1e-9 * size
