@@ -95,8 +95,8 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int)
         for i in range(n):
             w[S.impact_new + i] = w[S.impact_y + i]
         slope = S.impact_slopes
-        for _part in range(j + 1):
-            if _part > 0:
+        for part in range(j + 1):
+            if part > 0:
                 slope = S.impact_stage
                 impact_slope(S, w, k, S.impact_new, slope)
             if _euler_step(S, w, k, h / (j + 1), stiff, slope) == 0:
