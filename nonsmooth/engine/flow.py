@@ -180,10 +180,7 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for stage in range(1, 7):
         out = S.y_new if stage == 6 else S.y_stage
         stage_state(S, w, S.y, S.slopes, n, stage, h, out)
-        node = 0.0
-        for j in range(stage):
-            node += w[S.stages + 6 * stage + j]
-        slope(S, w, k, S.t + node * h, out, S.slopes + stage * n)
+        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n)
     step_errors(S, w, S.slopes, n, h, S.y_stage)
     worst = 0.0
     worst = _worst_error(S, w, 0, S.n_q + S.n_u, worst)
@@ -202,11 +199,10 @@ def _unseen(S: Scalars, w: Floats, h: float) -> float:
     """
     first = S.slopes + S.n_q
     second, third = first + S.n_y, first + 2 * S.n_y
-    worst = 0.0
+    y_scale, y, y_new = S.y_scale + S.n_q, S.y + S.n_q, S.y_new + S.n_q
+    worst, rtol = 0.0, math.sqrt(S.rtol)
     for i in range(S.n_u):
         change = h * abs(w[second + i] - (1.0 - _SHARE) * w[first + i] - _SHARE * w[third + i])
-        u = S.n_q + i
-        scale = w[S.y_scale + u] + max(abs(w[S.y + u]), abs(w[S.y_new + u]))
-        worst = max(worst, change / scale)
-    ratio = worst / math.sqrt(S.rtol)
-    return ratio if ratio > 1.0 else 0.0
+        explained = rtol * (w[y_scale + i] + max(abs(w[y + i]), abs(w[y_new + i])))
+        worst = max(worst, change / explained)
+    return worst if worst > 1.0 else 0.0

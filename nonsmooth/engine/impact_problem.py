@@ -33,7 +33,7 @@ from nonsmooth.engine.impact_rates import (
     evaluate_impact_forces,
     write_impact_slope,
 )
-from nonsmooth.engine.impact_scales import impulse_scale, scale_impact
+from nonsmooth.engine.impact_scales import scale_impact
 from nonsmooth.engine.impact_step import try_impact_step, try_linear_step
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.runge_kutta import step_factor
@@ -284,7 +284,6 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
                 return INVALID
             h *= step_factor(error) if error < _UNUSED else 0.1
             continue
-        grown = h * step_factor(error)
         # the last stage has left the forces at the end of the step
         write_impact_guards(S, w, k, S.impact_new)
         S.trigger = fired_guard(S, w, k, -1)
@@ -303,10 +302,12 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
                     return INVALID
                 h *= 0.25
                 continue
-        if fired == 1:
+        if fired == 0:
+            grown = h * step_factor(error)
+        elif S.lone >= 0:
+            grown = _FAR * w[S.impulse_scale + S.lone]
+        else:
             grown = max(h, shortest * S.impact_rtol**_FIRST)
-            if S.lone >= 0:
-                grown = _FAR * impulse_scale(S, w, k, S.lone)
         for i in range(n):
             w[S.impact_y + i] = w[S.impact_new + i]
         if fired == 0 and _stopping(S, w, k) == 1:
@@ -319,7 +320,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
         elif fired == 1:
             _switch(S, w, k, 1e-2 * shortest)
             if m > 1 and change_clock(S, w, k) == 1:
-                grown = shortest if S.lone < 0 else _FAR * impulse_scale(S, w, k, S.lone)
+                grown = shortest if S.lone < 0 else _FAR * w[S.impulse_scale + S.lone]
             if S.phases > _LONG * (S.n_colliding if S.windowed == 1 else m) and faded(S, w, k) == 1:
                 cut_short(S, w, k)
             end_trapped(S, w, k)

@@ -11,12 +11,14 @@ REST = 1e-9
 """Slip velocities below this, relative to the impact speed, count as none; so do those within the tolerance."""
 _CIRCLING = 30.0
 """A slip that circles round zero does so within the error of so many steps."""
+_MET = 1e-6
+"""So close, relative to it, the deformation that takes up an energy need be known: it is a scale."""
 _UNUSED = 1e300
 
 
 @kernel("f8(S, F, I)")
 def scale_impact(S: Scalars, w: Floats, k: Integers) -> float:
-    """Set the scales of speed, energy, deformation, force and rest; return the shortest time of a compression.
+    """Set the scales of speed, energy, impulse, deformation, force and rest; return the shortest time of a compression.
 
     A contact takes up no more energy than the fastest approach would bring to it, and no more than the approaches of
     all bring: next to one with a small coefficient of its own, others would else count as light.
@@ -35,6 +37,8 @@ def scale_impact(S: Scalars, w: Floats, k: Integers) -> float:
         energy = min(brought, S.speed_scale * S.speed_scale / w[own_block(S, k, a)])
         x = 1.0
         w[S.impact_energy_scale + a] = energy
+        # the impulse that takes it up
+        w[S.impulse_scale + a] = math.sqrt(energy / w[own_block(S, k, a)])
         if a != S.lone:
             c = k[S.active + a]
             for _iteration in range(4):
@@ -43,6 +47,8 @@ def scale_impact(S: Scalars, w: Floats, k: Integers) -> float:
                 if not (force > 0.0 and double > 0.5001 * force):
                     S.culprit = c
                     return -1.0
+                if abs(energy - force * x) <= _MET * energy:
+                    break
                 x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
         w[S.impact_x_scale + a] = x
         w[S.impact_f_scale + a] = energy / x
@@ -59,7 +65,7 @@ def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     moved = 0.0
     row = S.block_start + S.first_grouped + a
     for block in range(k[row], k[row + 1]):
-        impulse = impulse_scale(S, w, k, k[S.block_column + block])
+        impulse = w[S.impulse_scale + k[S.block_column + block]]
         for i in range(3, 9):
             moved = max(moved, abs(w[S.delassus + 9 * block + i]) * impulse)
     mobility = max(w[g + 4], w[g + 8])
@@ -67,9 +73,3 @@ def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     if mobility < w[g]:
         small *= math.sqrt(mobility / w[g])
     return float(max(small, _CIRCLING * S.impact_rtol * moved))
-
-
-@kernel("f8(S, F, I, i8)")
-def impulse_scale(S: Scalars, w: Floats, k: Integers, a: int) -> float:
-    """Return the impulse by which the active contact ``a`` takes up its energy."""
-    return math.sqrt(w[S.impact_energy_scale + a] / w[own_block(S, k, a)])

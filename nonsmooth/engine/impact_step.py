@@ -12,10 +12,10 @@ import math
 
 from nonsmooth.engine.delassus import own_block
 from nonsmooth.engine.impact_rates import STRIDE, evaluate_impact_rates, impact_slope
-from nonsmooth.engine.impact_scales import impulse_scale
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.linear import eliminate
 from nonsmooth.engine.runge_kutta import stage_state, step_errors
+from nonsmooth.model import tableau
 from nonsmooth.model.layout import STIFF
 
 _EXTRAPOLATED = 6
@@ -52,15 +52,11 @@ def _relative_error(S: Scalars, w: Floats, k: Integers) -> float:
     """Return the largest of the errors in ``impact_stage``, relative to the tolerance."""
     worst = 0.0
     for a in range(S.n_active):
-        impulse = impulse_scale(S, w, k, a)
+        one = 1.0 / w[S.impulse_scale + a]
         for r in range(STRIDE):
-            error = abs(w[S.impact_stage + STRIDE * a + r])
-            if r == 3:
-                error /= w[S.impact_x_scale + a]
-            elif r > 3:
-                error /= w[S.impact_energy_scale + a]
-            else:
-                error /= impulse
+            if r >= 3:
+                one = 1.0 / (w[S.impact_x_scale + a] if r == 3 else w[S.impact_energy_scale + a])
+            error = one * abs(w[S.impact_stage + STRIDE * a + r])
             if error > worst or error != error:
                 worst = error
     return worst / float(S.impact_rtol)
@@ -115,9 +111,7 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int)
     error = _relative_error(S, w, k)
     impact_slope(S, w, k, S.impact_new, last)
     for stage in range(1, 6):
-        c = 0.0
-        for j in range(stage):
-            c += w[S.stages + 6 * stage + j]
+        c = tableau.NODES[stage]
         for i in range(n):
             rise = (w[S.impact_new + i] - w[S.impact_y + i]) / h
             w[S.impact_slopes + stage * n + i] = (

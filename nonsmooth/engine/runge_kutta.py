@@ -33,14 +33,15 @@ def dense_part(
     S: Scalars, w: Floats, start: int, slopes: int, n: int, stride: int, h: float, theta: float, out: int
 ) -> None:
     """Write ``n`` components of the interpolated state, the slopes of two stages lying ``stride`` apart."""
-    for i in range(n):
-        w[out + i] = w[start + i]
     for j in range(7):
-        d = S.dense + 4 * j
+        d, slope = S.dense + 4 * j, slopes + j * stride
         weight = h * theta * (w[d] + theta * (w[d + 1] + theta * (w[d + 2] + theta * w[d + 3])))
-        if weight != 0.0:
+        if j == 0:
             for i in range(n):
-                w[out + i] += weight * w[slopes + j * stride + i]
+                w[out + i] = w[start + i] + weight * w[slope + i]
+        elif weight != 0.0:
+            for i in range(n):
+                w[out + i] += weight * w[slope + i]
 
 
 @kernel("void(S, F, i8, i8, f8, i8)")

@@ -247,6 +247,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "impact_x_scale": _per(1, "n_slots"),
     "impact_f_scale": _per(1, "n_slots"),
     "impact_energy_scale": _per(1, "n_slots"),
+    "impulse_scale": _per(1, "n_slots"),
     "stiff_rates": lambda n: 4 * STIFF**2,
     "stiff_matrix": lambda n: 4 * STIFF**2,
     "stiff_slip": lambda n: 2 * STIFF,
