@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import functools
-import gc
 import importlib
 import inspect
 import subprocess
@@ -19,7 +18,7 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic, typeof_impl
 
-from nonsmooth.engine.native_build import CFunction, EnginePasses, numbered, raw, typed_once
+from nonsmooth.engine.native_build import CFunction, EnginePasses, numbered, raw, raw_inside, typed_once, uncollected
 from nonsmooth.engine.native_cache import Store, folders, say
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
 from nonsmooth.model.memory import Memory
@@ -136,19 +135,12 @@ def _helper(start: int) -> subprocess.Popen[bytes] | None:
 
 def compile_rooms(start: int, stop: int) -> None:
     """Compile a range of ``ROOMS`` into the cache."""
-    # millions of small objects that live: looking for garbage among them is lost time
-    collecting = gc.isenabled()
-    gc.disable()
-    try:
-        with numbered(ROOMS[start]), typed_once():
-            with raw():
-                for inner, typed in _kernels_of(ROOMS[start:stop]):
-                    inner.compile(typed)
-            for name in ROOMS[start:stop]:
-                _compiled(name)
-    finally:
-        if collecting:
-            gc.enable()
+    with uncollected(), numbered(ROOMS[start]), typed_once():
+        with raw():
+            for inner, typed in _kernels_of(ROOMS[start:stop]):
+                inner.compile(typed)
+        for name in ROOMS[start:stop]:
+            _compiled(name)
 
 
 def _kernels_of(rooms: tuple[str, ...]) -> list[tuple[Any, Any]]:
@@ -331,5 +323,5 @@ def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
     Equal keys must mean equal functions; without a key nothing is cached.
     """
     compiled = CFunction(shim, _C_SIGNATURES[form], Store(f"shim-{key}") if key else None)
-    with numbered(key) if key else contextlib.nullcontext():
+    with numbered(key) if key else contextlib.nullcontext(), uncollected(), typed_once(), raw_inside():
         return _address(compiled)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import hashlib
 import itertools
 from collections.abc import Callable, Iterator
@@ -13,6 +14,7 @@ from numba.core.ccallback import CFunc
 from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import Compiler, CompilerBase
 from numba.core.compiler_machinery import PassManager
+from numba.core.dispatcher import Dispatcher
 from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import (
     IRLegalization,
@@ -91,6 +93,32 @@ def raw() -> Iterator[None]:
         for owner, name in _LATER:
             _replace(stack, owner, name, lambda *_: None)
         yield
+
+
+@contextlib.contextmanager
+def raw_inside() -> Iterator[None]:
+    """Leave the functions that those compiled inside call as intermediate code: their callers take it in."""
+    compiled: Callable[..., Any] = Dispatcher.compile
+
+    def leave_raw(dispatcher: Any, signature: Any) -> Any:
+        with raw():
+            return compiled(dispatcher, signature)
+
+    with contextlib.ExitStack() as stack:
+        _replace(stack, Dispatcher, "compile", leave_raw)
+        yield
+
+
+@contextlib.contextmanager
+def uncollected() -> Iterator[None]:
+    """Look for no garbage inside: the compiler makes millions of small objects that live."""
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collecting:
+            gc.enable()
 
 
 class CFunction(CFunc):
