@@ -89,6 +89,7 @@ class _Entry(NamedTuple):
     shim: Callable[..., Any] | None = None
 
 
+@functools.cache
 def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
     """Return the names of a function's own parameters, in order."""
     return tuple(inspect.signature(function).parameters)[len(ROLES[form]) :]

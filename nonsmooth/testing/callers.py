@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import types
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -41,6 +42,7 @@ def plain_caller(function: Callable[..., Any], form: str, values: Mapping[str, A
     return call
 
 
+@functools.cache
 def _without_pointers(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function that moves pointers, as those put together from parts do, with slices in their place."""
     scope = getattr(function, "__globals__", {})
