@@ -30,18 +30,17 @@ def face_table(polytope: Polytope) -> Numbers:
 
 def edge_rows(polytope: Polytope) -> list[Numbers]:
     """Return the edges, one row each; without faces the last numbers are 0."""
-    vertices, normals = np.array(polytope.vertices), np.array(polytope.planes).reshape(-1, 4)[:, :3]
-    rows = []
-    for one, two, left, right in polytope.edges:
-        way = vertices[two] - vertices[one]
-        length = float(np.linalg.norm(way))
-        along = way / length
+    vertices, edges = np.array(polytope.vertices), np.array(polytope.edges, dtype=int).reshape(-1, 4)
+    start, way = vertices[edges[:, 0]], vertices[edges[:, 1]] - vertices[edges[:, 0]]
+    length = np.linalg.norm(way, axis=1, keepdims=True)
+    along, inward = way / length, np.zeros((2, len(edges), 3))
+    of_faces = edges[:, 2] >= 0
+    if np.any(of_faces):
+        normals = np.array(polytope.planes)[edges[of_faces, 2:], :3]
         # counter-clockwise round either face, so that it lies to the left of the edge
-        inward = [np.zeros(3), np.zeros(3)]
-        if left >= 0:
-            inward = [np.cross(normals[left], along), np.cross(along, normals[right])]
-        rows.append((*vertices[one].tolist(), *along.tolist(), length, *inward[0].tolist(), *inward[1].tolist()))
-    return rows
+        inward[0, of_faces] = np.cross(normals[:, 0], along[of_faces])
+        inward[1, of_faces] = np.cross(along[of_faces], normals[:, 1])
+    return [tuple(row) for row in np.hstack([start, along, length, *inward]).tolist()]
 
 
 def end_table(polytope: Polytope) -> Numbers:

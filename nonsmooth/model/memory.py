@@ -49,10 +49,8 @@ class Heap:
         floats = np.zeros(self._next + 1)
         written = int(old.scalars[0]["delassus"])
         floats[:written] = old.floats[:written]
-        start = len(old.floats)
-        for block in self._blocks:
-            floats[start : start + len(block)] = block
-            start += len(block)
+        if self._blocks:
+            np.concatenate(self._blocks, out=floats[len(old.floats) : -1])
         return Memory(old.scalars, floats, old.integers)
 
 
@@ -77,22 +75,22 @@ class Memory:
     def array(self, name: str, size: int) -> np.ndarray:
         """Return a view of ``size`` entries of the named array."""
         heap = self.floats if name in FLOAT_ARRAYS else self.integers
-        start = int(self.scalars[0][name])
+        start = int(self.scalars[name][0])
         return heap[start : start + size]
 
 
 def allocate(counts: Mapping[str, int]) -> Memory:
     """Lay out the arrays for the given counts, all of ``COUNTS``; blocks are appended by :class:`Heap`."""
-    scalars = np.zeros(1, SCALARS)
+    values: dict[str, float] = dict.fromkeys(SCALARS.names or (), 0)
     totals: list[int] = []
     for table in (FLOAT_ARRAYS, INTEGER_ARRAYS):
         total = 0
         for name, size in table.items():
-            scalars[name] = total
+            values[name] = total
             total += size(counts)
         totals.append(total)
-    for name, value in counts.items():
-        scalars[name] = value
+    values.update(counts)
+    scalars = np.array([tuple(values.values())], SCALARS)
     memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
     n = counts["n_slots"]
     memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
