@@ -12,7 +12,8 @@ import numpy as np
 
 Case = dict[str, float]
 """Numbers by name."""
-_MOST_TRIALS = 300
+MOST_TRIALS = 300
+"""Inputs that are tried to make a failing one smaller."""
 
 
 @final
@@ -85,12 +86,14 @@ def draws(space: Space, count: int, seed: str) -> Iterator[Case]:
 
 def shrink(case: Case, space: Space, fails: Callable[[Case], bool]) -> Case:
     """Return a failing input no simplification of which in one number fails, unless that takes too many trials."""
-    trials, changed = 0, True
-    while changed and trials < _MOST_TRIALS:
+    left, changed = MOST_TRIALS, True
+    while changed:
         changed = False
         for variable in space:
             for value in variable.simpler(case[variable.name]):
-                trials += 1
+                if left == 0:
+                    return case
+                left -= 1
                 simpler = case | {variable.name: value}
                 if fails(simpler):
                     case, changed = simpler, True

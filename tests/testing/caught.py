@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from nonsmooth.testing import NotChecked, Property, PropertyFailed
+import pytest
+
+from nonsmooth.testing import NotChecked, Property, PropertyFailed, draws
 
 MOST = 4
 """How many properties a single fault may break, the one made for it included."""
@@ -23,9 +25,10 @@ def failures(properties: Sequence[Property]) -> dict[str, PropertyFailed]:
     return found
 
 
-def assert_caught(properties: Sequence[Property], name: str) -> PropertyFailed:
-    """Assert that a property catches the fault and few others do; return its failure."""
-    found = failures(properties)
+def assert_caught(properties: Sequence[Property], name: str) -> None:
+    """Assert that a property catches the fault and few others do; how small its input gets is another question."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(draws, "MOST_TRIALS", 0)
+        found = failures(properties)
     assert name in found, f"not caught by {name!r}, but by {sorted(found)}"
     assert len(found) <= MOST, sorted(found)
-    return found[name]

@@ -117,9 +117,9 @@ def test_without_a_fault_nothing_is_caught(properties: Any) -> None:
 
 def test_message_names_all() -> None:
     """Law, property, parameter, value and the smallest failing input."""
-    failure = assert_caught(
-        check_friction_law(friction_dummies.Friction(function=friction_dummies.negative)), "not negative"
-    )
+    failure = failures(check_friction_law(friction_dummies.Friction(function=friction_dummies.negative)))[
+        "not negative"
+    ]
     assert (failure.thing, failure.prop, failure.parameter, failure.value) == ("Friction", "not negative", "level", 0.3)
     assert 5.0 <= failure.case["slip_speed"] < 10.0
     for word in ("Friction", "'not negative'", "level = 0.3", "Smallest failing input: slip_speed = "):
@@ -131,7 +131,7 @@ def test_message_names_all() -> None:
 def test_smallest_input() -> None:
     """A fault above a threshold is shrunk to a round number next to it, other numbers to their simplest."""
     law = impact_dummies.Map(function=impact_dummies.fast)
-    case = assert_caught(check_impact_law(law), "scaling of velocities").case
+    case = failures(check_impact_law(law))["scaling of velocities"].case
     moved = {name for name, value in case.items() if value not in (0.0, -1.0, 0.2, 2.0)}
     assert moved <= {"factor"}
 
@@ -159,4 +159,4 @@ def test_a_departure_must_be_one() -> None:
     prop = next(p for p in check_impact_law(impact_dummies.Modest()) if p.name == "cone")
     with pytest.raises(PropertyFailed, match="it holds, although"):
         prop()
-    assert "dissipaton" in str(assert_caught(check_impact_law(impact_dummies.Misspelt()), "departures"))
+    assert "dissipaton" in str(failures(check_impact_law(impact_dummies.Misspelt()))["departures"])

@@ -118,6 +118,6 @@ def test_sound_ones(properties: Any, dummies: Any) -> None:
 
 def test_the_failing_state_is_small() -> None:
     """A velocity that is too high in one direction is shown by that direction alone."""
-    failure = assert_caught(check_body(body_dummies.Ball(body_dummies.FAULTS["velocity"])), "velocity")
+    failure = failures(check_body(body_dummies.Ball(body_dummies.FAULTS["velocity"])))["velocity"]
     assert {name for name, value in failure.case.items() if value != 0.0} == {"u1"}
     assert "frame 0" in str(failure)
