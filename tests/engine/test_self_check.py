@@ -73,11 +73,28 @@ class JumpingGap(ContactKinematics):
         return ("plane-sphere",)
 
 
-def _over(depth: float, z: float, gravity: float) -> ns.System:
+def short_normal(a: Floats, b: Floats, out: Floats, depth: float, radius: float) -> None:
+    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
+    if b[0] > 0.05:
+        out[0] = out[0] - depth
+        for i in range(1, 4):
+            out[i] = 1e-3 * out[i]
+
+
+@dataclass(frozen=True)
+class ShortNormal(JumpingGap):
+    """The same, with a normal there along which nothing but a long way closes the gap."""
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        return short_normal
+
+
+def _over(gap: JumpingGap, z: float, gravity: float) -> ns.System:
     plate, ball = Plate(Rest()), Ball(RADIUS, 7800.0)
     system = ns.System([plate, ball], gravity)
     system.contact(plate, ball, **LAWS)
-    system._contacts[0] = dataclasses.replace(system.contacts[0], kinematics=JumpingGap(depth))
+    system._contacts[0] = dataclasses.replace(system.contacts[0], kinematics=gap)
     system.place(ball, position=(0.0, 0.0, z), velocity=(1.0, 0.0, 0.0))
     return system
 
@@ -91,7 +108,7 @@ def _kept(error: ns.RunFailed) -> ns.Solution:
 def test_a_gap_of_a_closed_contact_that_jumps_ends_the_run_by_name_and_moves_nothing(depth: float) -> None:
     """The ball slides at the height it has; a projection would move it by the jump."""
     with pytest.raises(ns.RunFailed, match=r"Plate.*Ball.*the gap is -?[0-9.e-]+ m.*jumping_gap") as caught:
-        ns.simulate(_over(depth, RADIUS, 9.81), 0.1)
+        ns.simulate(_over(JumpingGap(depth), RADIUS, 9.81), 0.1)
     solution = _kept(caught.value)
     assert solution.q_end[2] == pytest.approx(RADIUS, abs=1e-11)
     assert 0.05 - 1e-9 < solution.q_end[0] <= 0.1
@@ -100,15 +117,24 @@ def test_a_gap_of_a_closed_contact_that_jumps_ends_the_run_by_name_and_moves_not
 @pytest.mark.parametrize("depth", [1e-8, -1e-8])
 def test_a_jump_within_what_tolerances_explain_is_projected_away(depth: float) -> None:
     """At a tenth of what is explained the run goes on, and the gap is closed."""
-    solution = ns.simulate(_over(depth, RADIUS, 9.81), 0.1)
+    solution = ns.simulate(_over(JumpingGap(depth), RADIUS, 9.81), 0.1)
     assert solution.status == "done"
     assert solution.q_end[2] == pytest.approx(RADIUS + depth, abs=1e-11)
+
+
+def test_a_correction_that_would_move_a_body_far_ends_the_run_by_name_and_moves_nothing() -> None:
+    """A gap of 10 nm is explained, a way of 10 um to close it is not; one of 0.1 nm takes no more than is."""
+    with pytest.raises(ns.RunFailed, match=r"Ball\(.*\) would have to move by 1e-05 .* contradicts itself") as caught:
+        ns.simulate(_over(ShortNormal(1e-8), RADIUS, 9.81), 0.1)
+    assert _kept(caught.value).q_end[2] == pytest.approx(RADIUS, abs=1e-11)
+    closed = ns.simulate(_over(ShortNormal(1e-10), RADIUS, 9.81), 0.1)
+    assert closed.q_end[2] == pytest.approx(RADIUS + 1e-7, abs=1e-11)
 
 
 def test_a_gap_of_an_open_contact_that_jumps_below_zero_ends_the_run_by_name() -> None:
     """In free flight 1 cm over the plate, with an overlap of 4 cm from nowhere."""
     with pytest.raises(ns.RunFailed, match=r"the gap is -0\.04 m.*jumping_gap") as caught:
-        ns.simulate(_over(0.05, 2.0 * RADIUS, 0.0), 0.1)
+        ns.simulate(_over(JumpingGap(0.05), 2.0 * RADIUS, 0.0), 0.1)
     assert _kept(caught.value).q_end[2] == pytest.approx(2.0 * RADIUS, abs=1e-11)
 
 
