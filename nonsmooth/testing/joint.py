@@ -17,7 +17,7 @@ from nonsmooth.testing.examine import Trial, examine
 from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
 from nonsmooth.testing.moving import Array, Frames
 from nonsmooth.testing.property import Broken, Property, Row, properties
-from nonsmooth.testing.rig import rotation, turned
+from nonsmooth.testing.rotations import rotation, turned
 
 _DRAWS = 24
 _SAME = 1e-7

@@ -18,7 +18,8 @@ from nonsmooth.testing.draws import Case, Variable, draws
 from nonsmooth.testing.examine import Trial, examine
 from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
 from nonsmooth.testing.property import Broken, Property, Row, properties
-from nonsmooth.testing.rig import Pose, Rig, rotation, turned
+from nonsmooth.testing.rig import Pose, Rig
+from nonsmooth.testing.rotations import rotation, turned
 
 Array = NDArray[np.float64]
 _DRAWS = 40

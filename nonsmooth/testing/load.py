@@ -18,6 +18,7 @@ from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
 from nonsmooth.testing.jumps import jump
 from nonsmooth.testing.moving import Array, Frames
 from nonsmooth.testing.property import Property, Row, properties
+from nonsmooth.testing.rotations import cross
 
 _DRAWS = 24
 _SAME = 1e-9
@@ -108,7 +109,7 @@ def _jumps(load: Load, case: Case) -> str:
 
 def _about_origin(block: Array) -> Array:
     """Return force and its moment about the origin with the moment: where it acts along its line does not matter."""
-    return np.concatenate([block[:3], block[6:9] + np.cross(block[3:6], block[:3])])
+    return np.concatenate([block[:3], block[6:9] + cross(block[3:6], block[:3])])
 
 
 def _compare(given: Array, wanted: Array, words: str) -> str:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.model.layout import FRAME
 from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.rig import rotation, turned
+from nonsmooth.testing.rotations import cross, rotation, turned
 
 Array = NDArray[np.float64]
 Frames = tuple[Array, Array]
@@ -51,7 +51,7 @@ def _block(case: Case, side: str, start: Array, dt: float) -> Array:
     block[:3] = start + dt * velocity + 0.5 * dt * dt * acceleration
     block[3:12] = (quickening @ own).ravel()
     block[12:15], block[15:18] = velocity + dt * acceleration, dt * spin_up + carried
-    block[18:21], block[21:24] = acceleration, spin_up + dt * np.cross(spin_up, carried)
+    block[18:21], block[21:24] = acceleration, spin_up + dt * cross(spin_up, carried)
     return block
 
 
@@ -73,7 +73,7 @@ def moved(block: Array, axes: Array, shift: Array) -> Array:
 def shared(block: Array, velocity: Array, spin: Array) -> Array:
     """Return a frame whose velocities are those that it has and those of a rigid motion of all space."""
     made = block.copy()
-    made[12:15] += velocity + np.cross(spin, block[:3])
+    made[12:15] += velocity + cross(spin, block[:3])
     made[15:18] += spin
     return made
 

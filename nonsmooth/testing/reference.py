@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess, RigidNormalLaw
 from nonsmooth.parameters import parameter
 from nonsmooth.testing.draws import Case, Variable
+from nonsmooth.testing.rotations import cross
 
 Array = NDArray[np.float64]
 
@@ -148,8 +149,8 @@ def problem(case: Case, contacts: int) -> Problem:
         n /= np.linalg.norm(n)
         first = np.array([1.0, 0.0, 0.0]) - n[0] * n
         first /= np.linalg.norm(first)
-        axes = np.column_stack([n, first, np.cross(n, first)])
-        columns = np.vstack([axes, np.cross(arm, axes.T).T])
+        axes = n, first, cross(n, first)
+        columns = np.array([[*axis, *cross(arm, axis)] for axis in axes]).T
         normal[:, i], tangential[:, i] = columns[:, 0], columns[:, 1:]
     velocity = np.array([case[f"velocity_{c}"] for c in "xyz"] + [case[f"spin_{c}"] for c in "xyz"])
     return Problem(np.diag([1.0, 1.0, 1.0, 0.3, 0.4, 0.5]), normal, tangential, velocity)

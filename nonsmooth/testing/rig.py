@@ -25,33 +25,6 @@ Pose = tuple[Array, Array]
 """Position [m] and unit quaternion, scalar first."""
 
 
-def rotation(q: Any) -> Array:
-    """Return the rotation matrix of a unit quaternion (scalar first)."""
-    a, b, c, d = (float(x) for x in q)
-    return np.array(
-        [
-            [a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)],
-            [2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)],
-            [2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d],
-        ]
-    )
-
-
-def turned(q: Any, vector: Any) -> Array:
-    """Return a quaternion after a turn by a rotation vector in world axes."""
-    angle = float(np.linalg.norm(vector))
-    s = 0.5 if angle == 0.0 else math.sin(0.5 * angle) / angle
-    a, (b, c, d) = math.cos(0.5 * angle), s * np.asarray(vector, dtype=float)
-    e, f, g, h = (float(x) for x in q)
-    product = [
-        a * e - b * f - c * g - d * h,
-        a * f + b * e + c * h - d * g,
-        a * g - b * h + c * e + d * f,
-        a * h + b * g - c * f + d * e,
-    ]
-    return np.asarray(np.array(product) / np.linalg.norm(product))
-
-
 def _evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
     out[3], out[4], out[5] = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
