@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.boxy_newton import Answer, Point
-from bodies.contacts.chart import chart_of, start_of
+from bodies.contacts.boxy_newton import Answer
 from bodies.contacts.smooth_core import Axes, back, forth
 from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
@@ -27,10 +26,6 @@ _ROUND_OFF = 4e-16
 """Derivative that is none, in units of the size."""
 _PATIENCE = 3
 """Steps that leave more than half of the angle, one after the other."""
-_REFINEMENTS = 4
-"""Steps of Newton's method from a point that is right to some digits."""
-_ASTRAY = 0.1
-"""Step that is no refinement, in units of the body."""
 
 
 @compiled
@@ -105,8 +100,16 @@ def across_line(
         if slow >= _PATIENCE or not (low < middle < high):
             middle, slow = 0.5 * (low + high), 0
         found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, middle)
-        if abs(found[7]) <= none or width <= _CLOSED or middle == low or middle == high:
+        if abs(found[7]) <= none:
             return found[0] - reach, found[1], found[2], found[3], found[4], found[5], found[6]
+        if width <= _CLOSED or middle == low or middle == high:
+            # a flat place turns to the line: over it is a point between those of both sides
+            one = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, low)
+            two = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, high)
+            part = min(max(one[7] / (one[7] - two[7]), 0.0), 1.0) if one[7] > two[7] else 0.5
+            px, py = one[1] + part * (two[1] - one[1]), one[2] + part * (two[2] - one[2])
+            pz = one[3] + part * (two[3] - one[3])
+            return found[0] - reach, px, py, pz, found[4], found[5], found[6]
         if found[7] > 0.0:
             low, rising = middle, found[7]
             falling = 0.5 * falling if side == 1 else falling
@@ -146,63 +149,3 @@ def _look(
     px, py, pz = x + px, y + py, z + pz
     slope = (c * ux - s * nx) * px + (c * uy - s * ny) * py + (c * uz - s * nz) * pz
     return ax * px + ay * py + az * pz, px, py, pz, ax, ay, az, slope
-
-
-@compiled
-def nearest_to_line(
-    core: Floats,
-    turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    foot: Point,
-    ex: float,
-    ey: float,
-    ez: float,
-    sine: float,
-    normal: Point,
-) -> Point:
-    """Return the point of a core that is not round that a line sees, from the outward normal of the line's body there.
-
-    Along a flat place the normal says little of the point; with the lean of the normal along the line, it has to lie
-    over it.  All in the axes of the line's body, ``foot`` on the line.
-    """
-    norm, length = (core[0], core[1], core[2], core[3], core[4]), max(core[0], core[1], core[2])
-    lx, ly, lz = back(turn, ex, ey, ez)
-    fx, fy, fz = back(turn, foot[0] - x, foot[1] - y, foot[2] - z)
-    nx, ny, nz = back(turn, -normal[0], -normal[1], -normal[2])
-    w = start_of(norm, nx, ny, nz)
-    for _ in range(_REFINEMENTS):
-        p, n, t, u, slide, way, w, along, beside = chart_of(norm, length, w[0], w[1], w[2])
-        # across the line and the normal
-        ax, ay, az = ly * n[2] - lz * n[1], lz * n[0] - lx * n[2], lx * n[1] - ly * n[0]
-        wx, wy, wz = p[0] - fx, p[1] - fy, p[2] - fz
-        off = ax * wx + ay * wy + az * wz
-        lean = n[0] * lx + n[1] * ly + n[2] * lz
-        a1, a2 = ax * t[0] + ay * t[1] + az * t[2], ax * u[0] + ay * u[1] + az * u[2]
-        l1, l2 = lx * t[0] + ly * t[1] + lz * t[2], lx * u[0] + ly * u[1] + lz * u[2]
-        k1, k2 = slide[0] * l1 + slide[1] * l2, slide[1] * l1 + slide[2] * l2
-        # as the normal turns, the line goes by at its distance along the normal
-        g = wx * n[0] + wy * n[1] + wz * n[2] - lean * (wx * lx + wy * ly + wz * lz)
-        g /= max(1.0 - lean * lean, _ROUND_OFF)
-        b1 = (way[0] - g * slide[0]) * a1 + (way[1] - g * slide[1]) * a2
-        b2 = (way[1] - g * slide[1]) * a1 + (way[2] - g * slide[2]) * a2
-        determinant = b1 * k2 - b2 * k1
-        tilt = lean + sine
-        i, j = b2 * tilt - k2 * off, k1 * off - b1 * tilt
-        if abs(i) + abs(j) < _ASTRAY * length * abs(determinant):
-            i, j = i / determinant, j / determinant
-        else:
-            # along a flat line any point has the lean: the nearest one over the line
-            square = max(b1 * b1 + b2 * b2, _ROUND_OFF)
-            i, j = -off * b1 / square, -off * b2 / square
-            if abs(i) + abs(j) > _ASTRAY * length:
-                break
-        w = (
-            w[0] + i * along[0] + j * beside[0],
-            w[1] + i * along[1] + j * beside[1],
-            w[2] + i * along[2] + j * beside[2],
-        )
-    p, _, _, _, _, _, _, _, _ = chart_of(norm, length, w[0], w[1], w[2])
-    px, py, pz = forth(turn, p[0], p[1], p[2])
-    return x + px, y + py, z + pz

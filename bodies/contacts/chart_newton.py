@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from bodies.contacts.boxy_newton import Answer, Norm, Point
-from bodies.contacts.chart import chart_of, start_of, turned_matrix
+from bodies.contacts.chart import Symmetric, chart_of, start_of, turned_matrix
 from bodies.contacts.smooth_core import Axes, back, forth
 from nonsmooth.compiled import compiled
 
@@ -123,7 +123,8 @@ def _climb(
             det = m11 * m22 - m12 * m21
             if ended:
                 # M is S_B (H_A + H_B + g) S_A: below 0 the stationary point is no maximum
-                if residual > _RIGHT * size or facing > 0.0 or (g < 0.0 and det < 0.0):
+                is_top = g >= 0.0 or (det >= 0.0 and not _is_least(g, sa, ua, sb, ub))
+                if residual > _RIGHT * size or facing > 0.0 or not is_top:
                     return math.nan, p[0], p[1], p[2], n[0], n[1], n[2]
                 return g, p[0], p[1], p[2], n[0], n[1], n[2]
             least = 1e-14 / (weight * weight)
@@ -151,3 +152,15 @@ def _climb(
         w = kept_w[0] + step_w[0], kept_w[1] + step_w[1], kept_w[2] + step_w[2]
         o = kept_o[0] + step_o[0], kept_o[1] + step_o[1], kept_o[2] + step_o[2]
     return math.nan, x, y, z, nx, ny, nz
+
+
+@compiled
+def _is_least(g: float, sa: Symmetric, ua: Symmetric, sb: Symmetric, ub: Symmetric) -> bool:
+    """Return whether H_A + H_B + g has a trace below 0, as where the second body is farthest from a point.
+
+    The trace of H = U S^-1 is that of U times the adjugate of S over the determinant, which is 0 at a flat place.
+    """
+    flat_a, flat_b = sa[0] * sa[2] - sa[1] * sa[1], sb[0] * sb[2] - sb[1] * sb[1]
+    bent_a = ua[0] * sa[2] + ua[2] * sa[0] - 2.0 * ua[1] * sa[1]
+    bent_b = ub[0] * sb[2] + ub[2] * sb[0] - 2.0 * ub[1] * sb[1]
+    return bool(flat_b * bent_a + flat_a * bent_b + 2.0 * g * flat_a * flat_b < 0.0)

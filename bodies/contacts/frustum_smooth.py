@@ -39,8 +39,8 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-_SHALLOW = 1e-6
-"""Overlap, in units of the size, up to which the first stop is taken without a look at the others."""
+_SHALLOW, _SLIGHT = 1e-6, 1e-8
+"""Overlap, in units of the size, up to which the first stop is taken without a look at the others; of sharp bodies."""
 _CLOSE = 1e-12
 """Distance of the centre from the axis that has no direction, in units of the size."""
 _SAMPLES, _PROJECTIONS = 8, 16
@@ -82,6 +82,18 @@ def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found:
     way = -2.0 * g / (height - g)
     wx, wy = px + way * (x - px), py + way * (y - py)
     return bool(max(px * px + py * py, wx * wx + wy * wy) <= inside * inside)
+
+
+@compiled
+def _has_room(frustum: Floats, part: int, found: Answer, near: float) -> bool:
+    """Whether the stop of a cap or the side is proved to be the nearest of an overlap.
+
+    A ball round the smooth body's point, whose radius is its depth, is of the frustum: no shorter way takes it out.
+    """
+    if part == LOW_RIM or part == HIGH_RIM:
+        return False
+    outside, _, _, _ = nearest_part(frustum, found[3], math.sqrt(found[1] * found[1] + found[2] * found[2]))
+    return bool(outside <= found[0] + near)
 
 
 @compiled
@@ -155,7 +167,8 @@ def _nearest(
             return over, part
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     where = LOW_CAP
-    is_deep = False
+    is_deep, is_sharp = False, max(core[3], core[4]) > 2.0
+    shallow = _SLIGHT * size if is_sharp else _SHALLOW * size
     for start in range(_TURNS + 4):
         if start == 1:
             px, py, pz = _into(frustum, x, y, z)
@@ -188,8 +201,17 @@ def _nearest(
                 found = on_rim(frustum, circle, core, turn, x, y, z, sx, sy, part, tilt)
             if found[0] == found[0] and not found[0] <= best[0]:
                 best, where = found, part
-                if found[0] >= -_SHALLOW * size or _is_before(core, turn, x, y, z, found):
+                if found[0] >= -shallow or _has_room(frustum, part, found, near):
                     return best, where
+                if not is_sharp and _is_before(core, turn, x, y, z, found):
+                    return best, where
+        if is_sharp and (best[0] >= -_SHALLOW * size or _is_before(core, turn, x, y, z, best)):
+            if where != LOW_RIM and where != HIGH_RIM:
+                # a tip or a ridge next to an edge, over which it may be nearer
+                found, part = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
+                if found[0] > best[0]:
+                    best, where = found, part
+            return best, where
     if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
         best, where = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
     return best, where

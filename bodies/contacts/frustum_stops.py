@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.boxy_line import across_line, nearest_to_line
+from bodies.contacts.boxy_line import across_line
 from bodies.contacts.boxy_newton import Answer
 from bodies.contacts.frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
 from bodies.contacts.round_search import next_to_axis, round_circle
@@ -24,6 +24,8 @@ ON_BORDER = 1e-14
 """How far a point may be over the end of a part, in units of the size, and a normal over that of its cone."""
 _NEAR_BORDER = 1e-10
 """The same where a search found it: it errs in the gap by no more than the square."""
+_LEAST_LEAN, _MOST_LEAN, _TURNS = 1e-16, 1e-7, 4
+"""Leans of a normal next to the axis [rad], and how often it is turned to where it goes over the end."""
 _STEPS, _HALVINGS = 60, 40
 _ROUND_OFF, _SEEN, _CLOSE, _RIGHT = 2e-16, 1e-14, 1e-12, 1e-13
 """As in :mod:`bodies.contacts.dual_newton`."""
@@ -53,6 +55,49 @@ def on_cap(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: flo
 
 
 @compiled
+def _on_end_of_cap(
+    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float
+) -> Answer:
+    """Return the same where the smooth body is so flat that its lowest point, to round-off, is any next to the end.
+
+    The farther the normal leans out, the farther in is the lowest point.  Between two leans at which it is on either
+    side of the end, points of the body lie over the end on the way from one to the other.
+    """
+    found: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
+    radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])
+    up = found[6]
+    cx, cy = found[1], found[2]
+    if found[0] == found[0] or not 0.0 < radius * radius < cx * cx + cy * cy:
+        return found
+    for _ in range(_TURNS):
+        away = math.sqrt(cx * cx + cy * cy)
+        ex, ey = cx / away, cy / away
+        px, py, pz = found[1], found[2], found[3]
+        low, high, lean = 0.0, 0.0, _LEAST_LEAN
+        gap, below = 0.0, -math.inf
+        for _ in range(_HALVINGS):
+            qx, qy, qz = point_against(core, turn, x, y, z, lean * ex, lean * ey, up)
+            inside = radius * radius - qx * qx - qy * qy
+            if inside > 0.0:
+                high = lean
+                # where the way between them is over the end
+                wx, wy = px - qx, py - qy
+                along, across = qx * wx + qy * wy, wx * wx + wy * wy
+                share = inside / (along + math.sqrt(along * along + across * inside))
+                cx, cy = qx + share * wx, qy + share * wy
+                cz = qz + share * (pz - qz)
+                gap, below = up * (cz - height), lean * (ex * qx + ey * qy - radius) + up * (qz - height)
+                if gap - below <= near:
+                    return gap, cx, cy, cz, lean * ex, lean * ey, up
+            else:
+                low, px, py, pz = lean, qx, qy, qz
+            lean = 0.5 * (low + high) if high > 0.0 else 10.0 * lean
+            if lean > _MOST_LEAN:
+                return found
+    return found
+
+
+@compiled
 def _before_flank(frustum: Floats, near: float, found: Answer) -> bool:
     """Return whether the point of a stop on the continued side lies before the side itself."""
     g, px, py, pz, nx, ny, _ = found
@@ -73,8 +118,6 @@ def on_flank(
     ex, ey = sx / length, sy / length
     if not is_round(core):
         g, px, py, pz, nx, ny, nz = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
-        axis, normal = (0.0, 0.0, 0.0), (nx, ny, nz)
-        px, py, pz = nearest_to_line(core, turn, x, y, z, axis, 0.0, 0.0, 1.0, sine, normal)
     else:
         g, px, py, pz, nx, ny, nz = _on_round_flank(frustum, core, turn, x, y, z, ex, ey, near)
     if not _before_flank(frustum, near, (g, px, py, pz, nx, ny, nz)):
@@ -187,7 +230,7 @@ def by_search(
     near = _NEAR_BORDER * size
     found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     if part == LOW_CAP or part == HIGH_CAP:
-        found = on_cap(frustum, core, turn, x, y, z, part, near)
+        found = _on_end_of_cap(frustum, core, turn, x, y, z, part, near)
     elif part == FLANK:
         cosine, sine = frustum[COS], frustum[SIN]
         reach, length = cosine * frustum[0] + sine * frustum[LOW], math.sqrt(sx * sx + sy * sy)

@@ -11,15 +11,14 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.boxy_line import nearest_to_line
 from bodies.contacts.boxy_newton import Answer
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
-from bodies.contacts.round_search import along_segment
+from bodies.contacts.round_search import along_segment, up_hills
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest_from, write_surface
-from bodies.contacts.tangents import write_tangent
+from bodies.contacts.tangents import tangent_of, write_tangent
 from bodies.shapes.support_function import gauge_of, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -30,9 +29,12 @@ _ON_BORDER = 1e-14
 """How far a point may be over a border, in units of the size, and a normal over that of its cone."""
 _SHALLOW = 1e-6
 """Overlap of the cores, in units of the size, up to which it is not asked for a proof."""
+_ROUND = 8
+"""Directions round a segment from which its side is looked at."""
 
 Point: TypeAlias = tuple[float, float, float]
 Stop: TypeAlias = tuple[float, float, float, float, int, int, Point]
+Nearest: TypeAlias = tuple[float, float, float, float, int, Point]
 
 
 @compiled
@@ -121,8 +123,9 @@ def _look_at_edge(
     one, two = int(hull[at]), int(hull[at + 1])
     vx, vy, vz = _vertex(hull, one)
     ex, ey, ez, length = _edge(hull, number)
-    g, nx, ny, nz = widest_from(hull, core, turn, x - vx, y - vy, z - vz, ex, ey, ez, begin[0], begin[1], begin[2])
-    px, py, pz = _point_along(core, turn, x - vx, y - vy, z - vz, nx, ny, nz)
+    g, px, py, pz, nx, ny, nz = widest_from(
+        hull, core, turn, x - vx, y - vy, z - vz, ex, ey, ez, begin[0], begin[1], begin[2]
+    )
     s = px * ex + py * ey + pz * ez
     if s < -near or s > length + near:
         return g, nx, ny, nz, _VERTEX, one if s < 0.0 else two, begin
@@ -145,7 +148,9 @@ def _look_at_vertex(
     hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, number: int, begin: Point
 ) -> Stop:
     vx, vy, vz = _vertex(hull, number)
-    g, nx, ny, nz = widest_from(hull, core, turn, x - vx, y - vy, z - vz, 0.0, 0.0, 0.0, begin[0], begin[1], begin[2])
+    g, _, _, _, nx, ny, nz = widest_from(
+        hull, core, turn, x - vx, y - vy, z - vz, 0.0, 0.0, 0.0, begin[0], begin[1], begin[2]
+    )
     star = int(hull[STARS]) + 2 * number
     steepest, most = -1, _ON_BORDER
     for i in range(int(hull[star + 1])):
@@ -171,10 +176,10 @@ def _middle(hull: Floats, face: int) -> Point:
 
 
 @compiled
-def _nearest(
-    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float
-) -> tuple[float, float, float, float, int]:
-    """Return gap of the cores, normal, and the number of the feature: faces first, then edges, then vertices.
+def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> Nearest:
+    """Return gap of the cores, normal, the number of the feature: faces first, then edges, then vertices, and a point.
+
+    The point is that of the edge or the vertex.
 
     All in the frame of the polytope; (x, y, z) is the centre of the core.  The gap is nan where none was found.
     """
@@ -186,7 +191,7 @@ def _nearest(
     if n_faces > 0:
         kind, number = _FACE, _best_face(hull, core, turn, x, y, z)
         way = _middle(hull, number)
-    best, bx, by, bz, feature = math.nan, 0.0, 0.0, 1.0, 0
+    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, way
     # on edges and vertices Newton's method begins at the line to the centre
     for _ in range(n_edges + 4):
         if kind == _FACE:
@@ -200,59 +205,89 @@ def _nearest(
             begin = (x - vx, y - vy, z - vz)
             g, nx, ny, nz, after, where, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
         if after == _HERE and g >= -_SHALLOW * size:
-            return g, nx, ny, nz, _feature(hull, kind, number)
+            return g, nx, ny, nz, _feature(hull, kind, number), way
         # a plane that the centre has passed is no face that the body is before
         if after == _HERE and nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0:
             # the point of the polytope lies in the smooth body: they do overlap
             px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
             px, py, pz = back(turn, px - g * nx - x, py - g * ny - y, pz - g * nz - z)
             if gauge_of(core, px, py, pz) < 1.0:
-                return g, nx, ny, nz, _feature(hull, kind, number)
-            best, bx, by, bz, feature = g, nx, ny, nz, _feature(hull, kind, number)
+                return g, nx, ny, nz, _feature(hull, kind, number), way
+            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, kind, number), way
         if g != g or after == _HERE:
             break
         kind, number = after, where
     found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    on_segment = way
     if n_faces == 0:
         # a segment, by a search along it
         vx, vy, vz = _vertex(hull, 0)
         ex, ey, ez, length = _edge(hull, 0)
         found, s = along_segment(core, turn, x - vx, y - vy, z - vz, ex, ey, ez, length)
         number = n_edges if s == 0.0 else n_edges + 1 if s == length else 0
+        on_segment = vx + s * ex, vy + s * ey, vz + s * ez
         if found[0] >= 0.0:
-            return found[0], found[4], found[5], found[6], number
-    g, nx, ny, nz, feature_of_all = _best_of_all(hull, core, turn, x, y, z, near)
+            return found[0], found[4], found[5], found[6], number, on_segment
+    g, nx, ny, nz, feature_of_all, way = _best_of_all(hull, core, turn, x, y, z, near)
     if best == best and not g > best:
-        return best, bx, by, bz, feature
+        return best, bx, by, bz, feature, base
     if g != g and found[0] == found[0]:
         # a point of the segment in the smooth body: they do overlap
-        return found[0], found[4], found[5], found[6], number
-    return g, nx, ny, nz, feature_of_all
+        return found[0], found[4], found[5], found[6], number, on_segment
+    if g != g and n_faces == 0:
+        end: Nearest = _deep_segment(hull, core, turn, x, y, z, size)
+        return end
+    return g, nx, ny, nz, feature_of_all, way
 
 
 @compiled
-def _best_of_all(
-    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float
-) -> tuple[float, float, float, float, int]:
+def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, size: float) -> Nearest:
+    """Return the same for a segment deep in the body: its ends by steps, its side from all round."""
+    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
+    for end in range(2):
+        vx, vy, vz = _vertex(hull, end)
+        ex, ey, ez, _ = _edge(hull, 0)
+        lean = (1.0, 0.0, size)
+        g, _, _, _, nx, ny, nz = up_hills((0.0, 0.0, 0.0, 2.0, 2.0, 0.0), core, turn, x - vx, y - vy, z - vz, 0.0, lean)
+        ahead = nx * ex + ny * ey + nz * ez
+        if (ahead <= 0.0 if end == 0 else ahead >= 0.0) and g == g and not g <= best:
+            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, _VERTEX, end), (vx, vy, vz)
+    ex, ey, ez, _ = _edge(hull, 0)
+    tx, ty, tz = tangent_of(ex, ey, ez)
+    for i in range(_ROUND):
+        c, s = math.cos(2.0 * math.pi * i / _ROUND), math.sin(2.0 * math.pi * i / _ROUND)
+        begin = (
+            c * tx + s * (ey * tz - ez * ty),
+            c * ty + s * (ez * tx - ex * tz),
+            c * tz + s * (ex * ty - ey * tx),
+        )
+        g, nx, ny, nz, after, _, way = _look_at_edge(hull, core, turn, x, y, z, _ON_BORDER * size, 0, begin)
+        if after == _HERE and g == g and not g <= best:
+            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, _EDGE, 0), way
+    return best, bx, by, bz, feature, base
+
+
+@compiled
+def _best_of_all(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float) -> Nearest:
     """Return the same for bodies that overlap, where planes and lines through the smooth one lead astray.
 
     Of all features that are a stop that of the widest gap; Newton's method begins in the middle of their normals.
     """
-    best, bx, by, bz, feature = math.nan, 0.0, 0.0, 1.0, 0
+    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
     for kind in (_FACE, _EDGE, _VERTEX):
         for number in range(int(hull[COUNTS + kind])):
             if kind == _FACE:
                 way = _middle(hull, number)
-                g, nx, ny, nz, after, _, _ = _look_at_face(hull, core, turn, x, y, z, near, number, way)
+                g, nx, ny, nz, after, _, way = _look_at_face(hull, core, turn, x, y, z, near, number, way)
             elif kind == _EDGE:
                 begin = _outward_of_edge(hull, number, x, y, z)
-                g, nx, ny, nz, after, _, _ = _look_at_edge(hull, core, turn, x, y, z, near, number, begin)
+                g, nx, ny, nz, after, _, way = _look_at_edge(hull, core, turn, x, y, z, near, number, begin)
             else:
                 begin = _outward_of_vertex(hull, number)
-                g, nx, ny, nz, after, _, _ = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
+                g, nx, ny, nz, after, _, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
             if after == _HERE and g == g and not g <= best:
-                best, bx, by, bz, feature = g, nx, ny, nz, _feature(hull, kind, number)
-    return best, bx, by, bz, feature
+                best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, kind, number), way
+    return best, bx, by, bz, feature, base
 
 
 @compiled
@@ -290,22 +325,6 @@ def _feature(hull: Floats, kind: int, number: int) -> int:
     return number + int(hull[COUNTS + 2]) + (int(hull[COUNTS + 1]) if kind == _VERTEX else 0)
 
 
-@compiled
-def _over(
-    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, number: int, g: float, n: Point
-) -> Point:
-    """Return the point of a flat body over an edge or a vertex, edges first, which the normal may not tell well."""
-    n_edges = int(hull[COUNTS + 1])
-    if number >= n_edges:
-        vx, vy, vz = _vertex(hull, number - n_edges)
-        return vx + g * n[0], vy + g * n[1], vz + g * n[2]
-    foot = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * number]))
-    ex, ey, ez, length = _edge(hull, number)
-    px, py, pz = nearest_to_line(core, turn, x, y, z, foot, ex, ey, ez, 0.0, n)
-    s = min(max((px - foot[0]) * ex + (py - foot[1]) * ey + (pz - foot[2]) * ez, 0.0), length)
-    return foot[0] + s * ex + g * n[0], foot[1] + s * ey + g * n[1], foot[2] + s * ez + g * n[2]
-
-
 def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
     """Write the geometry block of a polytope (:mod:`bodies.contacts.polytope`) and a core.
 
@@ -315,11 +334,12 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
     x, y, z = vector_in_body(a, bx - a[0], by - a[1], bz - a[2])
     turn = between_axes(axes_a, axes_b)
-    g, nx, ny, nz, feature = _nearest(first, second, turn, x, y, z)
+    g, nx, ny, nz, feature, base = _nearest(first, second, turn, x, y, z)
     px, py, pz = _point_along(second, turn, x, y, z, nx, ny, nz)
     n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
     if feature >= n_faces and not is_round(second):
-        px, py, pz = _over(first, second, turn, x, y, z, feature - n_faces, g, (nx, ny, nz))
+        # along a flat place the normal says little of the point
+        px, py, pz = base[0] + g * nx, base[1] + g * ny, base[2] + g * nz
     out[0] = g - first[RADIUS] - second[RADIUS]
     out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
     out[10], out[11], out[12] = point_in_world(a, px, py, pz)

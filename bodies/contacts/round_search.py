@@ -13,10 +13,11 @@ import math
 from typing import TypeAlias
 
 from bodies.contacts.boxy_newton import Answer, Point
+from bodies.contacts.cuts import settle
 from bodies.contacts.smooth_core import Axes, back, bend, forth
 from bodies.contacts.smooth_newton import widest_of_round
 from bodies.contacts.smooth_starts import starts_of, uphill
-from bodies.shapes.support_function import support_of
+from bodies.shapes.support_function import gauge_of, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -27,8 +28,8 @@ _SAME = 4e-16
 """Angle between directions that are the same, and a slope that is none."""
 _ACROSS = 1e-9
 """Slope of an answer, from which the gap errs by the square."""
-_TOP, _OVER = 1e-9, 1e-6
-"""How close steps go to a top [rad], and how far the points there are off each other, in units of the size."""
+_TOP, _OVER = 1e-9, 1e-11
+"""How close steps go to a top [rad], and how far the point there is off the surface, in units of the size."""
 _NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
 """Steps, residual in units of the size, and angle between normal and axis up to which they are made [rad]."""
 
@@ -212,6 +213,9 @@ def along_segment(
         if g != g or (i == 0 and ahead <= 0.0) or (i == 1 and ahead >= 0.0):
             break
         if i > 1 and (abs(ahead) <= _SAME or s == low or s == high):
+            if g < 0.0 and abs(ahead) > _ACROSS:
+                # a segment deep in the body, where the nearest point of the surface jumps
+                best = math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
             break
         if ahead > 0.0:
             low = s
@@ -240,16 +244,14 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
         g, nx, ny, nz = uphill(circle, core, turn, x, y, z, start, _TOP)
         found: Answer = widest_of_round(circle, core, turn, x, y, z, nx, ny, nz)
         if not found[0] >= g - _TOP * lean[2]:
-            mx, my, mz = back(turn, -nx, -ny, -nz)
-            b = support_of(core, mx, my, mz)
-            px, py, pz = forth(turn, b[1], b[2], b[3])
-            found = g, x + px, y + py, z + pz, nx, ny, nz
+            g, nx, ny, nz = settle(circle, core, turn, x, y, z, (g, nx, ny, nz))
+            a = support_of(circle, nx, ny, nz)
+            found = g, a[1] + g * nx, a[2] + g * ny, a[3] + g * nz, nx, ny, nz
         g, px, py, pz, nx, ny, nz = found
         away = math.sqrt(nx * nx + ny * ny)
-        share = circle[0] / away if away > 0.0 else 0.0
-        # the points of both have to be over each other
-        ox, oy, oz = px - share * nx - g * nx, py - share * ny - g * ny, pz - g * nz
-        astray = math.sqrt(ox * ox + oy * oy + oz * oz)
+        # the circle's point has to be as far from the body's surface
+        bx, by, bz = back(turn, px - x, py - y, pz - z)
+        astray = abs(gauge_of(core, bx, by, bz) - 1.0) * max(core[0], core[1], core[2])
         inside = up == 0.0 or up * (lean[0] * nz - lean[1] * away) >= -_TOP
         if astray <= _OVER * lean[2] and inside and not g <= best[0]:
             best = found

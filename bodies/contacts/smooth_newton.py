@@ -9,6 +9,7 @@ from bodies.contacts.boxy_newton import Answer, Point, climb_boxy, write_boxy
 from bodies.contacts.boxy_pair import meet
 from bodies.contacts.chart import write_chart
 from bodies.contacts.chart_newton import meet_in_charts
+from bodies.contacts.cuts import settle
 from bodies.contacts.dual_newton import climb
 from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.smooth_core import Axes, back, forth, write_core
@@ -232,22 +233,55 @@ def widest_of_round(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
     """Return the same where the first core is not boxy; it may be a point, or flat, if the second is not."""
-    if is_mixed(second):
-        mixed: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz)
-        return mixed
-    if is_boxy(second):
-        other = first[0], first[1], first[2], first[3], first[4]
-        ax, ay, az = back(turn, -x, -y, -z)
-        sx, sy, sz = back(turn, -sx, -sy, -sz)
-        g, px, py, pz, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, sx, sy, sz)
-        nx, ny, nz = forth(turn, -nx, -ny, -nz)
-        px, py, pz = forth(turn, px, py, pz)
-        return g, x + px, y + py, z + pz, nx, ny, nz
+    if is_mixed(second) or is_boxy(second):
+        if is_mixed(second):
+            found: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz)
+        else:
+            found = _from_boxy(first, second, turn, x, y, z, sx, sy, sz)
+        if found[0] != found[0] and first[0] == 0.0:
+            found = _by_cuts(first, second, turn, x, y, z, sx, sy, sz)
+        return found
     g, nx, ny, nz = climb(first, second, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     s = support_of(second, mx, my, mz)
     px, py, pz = forth(turn, s[1], s[2], s[3])
     return g, x + px, y + py, z + pz, nx, ny, nz
+
+
+@compiled
+def _from_boxy(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same by the points of the second core, which is boxy."""
+    other = first[0], first[1], first[2], first[3], first[4]
+    ax, ay, az = back(turn, -x, -y, -z)
+    sx, sy, sz = back(turn, -sx, -sy, -sz)
+    g, px, py, pz, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, sx, sy, sz)
+    nx, ny, nz = forth(turn, -nx, -ny, -nz)
+    px, py, pz = forth(turn, px, py, pz)
+    return g, x + px, y + py, z + pz, nx, ny, nz
+
+
+@compiled
+def _by_cuts(
+    point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the same for a point outside, where Newton's method did not end.
+
+    At a pole with a power just under 2 the curvatures jump from those of a round place to 0.
+    """
+    bx, by, bz = back(turn, -x, -y, -z)
+    length = math.sqrt(sx * sx + sy * sy + sz * sz)
+    nx, ny, nz = sx / length, sy / length, sz / length
+    if gauge_of(core, bx, by, bz) <= 1.0:
+        return math.nan, x, y, z, nx, ny, nz
+    start = gap_along(point, core, turn, x, y, z, nx, ny, nz), nx, ny, nz
+    start = uphill(point, core, turn, x, y, z, start, _NEARBY)
+    g, nx, ny, nz = settle(point, core, turn, x, y, z, start)
+    bx, by, bz = back(turn, g * nx - x, g * ny - y, g * nz - z)
+    if not (g > 0.0 and abs(gauge_of(core, bx, by, bz) - 1.0) <= _ON_SURFACE):
+        g = math.nan
+    return g, g * nx, g * ny, g * nz, nx, ny, nz
 
 
 @compiled
@@ -308,23 +342,26 @@ def widest_from(
     start_x: float,
     start_y: float,
     start_z: float,
-) -> tuple[float, float, float, float]:
-    """Return what :func:`bodies.contacts.dual_newton.climb` does for a point or a line, and a core of any kind."""
+) -> Answer:
+    """Return gap, the core's point and the normal of a point or a line at the origin, and a core of any kind."""
     if is_round(core):
         g, nx, ny, nz = climb(hull, core, turn, x, y, z, along_x, along_y, along_z, start_x, start_y, start_z)
-        return g, nx, ny, nz
+        mx, my, mz = back(turn, -nx, -ny, -nz)
+        s = support_of(core, mx, my, mz)
+        px, py, pz = forth(turn, s[1], s[2], s[3])
+        return g, x + px, y + py, z + pz, nx, ny, nz
     if along_x == 0.0 and along_y == 0.0 and along_z == 0.0:
         point = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)
-        g, _, _, _, nx, ny, nz = widest_of_round(point, core, turn, x, y, z, start_x, start_y, start_z)
-        return g, nx, ny, nz
+        found: Answer = widest_of_round(point, core, turn, x, y, z, start_x, start_y, start_z)
+        return found
     along = start_x * along_x + start_y * along_y + start_z * along_z
     nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z
     length = math.sqrt(nx * nx + ny * ny + nz * nz)
     if length == 0.0:
-        return math.nan, start_x, start_y, start_z
+        return math.nan, x, y, z, start_x, start_y, start_z
     nx, ny, nz = nx / length, ny / length, nz / length
-    g, _, _, _, nx, ny, nz = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz, 1.0, 0.0, 0.0)
-    return g, nx, ny, nz
+    over: Answer = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz, 1.0, 0.0, 0.0)
+    return over
 
 
 @compiled

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.boxy_line import nearest_to_line
+from bodies.contacts.boxy_line import across_line
 from bodies.contacts.curvature import SIDE_A, SIDE_B
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
@@ -114,7 +114,7 @@ def _on_edge(
     """Return the same of the line of an edge; the distance is nan where none was found."""
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
     ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
-    g, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, ex, ey, ez, wx, wy, wz)
+    g, _, _, _, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, ex, ey, ez, wx, wy, wz)
     px, py, pz = _point_against(core, turn, (wx, wy, wz), (nx, ny, nz))
     s = px * ex + py * ey + pz * ez
     past = max(-s, s - surface[e + 6])
@@ -129,7 +129,7 @@ def _on_corner(
 ) -> tuple[float, float, float, float, float]:
     """Return the same of a corner."""
     wx, wy, wz = center[0] - surface[c], center[1] - surface[c + 1], center[2] - surface[c + 2]
-    g, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, 0.0, 0.0, 0.0, wx, wy, wz)
+    g, _, _, _, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, 0.0, 0.0, 0.0, wx, wy, wz)
     past, star = -(nx * wx + ny * wy + nz * wz), int(surface[STARS]) + int(surface[c + 4])
     for _ in range(int(surface[c + 5])):
         past = max(past, size * (nx * surface[star] + ny * surface[star + 1] + nz * surface[star + 2]))
@@ -290,8 +290,9 @@ def evaluate_surface_smooth(
     if kind == ON_EDGE and not is_round(second):
         e = int(surface[EDGES]) + EDGE * number
         ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
-        foot = (surface[e], surface[e + 1], surface[e + 2])
-        px, py, pz = nearest_to_line(second, turn, x, y, z, foot, ex, ey, ez, 0.0, (nx, ny, nz))
+        wx, wy, wz = x - surface[e], y - surface[e + 1], z - surface[e + 2]
+        _, px, py, pz, _, _, _ = across_line(second, turn, wx, wy, wz, ex, ey, ez, nx, ny, nz, 1.0, 0.0, 0.0)
+        px, py, pz = px + surface[e], py + surface[e + 1], pz + surface[e + 2]
     # the patch of a surface that has one only does not end
     out[0], out[30] = gap, past if surface[N_PATCHES] > 1.0 or depth > 0.0 else 0.0
     out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)

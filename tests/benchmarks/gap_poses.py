@@ -142,17 +142,18 @@ def _search_common(a: Outline, b: Outline, first: Pose, second: Pose, start: Arr
 def proved(a: Outline, b: Outline, first: Pose, second: Pose, rows: Array, rng: Generator) -> Found:
     """Return by how much gaps are off at most, by outlines alone."""
     gap, n, p, q = rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7:10]
-    # without a gap by the line of centres
+    # without a gap by the line of centres, or any of one centre
     lost, way = ~np.isfinite(gap)[:, None], second[0] - first[0]
-    n = np.where(lost, way / np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None], n)
+    way = np.where(np.any(way != 0.0, axis=1)[:, None], way, 1.0)
+    n = np.where(lost, way / np.linalg.norm(way, axis=1)[:, None], n)
     p, q = np.where(lost, first[0], p), np.where(lost, second[0], q)
     lower = along(a, b, first, second, n)
     m = back(first[1], n)
     off = a.outside(back(first[1], p - first[0]) - a.radius * m)
     off = np.maximum(off, b.outside(back(second[1], q - second[0]) + b.radius * back(second[1], n)))
     off = np.maximum(off, np.linalg.norm(q - p - gap[:, None] * n, axis=1))
-    # behind a point of the core with the normal n the body has a radius of points
-    common = (gap <= 0.0) & (gap + a.radius + b.radius >= 0.0) & (off <= _NONE)
+    # behind a point of the core with the normal n the body has a radius of points; what it is off is an error
+    common = (gap <= 0.0) & (gap + a.radius + b.radius >= 0.0) & (off <= WRONG)
     error = np.maximum(off, np.abs(gap - lower))
     error = np.maximum(error, np.abs(np.linalg.norm(n, axis=1) - 1.0))
     # of an overlap: a point of both, and no direction with a larger gap
@@ -176,7 +177,8 @@ def _tried(first: Pose, second: Pose, n: Array, rng: Generator) -> Iterator[Arra
             yield pose[1][:, :, i]
             yield -pose[1][:, :, i]
     way = second[0] - first[0]
-    yield way / np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None]
+    apart = np.any(way != 0.0, axis=1)[:, None]
+    yield np.where(apart, way / np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None], n)
     for size in (1e-6, 1e-4, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0):
         for _ in range(3):
             near = n + size * directions(rng, len(n))

@@ -97,6 +97,16 @@ def test_the_check_sees_a_wrong_gap() -> None:
         assert proved(*outlines, *poses, rows, np.random.default_rng(0)).error[0] > WRONG
 
 
+def test_bodies_about_one_centre_without_a_gap_are_deep() -> None:
+    first, second = Cylinder(0.007, 0.007), Ellipsoid(0.018, 0.0036, 0.0028)
+    pose = _pose([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+    rows = np.full((1, 10), np.nan)
+    rows[0, 0] = np.inf
+    found = proved(outline_of(first), outline_of(second), pose, pose, rows, np.random.default_rng(0))
+    assert found.common[0]
+    assert found.lower[0] < -1e-3
+
+
 def test_the_check_sees_a_jump(monkeypatch: pytest.MonkeyPatch) -> None:
     """A gap that changes by twice the way."""
     called = Gaps.__call__
