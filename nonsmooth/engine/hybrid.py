@@ -50,6 +50,10 @@ from nonsmooth.engine.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.settle import settle
 from nonsmooth.model.layout import FALL, GEOMETRY, PAST_END
 
+_BEGINS = 10.0
+"""A compliant contact begins so many gap tolerances from its reach at most."""
+_FIRST_WAY = 1e-3
+"""Way that surfaces go in the first step of one, in units of the smaller body."""
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
 _DRIFT = 0.3
@@ -71,6 +75,19 @@ def _orient_slips(S: Scalars, w: Floats, k: Integers) -> None:
                 w[S.direction + 2 * c + 1] = v2 / speed
 
 
+@kernel("f8(S, F, I, i8)")
+def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return how long the first step of a closed contact may be: a compliant one that begins has no force as yet.
+
+    Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
+    """
+    if k[S.normal_function + c] == 0 or w[S.guard_end + 2 * c] > _BEGINS * S.gap_tolerance:
+        return 1e300
+    rate = S.rate_end + 3 * c
+    speed = math.sqrt(w[rate] * w[rate] + w[rate + 1] * w[rate + 1] + w[rate + 2] * w[rate + 2])
+    return float(_FIRST_WAY * w[S.size + c] / max(speed, S.velocity_tolerance))
+
+
 @kernel("i8(S, F, I)")
 def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
@@ -78,6 +95,8 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
             closed = 1
+            if S.fresh == 0:
+                S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
     wanted = min(S.h_closed if closed == 1 else S.h_free, S.h_max)
     h = min(wanted, S.t_end - S.t, S.h_listed)
     if S.fresh == 0:

@@ -208,6 +208,25 @@ def test_no_long_step_goes_through(stiffness: float, beside: float, height: floa
     assert end + stored == pytest.approx(energy, rel=1e-6)
 
 
+@pytest.mark.parametrize("t_end", [0.02, 0.1, 1.0])
+@pytest.mark.parametrize("beside", [0.0, 0.3, 0.9])
+@pytest.mark.parametrize("stiffness", [1e6, 1e8, 1e10])
+def test_no_first_step_goes_through_from_a_touch(stiffness: float, beside: float, t_end: float) -> None:
+    """A ball that starts in touch with a held one and moves into it is thrown back, however long steps may be."""
+    speed = 3.0
+    held, ball = DrivenBody(carried=(Sphere(radius=RADIUS),)), Ball(RADIUS)
+    system = ns.System([held, ball], gravity=0.0)
+    system.contact(held, ball, normal=HertzCompliant(stiffness), friction=Frictionless())
+    start = (2.0 * RADIUS * beside, 0.0, 2.0 * RADIUS * math.sqrt(1.0 - beside**2))
+    system.place(ball, position=start, velocity=(0.0, 0.0, -speed))
+    solution = ns.simulate(system, t_end, sample_interval=2e-4)
+    nearest = float(np.min(np.linalg.norm(solution.q[:, :3], axis=1)))
+    assert nearest >= 2.0 * RADIUS - (2.5 * 0.5 * MASS * speed**2 / stiffness) ** 0.4
+    assert np.linalg.norm(solution.u_end[:3]) == pytest.approx(speed, rel=1e-7)
+    if beside == 0.0:
+        assert solution.u_end[2] == pytest.approx(speed, rel=1e-7)
+
+
 def test_among_rigid_contacts() -> None:
     """A rigid impact on a ball that lies on a compliant plate: the impact first, then the plate, the energy kept."""
     plate, lower, upper = Plate(), Ball(RADIUS), Ball(RADIUS)
