@@ -104,7 +104,7 @@ def _stored(case: Case, records: Records) -> dict[tuple[int, int], float]:
     for i, j, laws in case.contacts:
         if type(laws.normal) is not Unilateral:
             found = overlaps(case.bodies[i], case.bodies[j], (poses[i], poses[j]))
-            depth = max((o.depth for o in found), default=0.0)
+            depth = max((o.depth - o.allowed for o in found), default=0.0)
             law: Any = laws.normal
             if depth > DEPTH:
                 exponent = getattr(law, "exponent", 1.0)
