@@ -6,6 +6,7 @@ import contextlib
 import gc
 import hashlib
 import itertools
+import threading
 from collections.abc import Callable, Iterator
 from typing import Any, final
 
@@ -86,22 +87,43 @@ _LATER = (
 """The steps of numba that optimise a function and make machine code of it."""
 
 
+class _Thread(threading.local):
+    """Whether what this thread compiles stays raw: others may compile functions of their own meanwhile."""
+
+    raw = False
+
+
+_thread = _Thread()
+
+
 @contextlib.contextmanager
-def raw() -> Iterator[None]:
+def raw(wanted: bool = True) -> Iterator[None]:
     """Leave what is compiled inside as intermediate code: only the rooms that take it in go on with it, once each."""
+    before = _thread.raw
     with contextlib.ExitStack() as stack:
         for owner, name in _LATER:
-            _replace(stack, owner, name, lambda *_: None)
-        yield
+            _replace(stack, owner, name, _unless_raw(getattr(owner, name)))
+        _thread.raw = wanted
+        try:
+            yield
+        finally:
+            _thread.raw = before
+
+
+def _unless_raw(step: Callable[..., Any]) -> Callable[..., Any]:
+    return lambda *arguments: None if _thread.raw else step(*arguments)
 
 
 @contextlib.contextmanager
 def raw_inside() -> Iterator[None]:
-    """Leave the functions that those compiled inside call as intermediate code: their callers take it in."""
+    """Leave the functions that those compiled inside call as intermediate code: their callers take it in.
+
+    Functions that Python can call compiled, as those of a user's own, are not left so.
+    """
     compiled: Callable[..., Any] = Dispatcher.compile
 
     def leave_raw(dispatcher: Any, signature: Any) -> Any:
-        with raw():
+        with raw(wanted=dispatcher.targetoptions.get("no_cpython_wrapper", False)):
             return compiled(dispatcher, signature)
 
     with contextlib.ExitStack() as stack:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, final
 
+import numba
 import pytest
 
 import nonsmooth as ns
@@ -15,6 +16,7 @@ from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 from nonsmooth.engine.kernel import PLAIN, address_of
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.plugins import compile as compiling
+from nonsmooth.plugins.compile import bind
 
 
 @contextlib.contextmanager
@@ -143,3 +145,29 @@ def test_a_new_law_is_compiled_alone_and_once(monkeypatch: pytest.MonkeyPatch) -
         run()
     assert first == (["scalar"] if PLAIN else ["scalar", "_made.<locals>.steady", "shim"])
     assert second == []
+
+
+@numba.njit  # type: ignore[untyped-decorator]
+def _own(speed: float, level: float) -> float:
+    return level + 0.1 * speed
+
+
+def _calling(own: Callable[..., float]) -> Callable[..., float]:
+    """Return a closure, which is compiled every time."""
+
+    def law(speed: float, level: float) -> float:
+        return max(own(speed, level), level)
+
+    return law
+
+
+@numba.njit  # type: ignore[untyped-decorator]
+def _caller(level: float) -> float:
+    return max(_own(2.0, level), level)
+
+
+def test_what_numba_compiled_for_the_user_goes_on_as_it_was() -> None:
+    """A law may call a function that Python, and other functions of the user, call compiled with the same types."""
+    bind(_calling(_own), "scalar", {"level": 0.3}, "Own")
+    assert _own(1.0, 0.3) == pytest.approx(0.4)
+    assert _caller(0.3) == pytest.approx(0.5)
