@@ -163,7 +163,7 @@ def _calling(own: Callable[..., float]) -> Callable[..., float]:
 
 @numba.njit  # type: ignore[untyped-decorator]
 def _caller(level: float) -> float:
-    return max(_own(2.0, level), level)
+    return float(max(_own(2.0, level), level))
 
 
 def test_what_numba_compiled_for_the_user_goes_on_as_it_was() -> None:
