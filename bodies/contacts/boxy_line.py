@@ -80,15 +80,32 @@ def across_line(
         if rising > 0.0 > falling:
             break
     if most <= reach:
-        best, last = -math.inf, math.nan
+        best, last, slope = -math.inf, math.nan, 0.0
         for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
             look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, i * spread)
             if look[0] > best and abs(i) <= _LOOKS // 2:
-                best, at, rising = look[0], i, last
+                best, at, rising, slope = look[0], i, last, look[7]
             elif at == i - 1:
                 falling = look[7]
             last = look[7]
         low, high = (at - 1) * spread, (at + 1) * spread
+        # two tops between the neighbours: of an overlap the gap has more than one; that uphill from the best look
+        for _ in range(_LOOKS):
+            if rising > 0.0 > falling:
+                break
+            middle = at * spread
+            if slope > 0.0:
+                low, rising = middle, slope
+            else:
+                high, falling = middle, slope
+            if rising > 0.0 > falling:
+                break
+            middle = 0.5 * (low + high)
+            look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, middle)
+            if slope > 0.0:
+                high, falling = middle, look[7]
+            else:
+                low, rising = middle, look[7]
     if not (rising > 0.0 > falling):
         return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
     none = _ROUND_OFF * (abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]))

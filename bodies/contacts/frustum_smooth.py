@@ -27,6 +27,7 @@ from bodies.contacts.frustum import (
     write_part,
 )
 from bodies.contacts.frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
+from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.round_search import up_hills
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest_of_round, write_surface
@@ -171,9 +172,7 @@ def _nearest(
     shallow = _SLIGHT * size if is_sharp else _SHALLOW * size
     for start in range(_TURNS + 4):
         if start == 1:
-            px, py, pz = _into(frustum, x, y, z)
-            px, py, pz = back(turn, px - x, py - y, pz - z)
-            is_deep = gauge_of(core, px, py, pz) < _DEEP
+            is_deep = _is_deep(frustum, core, turn, x, y, z)
         # at first by the centre, then without a start, steep, flat, and last all round
         tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
         if start > 3:
@@ -206,14 +205,48 @@ def _nearest(
                 if not is_sharp and _is_before(core, turn, x, y, z, found):
                     return best, where
         if is_sharp and (best[0] >= -_SHALLOW * size or _is_before(core, turn, x, y, z, best)):
-            if where != LOW_RIM and where != HIGH_RIM:
-                # a tip or a ridge next to an edge, over which it may be nearer
-                found, part = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
-                if found[0] > best[0]:
-                    best, where = found, part
+            # a tip or a ridge next to an edge or an apex may leave by another top
+            rim = where == LOW_RIM or where == HIGH_RIM
+            if rim and (is_deep or _is_deep(frustum, core, turn, x, y, z)):
+                return best, where
+            best, where = _higher(frustum, low, high, point, core, turn, x, y, z, size, best, where)
             return best, where
+    if is_sharp and not is_deep and best[0] < 0.0:
+        # the way out to another side, where the short one was missed
+        best, where = _higher(frustum, low, high, point, core, turn, x, y, z, size, best, where)
     if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
         best, where = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
+    return best, where
+
+
+@compiled
+def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> bool:
+    """Return whether the frustum's point next to the core's centre is so far in that bodies overlap by much."""
+    px, py, pz = _into(frustum, x, y, z)
+    px, py, pz = back(turn, px - x, py - y, pz - z)
+    return bool(gauge_of(core, px, py, pz) < _DEEP)
+
+
+@compiled
+def _higher(
+    frustum: Floats,
+    low: Floats,
+    high: Floats,
+    point: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    size: float,
+    best: Answer,
+    where: int,
+) -> tuple[Answer, int]:
+    """Return an answer and its part, or those with a larger gap, unless a ball in the smooth body proves it."""
+    if not no_shorter_way(point, core, turn, x, y, z, best):
+        found, part = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
+        if found[0] > best[0]:
+            best, where = found, part
     return best, where
 
 

@@ -4,7 +4,7 @@ The distance of a point from a convex body is a convex function of the point.  R
 has a part along the way, so that a search between angles at which it falls and rises halves what is left.  It needs no
 radius of curvature of the circle across its normal, which goes through all sizes next to the circle's axis, where
 Newton's method on the normal does not get on.  Of bodies that overlap, the largest of the gaps along all directions is
-gone up to by steps.
+gone up to by steps.  There the circle's point is again found by its place on the circle.
 """
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ _ACROSS = 1e-9
 """Slope of an answer, from which the gap errs by the square."""
 _TOP, _OVER = 1e-9, 1e-11
 """How close steps go to a top [rad], and how far the point there is off the surface, in units of the size."""
+_GOLDEN = 0.3819660112501051
+"""Part of an interval at which a search for a least value looks, from either end."""
 _NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
 """Steps, residual in units of the size, and angle between normal and axis up to which they are made [rad]."""
 
@@ -247,12 +249,62 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
             g, nx, ny, nz = settle(circle, core, turn, x, y, z, (g, nx, ny, nz))
             a = support_of(circle, nx, ny, nz)
             found = g, a[1] + g * nx, a[2] + g * ny, a[3] + g * nz, nx, ny, nz
-        g, px, py, pz, nx, ny, nz = found
+        g, _, _, _, nx, ny, nz = found
         away = math.sqrt(nx * nx + ny * ny)
-        # the circle's point has to be as far from the body's surface
-        bx, by, bz = back(turn, px - x, py - y, pz - z)
-        astray = abs(gauge_of(core, bx, by, bz) - 1.0) * max(core[0], core[1], core[2])
         inside = up == 0.0 or up * (lean[0] * nz - lean[1] * away) >= -_TOP
-        if astray <= _OVER * lean[2] and inside and not g <= best[0]:
-            best = found
+        if inside and not g <= best[0]:
+            found, astray = _facing(circle, core, turn, x, y, z, found)
+            if astray <= _OVER * lean[2]:
+                best = found
     return best
+
+
+@compiled
+def _facing(
+    circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer
+) -> tuple[Answer, float]:
+    """Return an answer with the points that face each other, and how far that of the body is off its surface [m].
+
+    Where the body is sharp, the gap is sure to round-off and the normal is not: the circle's farthest point along it
+    turns with its part across the axis, which may be next to nothing.  From the circle's points the body is behind a
+    plane; the right one is that over which the surface is nearest.
+    """
+    g, px, py, pz, nx, ny, nz = found
+    extent, radius = max(core[0], core[1], core[2]), circle[0]
+    best: Answer = found
+    least = _over(core, turn, px - x, py - y, pz - z)
+    if radius == 0.0 or not least > _SAME:
+        return best, least * extent
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    b = support_of(core, mx, my, mz)
+    qx, qy, _ = forth(turn, b[1], b[2], b[3])
+    qx, qy = x + qx - g * nx, y + qy - g * ny
+    cx, cy = px - g * nx, py - g * ny
+    # from the circle's point to the one next to the body's, and as far to either side
+    middle = math.atan2(qy, qx)
+    wide = abs(math.atan2(cx * qy - cy * qx, cx * qx + cy * qy)) if cx * cx + cy * cy > 0.0 else 0.0
+    low, high = middle - wide - _FIRST, middle + wide + _FIRST
+    for _ in range(_STEPS):
+        one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
+        ax, ay = radius * math.cos(one) + g * nx, radius * math.sin(one) + g * ny
+        bx, by = radius * math.cos(two) + g * nx, radius * math.sin(two) + g * ny
+        first = _over(core, turn, ax - x, ay - y, g * nz - z)
+        second = _over(core, turn, bx - x, by - y, g * nz - z)
+        if first < least:
+            least, best = first, (g, ax, ay, g * nz, nx, ny, nz)
+        if second < least:
+            least, best = second, (g, bx, by, g * nz, nx, ny, nz)
+        if high - low <= _SAME or least <= _SAME:
+            break
+        if first < second:
+            high = two
+        else:
+            low = one
+    return best, least * extent
+
+
+@compiled
+def _over(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
+    """Return what the gauge of a point is off 1."""
+    bx, by, bz = back(turn, x, y, z)
+    return float(abs(gauge_of(core, bx, by, bz) - 1.0))
