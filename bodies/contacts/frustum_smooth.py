@@ -46,6 +46,8 @@ _CLOSE = 1e-12
 """Distance of the centre from the axis that has no direction, in units of the size."""
 _SAMPLES, _PROJECTIONS = 8, 16
 """Parts of the way between the points of a stop at whose ends a point of both is looked for, and further points."""
+_HIGHER = 1e-14
+"""By how much more the gap of another top is larger, in units of the size: less is round-off of the same one."""
 _DEEP = 0.9
 """Gauge of the frustum's point next to the core's centre, from which on bodies overlap more than a little."""
 _ON_SURFACE = 1e-12
@@ -245,7 +247,7 @@ def _higher(
     """Return an answer and its part, or those with a larger gap, unless a ball in the smooth body proves it."""
     if not no_shorter_way(point, core, turn, x, y, z, best):
         found, part = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
-        if found[0] > best[0]:
+        if found[0] > best[0] + _HIGHER * size:
             best, where = found, part
     return best, where
 
