@@ -12,10 +12,11 @@ from bodies.ball import Ball
 from bodies.free import FreeBody
 from bodies.inertia import parallel_axis, tensor_of
 from bodies.moved import moved
-from bodies.values import rotation, unit_quaternion, vector
+from bodies.values import unit_quaternion, vector
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.rotations import rotation
 
 
 @final

@@ -6,10 +6,11 @@ import dataclasses
 
 import numpy as np
 
-from bodies.values import product, rotation
+from bodies.values import product
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.rotations import rotation
 
 
 def moved(shape: Shape, position: Vector, orientation: Vector) -> Shape:

@@ -1,4 +1,4 @@
-"""Vectors and rotations that a user gives: checked once, for bodies and motions alike."""
+"""Vectors and quaternions that a user gives: checked once, for bodies and motions alike."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from nonsmooth import vectors
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.rotations import rotation
 
 Word = tuple[int, Any, str]
 """Size (0 for a single number), default and unit of a word of a start."""
@@ -52,18 +53,6 @@ def unit_quaternion(thing: str, value: Any) -> Vector:
         )
     # one that was normalised before stays the same to the last bit
     return array if abs(norm - 1.0) <= _ROUND_OFF else array / norm
-
-
-def rotation(quaternion: Any) -> Vector:
-    """Return the rotation matrix of a unit quaternion (scalar first), shape [3, 3]."""
-    a, b, c, d = (float(x) for x in quaternion)
-    return np.array(
-        [
-            [a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)],
-            [2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)],
-            [2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d],
-        ]
-    )
 
 
 def turned_back(quaternion: Any, value: Any) -> tuple[float, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Polyhedron
-from bodies.values import rotation
+from nonsmooth.rotations import rotation
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bodies.values import rotation
+from nonsmooth.rotations import rotation
 
 
 def pose_parameters(position: Sequence[float], orientation: Sequence[float]) -> dict[str, float]:

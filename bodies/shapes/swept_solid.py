@@ -7,6 +7,7 @@ moments too).
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 
@@ -36,8 +37,9 @@ class _Sums:
         self.second += volume * np.outer(place, place) + cross + cross.T + second
 
 
+@functools.lru_cache(maxsize=64)
 def swept_solid(core: Polytope, radius: float) -> Solid:
-    """Return volume, centroid and inertia of all points within ``radius`` [m] of a polyhedron.
+    """Return volume, centroid and inertia, read-only, of all points within ``radius`` [m] of a polyhedron.
 
     Parameters
     ----------
@@ -82,7 +84,10 @@ def swept_solid(core: Polytope, radius: float) -> Solid:
         sums.add(place, solid_angle * radius**3 / 3.0, firsts[i] * radius**4 / 4.0, second * radius**5 / 5.0)
     centroid = sums.first / sums.volume
     about = sums.second - sums.volume * np.outer(centroid, centroid)
-    return sums.volume, centroid + middle, np.asarray(np.trace(about) * np.eye(3) - about)
+    inertia = np.trace(about) * np.eye(3) - about
+    centroid = centroid + middle
+    centroid.flags.writeable = inertia.flags.writeable = False
+    return sums.volume, centroid, inertia
 
 
 def _prism(n: int) -> Vector:

@@ -52,11 +52,11 @@ def _relative_error(S: Scalars, w: Floats, k: Integers) -> float:
     """Return the largest of the errors in ``impact_stage``, relative to the tolerance."""
     worst = 0.0
     for a in range(S.n_active):
-        one = 1.0 / w[S.impulse_scale + a]
+        inverse = 1.0 / w[S.impulse_scale + a]
         for r in range(STRIDE):
             if r >= 3:
-                one = 1.0 / (w[S.impact_x_scale + a] if r == 3 else w[S.impact_energy_scale + a])
-            error = one * abs(w[S.impact_stage + STRIDE * a + r])
+                inverse = 1.0 / (w[S.impact_x_scale + a] if r == 3 else w[S.impact_energy_scale + a])
+            error = inverse * abs(w[S.impact_stage + STRIDE * a + r])
             if error > worst or error != error:
                 worst = error
     return worst / float(S.impact_rtol)

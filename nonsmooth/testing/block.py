@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from nonsmooth.interfaces import Body
 from nonsmooth.model.layout import FRAME
+from nonsmooth.rotations import turned
 from nonsmooth.testing.callers import Caller, compiled_caller, plain_caller
 from nonsmooth.testing.draws import Case, Variable
 from nonsmooth.testing.functions import OLD, ROOM
-from nonsmooth.testing.rotations import turned
 
 Array = NDArray[np.float64]
 WEIGHTLESS = {"gravity_x": 0.0, "gravity_y": 0.0, "gravity_z": 0.0}

@@ -9,6 +9,7 @@ import numpy as np
 
 from nonsmooth.interfaces import Joint
 from nonsmooth.model.layout import JOINT_ROW
+from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing import moving
 from nonsmooth.testing.callers import compiled_caller, plain_caller
 from nonsmooth.testing.component import component_rows
@@ -17,7 +18,6 @@ from nonsmooth.testing.examine import Trial, examine
 from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
 from nonsmooth.testing.moving import Array, Frames
 from nonsmooth.testing.property import Broken, Property, Row, properties
-from nonsmooth.testing.rotations import rotation, turned
 
 _DRAWS = 24
 _SAME = 1e-7

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.model.layout import FRAME, PAIR, PAST_END
+from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.callers import compiled_caller, plain_caller
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.draws import Case, Variable, draws
@@ -19,7 +20,6 @@ from nonsmooth.testing.examine import Trial, examine
 from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
 from nonsmooth.testing.property import Broken, Property, Row, properties
 from nonsmooth.testing.rig import Pose, Rig
-from nonsmooth.testing.rotations import rotation, turned
 
 Array = NDArray[np.float64]
 _DRAWS = 40

@@ -9,6 +9,7 @@ import numpy as np
 
 from nonsmooth.interfaces import Load
 from nonsmooth.model.layout import LOAD
+from nonsmooth.rotations import cross
 from nonsmooth.testing import moving
 from nonsmooth.testing.callers import compiled_caller, plain_caller
 from nonsmooth.testing.component import component_rows
@@ -18,7 +19,6 @@ from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
 from nonsmooth.testing.jumps import jump
 from nonsmooth.testing.moving import Array, Frames
 from nonsmooth.testing.property import Property, Row, properties
-from nonsmooth.testing.rotations import cross
 
 _DRAWS = 24
 _SAME = 1e-9

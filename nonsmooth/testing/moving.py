@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.model.layout import FRAME
+from nonsmooth.rotations import cross, rotation, turned
 from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.rotations import cross, rotation, turned
 
 Array = NDArray[np.float64]
 Frames = tuple[Array, Array]

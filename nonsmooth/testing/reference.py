@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess, RigidNormalLaw
 from nonsmooth.parameters import parameter
+from nonsmooth.rotations import cross
 from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.rotations import cross
 
 Array = NDArray[np.float64]
 

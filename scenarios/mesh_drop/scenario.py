@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from bodies import MeshBody, MeshFile, Plate
 from bodies.meshes.surface import Surface
 from bodies.meshes.units import METRES
-from bodies.values import rotation
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.placing import at_height
+from nonsmooth.rotations import rotation
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System

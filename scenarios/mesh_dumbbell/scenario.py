@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Dumbbell, RigidBody, TriangleMesh
-from bodies.values import rotation
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
+from nonsmooth.rotations import rotation
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System

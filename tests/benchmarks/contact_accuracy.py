@@ -26,9 +26,9 @@ from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
 from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
 from nonsmooth.plugins.compile import bind
+from nonsmooth.rotations import rotation, turned
 from nonsmooth.system.pairing import nearest_pair
 from nonsmooth.testing.rig import Rig
-from nonsmooth.testing.rotations import rotation, turned
 from tests.benchmarks.mesh_pairs import MESHES
 from tests.benchmarks.round_pairs import ROUND_PAIRS
 from tests.benchmarks.swept_pairs import SWEPT

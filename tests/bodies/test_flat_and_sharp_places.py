@@ -11,7 +11,7 @@ import pytest
 from bodies import Capsule, Cone, Cylinder, Disc, Superellipsoid
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import ConvexShape
-from nonsmooth.testing.rotations import rotation
+from nonsmooth.rotations import rotation
 from tests.benchmarks.gap_draws import Pose, directions
 from tests.benchmarks.gap_poses import WAY, WRONG, Gaps, proved
 from tests.benchmarks.outlines import outline_of

@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from bodies import Box, Capsule, Cone, ConvexHull, Cylinder, Disc, Ellipsoid, Sphere, Superellipsoid
 from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.rotations import rotation
 from tests.bodies.carriers import Rig
 from tests.bodies.polytopes import random_hull
 
@@ -55,9 +56,9 @@ PAIRS: dict[str, tuple[Any, Any]] = {
 
 
 def _slab(shapes: Any, poses: Any, n: Any) -> float:
-    (p, a), (q, b) = [(place, Rotation.from_quat(np.roll(turn, -1))) for place, turn in poses]
-    own = p + a.apply(shapes[0].support(a.inv().apply(n)))
-    other = q + b.apply(shapes[1].support(b.inv().apply(-n)))
+    (p, a), (q, b) = [(place, rotation(turn)) for place, turn in poses]
+    own = p + a @ shapes[0].support(n @ a)
+    other = q + b @ shapes[1].support(-n @ b)
     return float(n @ (other - own))
 
 

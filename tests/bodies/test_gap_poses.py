@@ -10,7 +10,7 @@ import pytest
 from bodies import Cylinder, Disc, Ellipsoid
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import ConvexShape
-from nonsmooth.testing.rotations import rotation
+from nonsmooth.rotations import rotation
 from tests.benchmarks.gap_draws import SMOOTH_PAIRS, Pose
 from tests.benchmarks.gap_poses import WAY, WRONG, Gaps, measure, proved
 from tests.benchmarks.outlines import outline_of

@@ -29,7 +29,7 @@ OTHERS: dict[str, dict[str, Any]] = {
     "mesh_dumbbell": {"subdivisions": 0.0},
     "newtons_cradle": {"exponent": 1.4},
     "polyhedron_stack": {"friction": 0.45},
-    "rattleback": {"product": 0.0, "t_end": 8.0},
+    "rattleback": {"product": 0.0, "t_end": 2.0},
     "rocking_block": {"height": 0.51},
     "rocking_block_3d": {"mass": 1.1},
     "rolling_disc": {"viscosity": 2e-5},

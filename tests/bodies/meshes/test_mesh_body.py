@@ -144,7 +144,7 @@ def test_a_mesh_that_is_not_convex_meets_a_plane_with_its_hull(build: Any) -> No
     ns.touching(system, body, orientation=turn)
     (shape,) = body.shapes
     assert isinstance(shape, TriangleMesh)
-    from bodies.values import rotation
+    from nonsmooth.rotations import rotation
 
     heights = shape.drawing()[0] @ rotation(turn)[2]
     assert system.start(body)[0][2] == pytest.approx(-np.min(heights), abs=1e-15)
@@ -186,7 +186,7 @@ def test_a_compound_holds_a_mesh() -> None:
     compound = Compound((Part(Ball(0.005)), Part(MeshBody(BRACKET), (0.03, 0.0, 0.01), turn)))
     shape = compound.shapes[1]
     assert isinstance(shape, TriangleMesh)
-    from bodies.values import rotation
+    from nonsmooth.rotations import rotation
 
     (own,) = MeshBody(BRACKET).shapes
     assert isinstance(own, TriangleMesh)

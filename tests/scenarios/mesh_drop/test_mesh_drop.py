@@ -50,7 +50,7 @@ def test_it_comes_to_rest_on_three_corners_or_more(run: tuple[MeshDrop, ns.Solut
 def test_in_the_air_it_keeps_its_angular_momentum(run: tuple[MeshDrop, ns.Solution]) -> None:
     """About the mass centre, in world axes, with all products of inertia; and it falls as anything does."""
     from bodies.inertia import tensor_of
-    from bodies.values import rotation
+    from nonsmooth.rotations import rotation
 
     scenario, solution = run
     flight = solution.t < 0.9 * np.sqrt(2.0 * scenario.height / 9.81)

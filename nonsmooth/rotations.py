@@ -1,4 +1,4 @@
-"""Rotations and cross products of single vectors, for the checks."""
+"""Rotations and cross products of single vectors."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 def rotation(q: Any) -> Array:
-    """Return the rotation matrix of a unit quaternion (scalar first)."""
+    """Return the rotation matrix of a unit quaternion (scalar first), shape [3, 3]."""
     a, b, c, d = (float(x) for x in q)
     return np.array(
         [
