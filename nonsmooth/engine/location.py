@@ -245,6 +245,8 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     low, g_low = 0.0, w[S.guard_first + i]
     g_high = w[S.guard + i]
     S.guard_slope = 0.0
+    if high * h <= fine:
+        return high
     while g_low <= _FAINT * abs(g_high):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
@@ -260,6 +262,8 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     theta = high - g_high * (high - low) / (g_high - g_low)
     theta_before, g_before = high, g_high
     for _iteration in range(100):
+        if not low < theta <= high:
+            theta = 0.5 * (low + high)
         g = _guard_at(S, w, k, h, theta, i, forces)
         if theta != theta_before:
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)

@@ -14,10 +14,11 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import nonsmooth as ns
-from bodies import Ball, DrivenBody, Plate, Sphere
+from bodies import Ball, CapsuleBody, DrivenBody, Plate, Sphere
 from laws import (
     Cohesive,
     Coulomb,
+    Directional,
     EnergeticImpact,
     Frictionless,
     HertzCompliant,
@@ -26,6 +27,7 @@ from laws import (
     LinearCompliant,
     Unilateral,
 )
+from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import LIFT_OFF, SLIP_TO_STICK, TOUCH
 from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw
 
@@ -225,6 +227,20 @@ def test_no_first_step_goes_through_from_a_touch(stiffness: float, beside: float
     assert np.linalg.norm(solution.u_end[:3]) == pytest.approx(speed, rel=1e-7)
     if beside == 0.0:
         assert solution.u_end[2] == pytest.approx(speed, rel=1e-7)
+
+
+@pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
+def test_slips_that_turn_round_at_once() -> None:
+    """Of a guard that jumps where a step begins the root is there: the search for it did not come back."""
+    plate, capsule = Plate(), CapsuleBody(radius=0.01364, half_length=0.01221, density=1200.0)
+    friction = Directional(forward=0.1068, backward=0.5881, across=0.4556, axis=(-0.16, -1.691, 1.274), body="first")
+    system = ns.System([plate, capsule], 9.81)
+    system.contact(plate, capsule, normal=HuntCrossley(5.39e6, 0.8088), friction=friction)
+    orientation = (-0.15532624011010426, 0.5238866768694691, 0.41275372006699157, -0.728732375775073)
+    ns.resting(system, capsule, position=(0.0088, 0.00386, 0.04957), orientation=orientation)
+    solution = ns.simulate(system, 0.2285, sample_interval=0.0005)
+    assert solution.status == "done"
+    assert solution.energy.residual <= 1e-7
 
 
 def test_among_rigid_contacts() -> None:
