@@ -245,8 +245,6 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     low, g_low = 0.0, w[S.guard_first + i]
     g_high = w[S.guard + i]
     S.guard_slope = 0.0
-    if high * h <= fine:
-        return high
     while g_low <= _FAINT * abs(g_high):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low

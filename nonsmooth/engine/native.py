@@ -175,15 +175,20 @@ def _address(function: CFunction) -> int:
     return int(function.address or 0)
 
 
-def call_room(name: str, memory: Memory, *arguments: float) -> Any:
-    """Call a room from Python on the memory of one trajectory; the interpreter's lock is released."""
+@functools.cache
+def _callable(name: str) -> Callable[..., Any]:
+    """Return a room as a function of the addresses of the three heaps, and of numbers."""
     _, signature = _rooms[name]
     result, _, names = signature.partition("(")
     extra = [_C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[3:]]
     prototype = ctypes.CFUNCTYPE(_C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
-    function = prototype(room_addresses()[ROOMS.index(name)])
+    return prototype(room_addresses()[ROOMS.index(name)])
+
+
+def call_room(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call a room from Python on the memory of one trajectory; the interpreter's lock is released."""
     heaps = (memory.scalars, memory.floats, memory.integers)
-    return function(*[heap.ctypes.data for heap in heaps], *arguments)
+    return _callable(name)(*[heap.ctypes.data for heap in heaps], *arguments)
 
 
 @intrinsic
