@@ -51,8 +51,10 @@ def case_of(seed: int) -> Case:
     wide, low = _widths(falling, orientation, way)
     width, depth = _widths(obstacle, its, -way)
     tall = max(_widths(obstacle, its, way)[1], max(shape.extent for shapes in obstacle.frames for shape in shapes))
-    overlap = 10.0 ** random.uniform(-5.0, np.log10(wide + width)) if random.random() < 0.8 else wide + width
-    place = (wide + width - overlap) * way
+    # negative where the origin of a body is that far outside of it
+    reach = wide + width
+    overlap = 10.0 ** random.uniform(-5.0, np.log10(abs(reach))) if random.random() < 0.8 else reach
+    place = (reach - overlap) * way
     base = depth + float(random.uniform(1e-3, 0.03))
     height = base + tall + low + float(random.uniform(2e-3, 0.1))
     spot = tuple(np.round([place[0], place[1], base], 6).tolist())
