@@ -27,6 +27,7 @@ from bodies.contacts.frustum import (
     write_part,
 )
 from bodies.contacts.frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
+from bodies.contacts.gauge import gauge
 from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.round_search import up_hills
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
@@ -34,7 +35,6 @@ from bodies.contacts.smooth_newton import widest_of_round, write_surface
 from bodies.contacts.tangents import write_tangent
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.smooth_shape import SmoothShape
-from bodies.shapes.support_function import gauge_of
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -64,7 +64,7 @@ def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: An
     if nx * px + ny * py + nz * pz >= 0.0:
         return False
     px, py, pz = back(turn, px, py, pz)
-    return bool(gauge_of(core, px, py, pz) < 1.0)
+    return bool(gauge(core, px, py, pz) < 1.0)
 
 
 @compiled
@@ -137,7 +137,7 @@ def _share_a_point(
             px, py, pz = px + part * wx, py + part * wy, pz + part * wz
         px, py, pz = _into(frustum, px, py, pz)
         bx, by, bz = back(turn, px - x, py - y, pz - z)
-        if gauge_of(core, bx, by, bz) <= 1.0 + _ON_SURFACE:
+        if gauge(core, bx, by, bz) <= 1.0 + _ON_SURFACE:
             return True
     return False
 
@@ -226,7 +226,7 @@ def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: f
     """Return whether the frustum's point next to the core's centre is so far in that bodies overlap by much."""
     px, py, pz = _into(frustum, x, y, z)
     px, py, pz = back(turn, px - x, py - y, pz - z)
-    return bool(gauge_of(core, px, py, pz) < _DEEP)
+    return bool(gauge(core, px, py, pz) < _DEEP)
 
 
 @compiled

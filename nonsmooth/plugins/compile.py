@@ -31,6 +31,7 @@ ROLES = {
     "load": ("t", "a", "b", "out"),
     "pair": ("a", "b", "out"),
     "map": ("n", "delassus", "rates", "out"),
+    "support": ("direction", "out"),
 }
 """What the engine passes to a function of each form, before the function's own parameters."""
 
@@ -44,6 +45,7 @@ _CALLS = {
     "load": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
     "pair": ("a, b, p, out", "law(a, b, out{unpacked})", "out[0] = nan"),
     "map": ("n, delassus, rates, p, out", "law(n, delassus, rates, out{unpacked})", "out[0] = nan"),
+    "support": ("a, p, out", "law(a, out{unpacked})", "out[0] = nan"),
 }
 """What the engine calls with, the call of the function, and what stands for an exception."""
 _ENDINGS = {
@@ -144,6 +146,21 @@ def bind(
         _warned.add(entry.address)
         _warn(function, owner, entry.refusal, interpreted.cost(entry.shim, tuple(heap)))
     return entry.address, tuple(heap)
+
+
+def refused(function: Callable[..., Any], form: str) -> Refusal | None:
+    """Return why a function of numbers cannot be compiled; None if it can."""
+    return _entry(function, form, (False,) * len(parameter_names(function, form))).refusal
+
+
+def bind_in_python(
+    function: Callable[..., Any], form: str, owner: str, method: Callable[..., Any], why: Refusal
+) -> tuple[int, tuple[float, ...]]:
+    """Return what :func:`bind` does for a function without parameters, which calls a method that cannot be compiled."""
+    shim = _made((_PYTHON_SHIM + _CALLED_SHIM).format(**_parts(form, ())), _scope_in_python(function))
+    address = interpreted.address(shim)
+    _warn(method, owner, why, interpreted.cost(shim, ()))
+    return address, ()
 
 
 def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float], name: str) -> int:
