@@ -50,7 +50,7 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import REACH
-from bodies.shapes.support_function import is_round, support_of
+from bodies.shapes.support_function import OF_FUNCTION, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -63,7 +63,7 @@ Aim: TypeAlias = tuple[float, float, float, float]
 @compiled
 def _extent(core: Floats) -> float:
     """Return a bound of the distance of the farthest point from the centre, with flat places the corner of a box."""
-    if is_round(core):
+    if is_round(core) and core[3] != OF_FUNCTION:
         return float(max(core[0], core[1], core[2]) + core[RADIUS])
     return math.sqrt(core[0] * core[0] + core[1] * core[1] + core[2] * core[2])
 

@@ -13,6 +13,9 @@ from nonsmooth.interfaces.body import Vector
 
 Support = Callable[[Vector], Vector]
 _TURN = 1e-3
+_WAYS, _FIRST, _LAST, _CLOSER = 4, 0.15, 1e-4, 0.8
+"""How many ways to a flat place are gone, the first and the last step on them [rad], and what each is of the last."""
+_ROUND = [(math.cos(0.25 * math.pi * i), math.sin(0.25 * math.pi * i)) for i in range(8)]
 _COARSEST, _TIMES = 24, 4
 """Edges round the coarsest mesh, and how many there are, each twice as fine."""
 
@@ -22,18 +25,43 @@ def spiral(count: int) -> tuple[Vector, float]:
     i = np.arange(count) + 0.5
     z, angle = 1.0 - 2.0 * i / count, math.pi * (1.0 + math.sqrt(5.0)) * i
     r = np.sqrt(1.0 - z * z)
-    return np.column_stack([r * np.cos(angle), r * np.sin(angle), z]), 2.5 / math.sqrt(count)
+    return np.column_stack([r * np.cos(angle), r * np.sin(angle), z]), 3.0 / math.sqrt(count)
 
 
-def radii_along(support: Support, directions: Vector) -> Vector:
-    """Return the two principal radii of curvature where directions are normals [m], shape [n, 2].
+def least_radius(support: Support, directions: Vector) -> float:
+    """Return the least radius of curvature where directions are normals [m].
 
-    They are the eigenvalues of dP/dn, with the point P(n) that lies farthest along n.
+    The principal ones are the eigenvalues of dP/dn, with the point P(n) that lies farthest along n.
     """
     rates = _rates(support, directions)
     middle, half = 0.5 * (rates[:, 0] + rates[:, 2]), 0.5 * (rates[:, 0] - rates[:, 2])
-    spread = np.hypot(half, rates[:, 1])
-    return np.column_stack([middle - spread, middle + spread])
+    return float(np.min(middle - np.hypot(half, rates[:, 1])))
+
+
+def largest_radius(support: Support, directions: Vector, points: Vector) -> float:
+    """Return the largest radius of curvature that is met on ways to where points lie ever farther apart [m].
+
+    A flat place has a single normal, which no direction meets: its points part wherever directions come near that.
+    """
+    beside = points[np.argsort(directions @ directions.T, axis=1)[:, -5:]]
+    apart = np.max(np.linalg.norm(beside - points[:, None], axis=2), axis=1)
+    largest = 0.0
+    for n in directions[np.argsort(apart)[-_WAYS:]]:
+        step = _FIRST
+        while step > _LAST:
+            t, u = _across(n[None])
+            looks = [n, *(math.cos(step) * n + math.sin(step) * (c * t[0] + s * u[0]) for c, s in _ROUND)]
+            chords = [_chord(support, look, step) for look in looks]
+            n, step = looks[int(np.argmax(chords))], _CLOSER * step
+        largest = max(largest, _chord(support, n, step) / (2.0 * step))
+    return largest
+
+
+def _chord(support: Support, n: Vector, step: float) -> float:
+    """Return how far points lie apart on both sides of a direction at most [m]."""
+    t, u = _across(n[None])
+    ways = [math.sin(step) * (c * t[0] + s * u[0]) for c, s in _ROUND[:4]]
+    return max(float(np.linalg.norm(support(math.cos(step) * n + w) - support(math.cos(step) * n - w))) for w in ways)
 
 
 def integrals_over(drawing: Callable[[int], tuple[Vector, Vector]]) -> tuple[float, Vector, Vector]:
@@ -56,12 +84,17 @@ def integrals_over(drawing: Callable[[int], tuple[Vector, Vector]]) -> tuple[flo
     return float(rows[0][0]), rows[0][1:4], rows[0][4:].reshape(3, 3)
 
 
-def _rates(support: Support, directions: Vector) -> Vector:
-    """Return tt, tu and uu of dP/dn for unit vectors t and u across each direction [m], shape [n, 3]."""
+def _across(directions: Vector) -> tuple[Vector, Vector]:
+    """Return unit vectors t and u across each direction, shape [n, 3] each."""
     other = np.eye(3)[np.argmin(np.abs(directions), axis=1)]
     t = np.cross(directions, other)
     t /= np.linalg.norm(t, axis=1)[:, None]
-    u = np.cross(directions, t)
+    return t, np.cross(directions, t)
+
+
+def _rates(support: Support, directions: Vector) -> Vector:
+    """Return tt, tu and uu of dP/dn for two vectors across each direction [m], shape [n, 3]."""
+    t, u = _across(directions)
     slopes = [np.zeros_like(t), np.zeros_like(t)]
     for slope, across in zip(slopes, (t, u), strict=True):
         for i, weight in ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0)):

@@ -12,7 +12,7 @@ import numpy as np
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import OF_FUNCTION
-from bodies.shapes.support_integrals import integrals_over, radii_along, spiral
+from bodies.shapes.support_integrals import integrals_over, largest_radius, least_radius, spiral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.plugins.methods import bind_support
@@ -22,6 +22,7 @@ _SHARPEST, _FLATTEST = 1e-3, 1e3
 _LOOKS = 400
 """Directions along which a shape is looked at before it is used."""
 _ROUND_OFF = 1e-9
+_DERIVED = ("core", "_integrals", "_checked")
 
 
 class SupportShape(SmoothShape):
@@ -50,7 +51,7 @@ class SupportShape(SmoothShape):
     @functools.cached_property
     def core(self) -> tuple[float, ...]:
         """Half its extents [m], its middle [m], and where the engine finds its points."""
-        _check(self)
+        assert self._checked
         low, high = self.bounds
         half, (x, y, z) = (0.5 * (high - low)).tolist(), (0.5 * (low + high)).tolist()
         address, heap = bind_support(self, (x, y, z))
@@ -65,12 +66,17 @@ class SupportShape(SmoothShape):
 
     @functools.cached_property
     def _integrals(self) -> tuple[float, Vector, Vector]:
-        _check(self)
+        assert self._checked
         return integrals_over(self.drawing)
+
+    @functools.cached_property
+    def _checked(self) -> bool:
+        _check(self)
+        return True
 
     def __getstate__(self) -> dict[str, Any]:
         # an address is one of this process
-        return {name: value for name, value in vars(self).items() if name not in ("core", "_integrals")}
+        return {name: value for name, value in vars(self).items() if name not in _DERIVED}
 
     @property
     def volume(self) -> float:
@@ -117,8 +123,8 @@ def _check(shape: SupportShape) -> None:
         raise InvalidInput(
             name, "must not depend on the length of the direction", twice, "Divide by np.linalg.norm(direction)."
         )
-    radii = radii_along(shape.support, directions) / size
-    least, most = float(np.min(radii)), float(np.max(radii))
+    least = least_radius(shape.support, directions) / size
+    most = largest_radius(shape.support, directions, np.array(points)) / size
     if not least >= _SHARPEST:
         raise InvalidInput(
             name,
