@@ -153,8 +153,7 @@ def test_rates_and_second_order_terms_are_the_derivatives(one: str, two: str) ->
 
 
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
-@pytest.mark.parametrize("name", GIVEN)
-@pytest.mark.parametrize("other", ["plate", "box", "mesh", "ellipsoid"])
+@pytest.mark.parametrize(("name", "other"), [("sum", "plate"), ("lens", "box"), ("lens", "mesh"), ("egg", "ellipsoid")])
 def test_bouncing_keeps_the_energy(name: str, other: str) -> None:
     """Two hundred impacts without loss."""
     grounds = {
