@@ -24,6 +24,7 @@ from bodies.contacts.surface_search import (
     box_square,
     depth_inside,
     face_height,
+    has_patch,
     in_triangle,
     nearest_in_patch,
     over_ends,
@@ -243,7 +244,8 @@ def _nearest(
         node = 0
         while node < int(surface[N_NODES]):
             at = nodes + NODE * node
-            if math.sqrt(box_square(surface, at, x, y, z)) - size > best or _above_box(surface, at, aim) > best:
+            far = math.sqrt(box_square(surface, at, x, y, z)) - size > best or _above_box(surface, at, aim) > best
+            if far or not has_patch(surface, at, patch):
                 node = int(surface[at + 6])
                 continue
             for i in range(int(surface[at + 8])):

@@ -15,7 +15,7 @@ import numpy as np
 
 from nonsmooth.engine.kernel import PLAIN, address_of, at, call_scalar, jit
 from nonsmooth.errors import RunsInPython, UnknownName
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.fingerprint import fingerprint
 from nonsmooth.plugins.refusal import Refusal, refusal
@@ -110,8 +110,8 @@ def bind(
         A plain function whose first arguments are those of ``ROLES[form]``.
     form : str
         One of ``ROLES``.
-    values : mapping of str to float or tuple of float
-        The parameters that the law's object and its surroundings offer; the function gets a tuple as a heap.
+    values : mapping of str to float, tuple of float or Table
+        The parameters that the law's object and its surroundings offer; the function gets tuples and tables as heaps.
     owner : str
         The law, for messages.
 
@@ -131,12 +131,15 @@ def bind(
     for name in names:
         if name not in values:
             raise UnknownName(f"{owner}: {described(function)}, asks for a parameter whose", name, values)
-    vectors = tuple(isinstance(values[name], tuple) for name in names)
+    vectors = _vectors(values, names)
     first = RECORDED.get(form, 0)
     heap: list[float] = [math.nan] * first + [0.0] * len(names)
     for i, name in enumerate(names, start=first):
         value = values[name]
-        if isinstance(value, tuple):
+        if isinstance(value, Table):
+            heap[i] = float(len(heap))
+            heap += value.numbers.tolist()
+        elif isinstance(value, tuple):
             heap[i] = float(len(heap))
             heap += [float(x) for x in value]
         else:
@@ -146,6 +149,10 @@ def bind(
         _warned.add(entry.address)
         _warn(function, owner, entry.refusal, interpreted.cost(entry.shim, tuple(heap)))
     return entry.address, tuple(heap)
+
+
+def _vectors(values: Mapping[str, Value], names: tuple[str, ...]) -> tuple[bool, ...]:
+    return tuple(isinstance(values[name], (tuple, Table)) for name in names)
 
 
 def refused(function: Callable[..., Any], form: str) -> Refusal | None:
@@ -165,7 +172,12 @@ def bind_in_python(
 
 def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float], name: str) -> int:
     """Return where a tuple begins in what :func:`bind` wants on the heap."""
-    return int(heap[RECORDED.get(form, 0) + parameter_names(function, form).index(name)])
+    return int(heap[parameter_place(function, form, name)])
+
+
+def parameter_place(function: Callable[..., Any], form: str, name: str) -> int:
+    """Return where the number of a parameter stands in what :func:`bind` wants on the heap."""
+    return RECORDED.get(form, 0) + parameter_names(function, form).index(name)
 
 
 _warned: set[int] = set()
@@ -214,7 +226,7 @@ def in_python(
 
     ``move(heap, offset)`` stands in the place of moved pointers.
     """
-    vectors = tuple(isinstance(values[name], tuple) for name in parameter_names(function, form))
+    vectors = _vectors(values, parameter_names(function, form))
     scope = {"law": interpreted.in_python(function, move), "at": move}
     return _made(_SHIM.format(**_parts(form, vectors), ending=""), scope)
 
