@@ -12,10 +12,11 @@ import numpy as np
 
 from bodies.meshes.features import Features
 from bodies.meshes.topology import Integers
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 
-_AT_ONCE = 2000
-"""Faces that are looked at together."""
+_AT_ONCE, MOST_PAIRS = 1_000_000, 200_000_000
+"""Pairs of near faces that are looked at together, and more of which are refused."""
 Reach: TypeAlias = Callable[[Integers, Integers], Vector]
 _ABOVE = 1e-9
 """Height over a plane, in sizes of the surface, from which a face counts as standing out of it."""
@@ -123,7 +124,10 @@ def _conflicts(features: Features, most: float, reach: Reach) -> list[set[int]]:
     points, starts = _points(features)
     low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
     least = _ABOVE * features.size
-    for one, two in _near(0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1), _AROUND * most + least):
+    rising = np.flatnonzero(_highest(features) > least)
+    middles, radii = 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
+    for pair in _near(middles[rising], radii[rising], _AROUND * most + least):
+        one, two = rising[pair[0]], rising[pair[1]]
         apart = np.linalg.norm(np.maximum(np.maximum(low[two] - high[one], low[one] - high[two]), 0.0), axis=1)
         close = apart <= _AROUND * reach(one, two) + least
         for a, b in ((one, two), (two, one)):
@@ -133,6 +137,15 @@ def _conflicts(features: Features, most: float, reach: Reach) -> list[set[int]]:
             found[a].add(b)
             found[b].add(a)
     return found
+
+
+def _highest(features: Features) -> Vector:
+    """Return how far the surface reaches over the plane of each face [m], shape [k]: 0 on its convex hull."""
+    from scipy.spatial import ConvexHull
+
+    tips, planes = features.vertices[ConvexHull(features.vertices).vertices], features.planes
+    chunks = np.array_split(planes, 1 + len(planes) * len(tips) // _AT_ONCE)
+    return np.concatenate([np.max(chunk[:, :3] @ tips.T, axis=1) for chunk in chunks]) - planes[:, 3]
 
 
 def _points(features: Features) -> tuple[Vector, Integers]:
@@ -155,10 +168,18 @@ def _height(points: Vector, starts: Integers, planes: Vector, faces: Integers) -
 
 
 def _near(middles: Vector, radii: Vector, reach: float) -> Iterator[tuple[Integers, Integers]]:
-    """Yield arrays of the numbers of balls that are no farther than a reach [m] from each other, each pair once."""
+    """Yield arrays of the numbers of balls that are no farther than a reach [m] from each other, each pair once.
+
+    Raises
+    ------
+    InvalidInput
+        If there are more than :data:`MOST_PAIRS`.
+    """
     from scipy.spatial import cKDTree
 
-    order = np.argsort(radii, kind="stable")
+    if len(middles) == 0:
+        return
+    total, order = 0, np.argsort(radii, kind="stable")
     # of about one size together, so that a large ball does not widen the search of all
     sizes = np.searchsorted(radii[order], np.max(radii) * 0.25 ** np.arange(6)[::-1], side="right")
     for begin, end in itertools.pairwise((0, *sizes.tolist())):
@@ -166,8 +187,19 @@ def _near(middles: Vector, radii: Vector, reach: float) -> Iterator[tuple[Intege
         if len(group) == 0:
             continue
         tree, others = cKDTree(middles[group]), order[:end]
-        for chunk in np.array_split(others, 1 + len(others) // _AT_ONCE):
-            found = tree.query_ball_point(middles[chunk], reach + radii[chunk] + radii[group[-1]])
+        far = reach + radii[others] + radii[group[-1]]
+        counts = np.cumsum(tree.query_ball_point(middles[others], far, return_length=True))
+        total += int(counts[-1])
+        if total > MOST_PAIRS:
+            raise InvalidInput(
+                "a mesh that is not convex",
+                f"must have at most {MOST_PAIRS} pairs of faces that a body of this size may touch at once",
+                total,
+                "Take a coarser mesh, or give its body a decomposition into convex pieces.",
+            )
+        ends = np.searchsorted(counts, np.arange(_AT_ONCE, total + _AT_ONCE, _AT_ONCE))
+        for chunk, reached in zip(np.split(others, ends), np.split(far, ends), strict=True):
+            found = tree.query_ball_point(middles[chunk], reached)
             one = np.repeat(chunk, [len(near) for near in found])
             two = group[np.fromiter(itertools.chain.from_iterable(found), dtype=np.int64, count=len(one))]
             # those of one group come twice

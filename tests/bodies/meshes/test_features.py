@@ -10,8 +10,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from bodies.meshes import patches as patches_module
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import patches_for_ball, patches_for_body
+from nonsmooth import InvalidInput
 from tests.bodies.meshes.parts import box, bracket, hills, torus
 
 Array = NDArray[Any]
@@ -104,3 +106,11 @@ def test_a_patch_has_no_two_faces_that_a_ball_touches_at_once(mesh: Any, radius:
             assert over <= least or apart > reach
             together += 1
     assert together > 0
+
+
+def test_surfaces_too_fine_for_a_body_are_refused_with_their_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where too many faces may be touched at once; a convex surface has none, however fine."""
+    monkeypatch.setattr(patches_module, "MOST_PAIRS", 20)
+    with pytest.raises(InvalidInput, match=r"at most 20 pairs of faces.*decomposition"):
+        patches_for_ball(features_of(*torus()), 0.5)
+    assert patches_for_ball(features_of(*box()), 0.5).count == 1
