@@ -1,0 +1,134 @@
+"""Library: how any library is asked, and what becomes of its answer."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from typing import final
+
+import numpy as np
+
+from bodies.meshes.integrals import winding_number
+from bodies.queries.aligned import aligned_boxes
+from bodies.queries.geometries import MAKERS, Geometries, Made
+from bodies.shapes.box import Box
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.errors import DoubtfulDistance
+from nonsmooth.interfaces import ConvexShape, Shape
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.distance_backend import Place, Separation
+
+_DOUBT = 1e-3
+"""Part of distance and size by which an answer may exceed the lower bound, which is no better than the direction."""
+_BELOW = 1e-7
+"""The same by which it may be below, and what an answer may be off: points of the bodies are no better."""
+_LEAST = 1e-12
+"""Distance [m] at which a library does not tell any more whether bodies overlap."""
+
+
+class Library(Geometries):
+    """A library that is asked for unsigned distances only; subclasses are final, one for each.
+
+    Errors of the distance are mostly below 1e-9 m for bodies of centimetres; what is stated is 1e-7 of distance and
+    size.  Points may be off by the square root of that.
+    """
+
+    @abstractmethod
+    def unsigned(self, first: Made, one: Place, second: Made, two: Place) -> tuple[float, Vector, Vector]:
+        """Return the distance of two geometries at two places [m], and nearest points in the same axes.
+
+        A distance that is not positive stands for an overlap.  A mesh is asked for its distance to another shape, not
+        the other way round.
+        """
+
+    @final
+    def solid(self, shape: Shape) -> Made | None:
+        """Return the shape as an object of the library; None if it has no such kind."""
+        make = MAKERS.get(type(shape))
+        return None if make is None else make(self, shape)
+
+    @final
+    def separation(self, first: Made, one: Place, second: Made, two: Place) -> Separation:
+        """Return the distance of two solids and where they are nearest."""
+        if _is_mesh(second) and not _is_mesh(first):
+            # the other order gives points in swapped places
+            back = self.separation(second, two, first, one)
+            return Separation(back.overlap, back.distance, back.error, back.second, back.first, -back.normal)
+        origin = 0.5 * (one[0] + two[0])
+        places = _stands(first, one, origin), _stands(second, two, origin)
+        if _inside(first, one, places[1][0] + origin) or _inside(second, two, _some(first, places[0], origin)):
+            return _OVERLAP
+        distance, p, q = self._found(first, places[0], second, places[1])
+        if not distance > _LEAST:
+            return _OVERLAP
+        normal = self._judged(first, one, second, two, distance, q - p)
+        whole = distance - first.sweep - second.sweep
+        error = _BELOW * (distance + _size(first, second))
+        p, q = p + origin + first.sweep * normal, q + origin - second.sweep * normal
+        return Separation(False, whole, error, p, q, normal)
+
+    def _found(self, first: Made, one: Place, second: Made, two: Place) -> tuple[float, Vector, Vector]:
+        if isinstance(first.shape, Box) and isinstance(second.shape, Box):
+            found = aligned_boxes(one, np.array(first.shape.core_sizes), two, np.array(second.shape.core_sizes))
+            if found is not None:
+                return found
+        return self.unsigned(first, one, second, two)
+
+    def _judged(self, first: Made, one: Place, second: Made, two: Place, distance: float, way: Vector) -> Vector:
+        """Return the normal of two cores, unless what is known of them contradicts their distance."""
+        library = type(self).__name__
+        names = f"{type(first.shape).__name__}-{type(second.shape).__name__}"
+        apart = float(np.linalg.norm(way))
+        if not abs(apart - distance) <= _DOUBT * distance + _LEAST:
+            raise DoubtfulDistance(
+                f"{library}: the distance of {names} is {distance:.6g} m, that of its points {apart:.6g} m."
+            )
+        normal = way / apart
+        if isinstance(first.shape, ConvexShape) and isinstance(second.shape, ConvexShape):
+            low = two[0] + two[1] @ second.shape.support(two[1].T @ -normal)
+            high = one[0] + one[1] @ first.shape.support(one[1].T @ normal)
+            lower = float(normal @ (low - high)) + first.sweep + second.sweep
+            if lower <= 0.0:
+                raise DoubtfulDistance(
+                    f"{library}: it says that {names} are {distance:.3g} m apart, but no plane across its line parts "
+                    "them: whether they overlap remains open."
+                )
+            scale = distance + _size(first, second)
+            if not -_BELOW * scale <= distance - lower <= _DOUBT * scale:
+                raise DoubtfulDistance(
+                    f"{library}: it says that {names} are {distance:.6g} m apart, but support functions along its line "
+                    f"give {lower:.6g} m at least, which is not what nearest points give."
+                )
+        return normal
+
+
+_NOWHERE = np.full(3, math.nan)
+_OVERLAP = Separation(True, math.nan, math.nan, _NOWHERE, _NOWHERE, _NOWHERE)
+
+
+def _is_mesh(solid: Made) -> bool:
+    return isinstance(solid.shape, TriangleMesh)
+
+
+def _size(first: Made, second: Made) -> float:
+    return min(first.shape.extent, second.shape.extent)
+
+
+def _stands(solid: Made, place: Place, origin: Vector) -> Place:
+    """Return where the geometry stands, its place from ``origin`` [m]."""
+    return place[0] - origin + place[1] @ solid.place, place[1] @ solid.axes
+
+
+def _inside(solid: Made, place: Place, point: Vector) -> bool:
+    """Return whether a point is inside of a mesh: for a library a mesh is a hollow surface."""
+    if not isinstance(solid.shape, TriangleMesh):
+        return False
+    vertices, faces = solid.shape.drawing()
+    return winding_number(vertices, faces, place[1].T @ (point - place[0])) > 0.5
+
+
+def _some(solid: Made, place: Place, origin: Vector) -> Vector:
+    """Return a point of a solid in the world."""
+    if isinstance(solid.shape, TriangleMesh):
+        return np.asarray(origin + place[0] + place[1] @ solid.shape.drawing()[0][0])
+    return np.asarray(origin + place[0])
