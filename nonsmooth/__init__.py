@@ -10,6 +10,7 @@ from nonsmooth.interfaces import Criterion
 from nonsmooth.model.options import Options
 from nonsmooth.placing import at_height, resting, touching
 from nonsmooth.queries.distance import distance
+from nonsmooth.queries.proximity import proximity
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.materials import ContactLaws, Materials
@@ -36,6 +37,7 @@ __all__ = [
     "at_height",
     "distance",
     "load_system",
+    "proximity",
     "resting",
     "save_system",
     "simulate",
