@@ -33,6 +33,11 @@ class Coal(Library):
         """Whether coal is there."""
         return importlib.util.find_spec("coal") is not None
 
+    @property
+    def part(self) -> float:
+        """Of ellipsoids beside boxes and cylinders 3e-8 m was met for bodies of a centimetre."""
+        return 1e-5
+
     def ball(self, radius: float) -> Any:
         """Return a ball."""
         import coal
