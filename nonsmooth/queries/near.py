@@ -21,7 +21,7 @@ def places_at_start(system: System) -> list[list[Place]]:
 def near_bodies(
     bodies: Sequence[Body], places: Sequence[Sequence[Place]], margins: Vector
 ) -> Iterator[tuple[int, int]]:
-    """Yield the pairs of bodies whose boxes are no farther apart than the smaller of their margins, lower number first.
+    """Yield the pairs of bodies whose boxes meet, each enlarged by a margin of its own, the lower number first.
 
     Pairs of driven bodies and bodies without shapes are left out.
 
@@ -32,7 +32,7 @@ def near_bodies(
     places : sequence
         Where the frames of each stand.
     margins : Vector
-        For either body [m], shape [n].
+        Those of all bodies [m], shape [n].
     """
     low, high = (np.array(corners) for corners in zip(*map(_box, bodies, places), strict=True))
     low, high = low - margins[:, None], high + margins[:, None]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -74,7 +74,8 @@ def proximity(system: System, within: float | None = None) -> tuple[NearPair, ..
     bodies, places, ties = system.bodies, places_at_start(system), Ties.of(system)
     sizes = np.array([size_of(body) for body in bodies])
     # whoever is unbounded is as near as the other one allows
-    margins = np.where(np.isfinite(sizes), _PART * sizes, 0.0) if within is None else np.full(len(bodies), within)
+    finite = np.where(np.isfinite(sizes), sizes, 0.0)
+    margins = np.maximum(_PART * finite if within is None else within, _touching(finite))
     found = []
     for i, j in near_bodies(bodies, places, margins):
         if not any(math.isfinite(shape.extent) for k in (i, j) for shapes in bodies[k].frames for shape in shapes):
@@ -82,11 +83,16 @@ def proximity(system: System, within: float | None = None) -> tuple[NearPair, ..
         pair = BodyPair(bodies[i].frames, bodies[j].frames, quick=True)
         gap = pair.at(places[i], places[j])
         size = min(sizes[i], sizes[j])
-        if gap.gap > (_PART * size if within is None else within):
+        touching = float(_touching(size))
+        if gap.gap > max(_PART * size if within is None else within, touching):
             continue
-        touching = max(1e-9, 1e-6 * size)
         state = NEAR if gap.gap > touching else TOUCHING if gap.gap >= -touching else OVERLAPPING
         key = frozenset((i, j))
         said = key in ties.declared, ties.same_mechanism(i, j), key in ties.excluded
         found.append(NearPair((bodies[i], bodies[j]), (i, j), state, *said, gap))
     return tuple(sorted(found, key=lambda one: one.distance.gap))
+
+
+def _touching(size: Any) -> Any:
+    """Return by how much bodies may be apart or overlap that touch [m]: what the start of a run allows."""
+    return np.maximum(1e-9, 1e-6 * size)
