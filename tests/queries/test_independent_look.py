@@ -36,8 +36,8 @@ def test_no_gap_is_wrong(kind: str) -> None:
 
 def test_a_wrong_gap_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ours a ten-thousandth of a millimetre off, on either side."""
+    real = Contacts.least
     for off in (1e-7, -1e-7):
-        real = Contacts.least
 
         def shifted(self: Contacts, one: Place, two: Place, off: float = off) -> DistanceResult | None:
             found = real(self, one, two)
@@ -52,10 +52,7 @@ def test_corners_without_a_contact_are_told_from_wrong_gaps() -> None:
     """Two cubes corner to corner have none; a corner over a face, crossed edges and balls have one."""
     cube, ball, here = Box(0.01, 0.01, 0.01), Sphere(0.01), (np.zeros(3), np.eye(3))
     corner = Rotation.align_vectors([[0.0, 0.0, -1.0]], [[1.0, 1.0, 1.0]])[0].as_matrix()
-    edges = [
-        Rotation.from_euler("x", 45, degrees=True).as_matrix(),
-        Rotation.from_euler("y", 45, degrees=True).as_matrix(),
-    ]
+    edges = [Rotation.from_euler(axis, 45, degrees=True).as_matrix() for axis in "xy"]
     for shapes, one, two, none in (
         ((cube, cube), here, (np.array([0.03, 0.03, 0.03]), np.eye(3)), True),
         ((cube, cube), here, (np.array([0.002, 0.001, 0.04]), corner), False),
