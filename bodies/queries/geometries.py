@@ -41,6 +41,8 @@ class Made:
         Where that stands in the body [m], shape [3], and its axes as columns, shape [3, 3].
     sweep : float
         Radius by which the core is rounded [m].
+    point : Vector
+        A point of the core in the body [m], shape [3].
     """
 
     shape: Shape
@@ -48,6 +50,7 @@ class Made:
     place: Vector
     axes: Vector
     sweep: float
+    point: Vector
 
 
 class Geometries(DistanceBackend):
@@ -89,43 +92,48 @@ class Geometries(DistanceBackend):
 _HERE = np.zeros(3), np.eye(3)
 
 
+def _about(shape: Shape, geometry: Any, middle: Vector, axes: Vector, sweep: float = 0.0) -> Made:
+    return Made(shape, geometry, middle, axes, sweep, middle)
+
+
 def _sphere(library: Geometries, shape: Sphere) -> Made:
-    return Made(shape, library.ball(shape.radius), _centre(shape), np.eye(3), 0.0)
+    return _about(shape, library.ball(shape.radius), _centre(shape), np.eye(3))
 
 
 def _box(library: Geometries, shape: Box) -> Made:
     x, y, z = shape.core_sizes
-    return Made(shape, library.box((2.0 * x, 2.0 * y, 2.0 * z)), _centre(shape), _turn(shape), shape.rounding)
+    return _about(shape, library.box((2.0 * x, 2.0 * y, 2.0 * z)), _centre(shape), _turn(shape), shape.rounding)
 
 
 def _capsule(library: Geometries, shape: Capsule) -> Made:
     geometry = library.capsule(shape.radius, 2.0 * shape.half_length)
-    return Made(shape, geometry, _centre(shape), _along(shape), 0.0)
+    return _about(shape, geometry, _centre(shape), _along(shape))
 
 
 def _cylinder(library: Geometries, shape: Cylinder) -> Made:
     radius, half = shape.core_sizes
-    return Made(shape, library.cylinder(radius, 2.0 * half), _centre(shape), _along(shape), shape.rounding)
+    return _about(shape, library.cylinder(radius, 2.0 * half), _centre(shape), _along(shape), shape.rounding)
 
 
 def _cone(library: Geometries, shape: Cone) -> Made:
     (radius, height), axes = shape.core_sizes, _along(shape)
     middle = _centre(shape) + (shape.rounding + 0.5 * height) * axes[:, 2]
-    return Made(shape, library.cone(radius, height), middle, axes, shape.rounding)
+    return _about(shape, library.cone(radius, height), middle, axes, shape.rounding)
 
 
 def _ellipsoid(library: Geometries, shape: Ellipsoid) -> Made:
     geometry = library.ellipsoid((shape.semi_x, shape.semi_y, shape.semi_z))
-    return Made(shape, geometry, _centre(shape), _turn(shape), 0.0)
+    return _about(shape, geometry, _centre(shape), _turn(shape))
 
 
 def _hull(library: Geometries, shape: ConvexHull) -> Made:
-    corners = np.array(shape.core.vertices), np.array(shape.core.triangles)
-    return Made(shape, library.hull(*_checked(library, *corners)), *_HERE, shape.rounding)
+    vertices, faces = _checked(library, np.array(shape.core.vertices), np.array(shape.core.triangles))
+    return Made(shape, library.hull(vertices, faces), *_HERE, shape.rounding, vertices[0])
 
 
 def _mesh(library: Geometries, shape: TriangleMesh) -> Made:
-    return Made(shape, library.mesh(*_checked(library, *shape.drawing())), *_HERE, 0.0)
+    vertices, faces = _checked(library, *shape.drawing())
+    return Made(shape, library.mesh(vertices, faces), *_HERE, 0.0, vertices[0])
 
 
 MAKERS: Mapping[type[Shape], Callable[[Geometries, Any], Made]] = {

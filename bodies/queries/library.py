@@ -61,7 +61,7 @@ class Library(Geometries):
             return Separation(back.overlap, back.distance, back.error, back.second, back.first, -back.normal)
         origin = 0.5 * (one[0] + two[0])
         places = _stands(first, one, origin), _stands(second, two, origin)
-        if _inside(first, one, places[1][0] + origin) or _inside(second, two, _some(first, places[0], origin)):
+        if _inside(first, one, _some(second, two)) or _inside(second, two, _some(first, one)):
             return _OVERLAP
         distance, p, q = self._found(first, places[0], second, places[1])
         if not distance > _LEAST:
@@ -128,12 +128,12 @@ def _inside(solid: Made, place: Place, point: Vector) -> bool:
     """Return whether a point is inside of a mesh: for a library a mesh is a hollow surface."""
     if not isinstance(solid.shape, TriangleMesh):
         return False
-    vertices, faces = solid.shape.drawing()
-    return winding_number(vertices, faces, place[1].T @ (point - place[0])) > 0.5
+    own, (low, high) = place[1].T @ (point - place[0]), solid.shape.bounds
+    if np.any(own < low) or np.any(own > high):
+        return False
+    return winding_number(*solid.shape.drawing(), own) > 0.5
 
 
-def _some(solid: Made, place: Place, origin: Vector) -> Vector:
+def _some(solid: Made, place: Place) -> Vector:
     """Return a point of a solid in the world."""
-    if isinstance(solid.shape, TriangleMesh):
-        return np.asarray(origin + place[0] + place[1] @ solid.shape.drawing()[0][0])
-    return np.asarray(origin + place[0])
+    return np.asarray(place[0] + place[1] @ solid.point)

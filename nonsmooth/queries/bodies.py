@@ -12,7 +12,7 @@ import numpy as np
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.distance_backend import Place
-from nonsmooth.queries.pair import ShapePair
+from nonsmooth.queries.pair import ShapePair, shape_pair
 from nonsmooth.queries.result import DistanceResult
 
 Carried = Sequence[Sequence[Shape]]
@@ -59,7 +59,7 @@ class BodyPair:
 
     def _pair(self, i: int, j: int, one: Shape, two: Shape) -> ShapePair:
         if (i, j) not in self._pairs:
-            self._pairs[i, j] = ShapePair(one, two, self._by, self._quick)
+            self._pairs[i, j] = shape_pair(one, two, self._by, self._quick)
         return self._pairs[i, j]
 
     def at(self, first: Sequence[Place], second: Sequence[Place]) -> DistanceResult:

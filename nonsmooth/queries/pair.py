@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 from typing import final
 
@@ -131,6 +132,26 @@ class ShapePair:
         if found is None:
             raise NoDistance(f"The distance of {self._names} cannot be told by {self._by or EXACT!r}: {why}.")
         return found
+
+
+def shape_pair(first: Shape, second: Shape, by: str | None, quick: bool) -> ShapePair:
+    """Return two shapes, ready to be asked: equal ones of the last questions still are.
+
+    Raises
+    ------
+    InvalidInput, MissingPackagesError
+        As :class:`ShapePair`.
+    """
+    try:
+        hash((first, second))
+    except TypeError:
+        return ShapePair(first, second, by, quick)
+    return _ready(first, second, by, quick)
+
+
+@functools.lru_cache(maxsize=32)
+def _ready(first: Shape, second: Shape, by: str | None, quick: bool) -> ShapePair:
+    return ShapePair(first, second, by, quick)
 
 
 def _within(found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
