@@ -6,8 +6,9 @@ alone, FCL, and coal where it is installed.  PAIR is one of them, or a kind, as 
 
 Sharp edges and corners have contacts where their nearest features stay the nearest under small motions: a face and a
 corner, edges that cross.  Of a corner beside a corner or an edge there is none, as bodies that meet there meet by
-others before; then the least gap that faces is another, or there is none.  Such poses, told by nearest points that
-stay where they are on both bodies while their normal makes small turns, are counted apart.
+others before; then the least gap that faces is another, or there is none.  Nor is there one of an edge and a rim less
+than 0.01 rad from parallel.  Such poses, told by nearest points that hardly move on either body while their normal
+makes small turns about some axis, are counted apart.
 """
 
 from __future__ import annotations
@@ -39,8 +40,8 @@ Array = NDArray[np.float64]
 WRONG = 1e-9
 """Error of ours that counts [m]."""
 _PER_SHAPES = 50
-_SMALL = 1e-6
-"""Radius of curvature that counts as none [m]."""
+_SMALL = 2e-5
+"""Radius of curvature that counts as none, that of an edge along a rim included [m]."""
 DRAWN: dict[str, Callable[[Generator], Shape]] = {
     "plane": lambda rng: Plane(float(rng.uniform(-0.01, 0.01))),
     "sphere": touches.sphere,
@@ -150,7 +151,7 @@ def _corners(shape: Shape, place: Place, point: Array) -> Callable[[Array], Arra
 
 
 def has_no_contact(shapes: tuple[Shape, Shape], one: Place, two: Place, found: DistanceResult) -> bool:
-    """Return whether the nearest points stay where they are for some turn of the normal."""
+    """Return whether the nearest points hardly move for some turn of the normal."""
     if shapes[0].solid is None:
         return False
     first, second = (
