@@ -36,8 +36,8 @@ class Fcl(Library):
 
     @property
     def part(self) -> float:
-        """A millionth: of rims of cylinders and cones 4e-9 m was met for bodies of a centimetre."""
-        return 1e-6
+        """Of cones beside hulls 6e-7 m was met for bodies of a centimetre."""
+        return 1e-4
 
     def ball(self, radius: float) -> Any:
         """Return a ball."""

@@ -12,6 +12,8 @@ from bodies.meshes.integrals import winding_number
 from bodies.queries.aligned import aligned_boxes
 from bodies.queries.geometries import MAKERS, Geometries, Made
 from bodies.shapes.box import Box
+from bodies.shapes.hull import ConvexHull
+from bodies.shapes.sphere import Sphere
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import DoubtfulDistance
 from nonsmooth.interfaces import ConvexShape, Shape
@@ -22,6 +24,8 @@ _DOUBT = 1e-3
 """Part of distance and size by which an answer may exceed the lower bound, which is no better than the direction."""
 _BELOW = 1e-7
 """The same by which it may be below: points of the bodies are not."""
+_FLAT = TriangleMesh, ConvexHull, Box, Sphere
+"""Kinds of which libraries tell distances to round-off, beside one another."""
 _LEAST = 1e-12
 """Distance [m] at which a library does not tell any more whether bodies overlap."""
 
@@ -29,14 +33,15 @@ _LEAST = 1e-12
 class Library(Geometries):
     """A library that is asked for unsigned distances only; subclasses are final, one for each.
 
-    Errors of the distance of centimetres are mostly below 1e-11 m; what is stated is the worst that was met in a
-    million poses, and more.  Points may be off by the square root of that, relative to the size.
+    Errors of the distance of centimetres are mostly below 1e-11 m.  What is stated is, of convex solids, how far the
+    distance is from a lower bound by support functions; of meshes the worst that was met in many poses, and more.
+    Points may be off by the square root of that, relative to the size.
     """
 
     @property
     @abstractmethod
     def part(self) -> float:
-        """By how much its distances may be off, relative to distance and size."""
+        """By how much distances of meshes and round solids may be off, relative to distance and size."""
 
     @abstractmethod
     def unsigned(self, first: Made, one: Place, second: Made, two: Place) -> tuple[float, Vector, Vector]:
@@ -66,9 +71,11 @@ class Library(Geometries):
         distance, p, q = self._found(first, places[0], second, places[1])
         if not distance > _LEAST:
             return _OVERLAP
-        normal = self._judged(first, one, second, two, distance, q - p)
+        normal, above = self._judged(first, one, second, two, distance, q - p)
         whole = distance - first.sweep - second.sweep
-        error = self.part * (distance + _size(first, second))
+        flat = isinstance(first.shape, _FLAT) and isinstance(second.shape, _FLAT)
+        part = max(self.part, _BELOW) if above is None and not flat else _BELOW
+        error = max(above or 0.0, part * (distance + _size(first, second)))
         p, q = p + origin + first.sweep * normal, q + origin - second.sweep * normal
         return Separation(False, whole, error, p, q, normal)
 
@@ -79,8 +86,16 @@ class Library(Geometries):
                 return found
         return self.unsigned(first, one, second, two)
 
-    def _judged(self, first: Made, one: Place, second: Made, two: Place, distance: float, way: Vector) -> Vector:
-        """Return the normal of two cores, unless what is known of them contradicts their distance."""
+    def _judged(
+        self, first: Made, one: Place, second: Made, two: Place, distance: float, way: Vector
+    ) -> tuple[Vector, float | None]:
+        """Return the normal of two cores, and how far above a bound their distance is if they are convex.
+
+        Raises
+        ------
+        DoubtfulDistance
+            If what is known of them contradicts the distance.
+        """
         library = type(self).__name__
         names = f"{type(first.shape).__name__}-{type(second.shape).__name__}"
         apart = float(np.linalg.norm(way))
@@ -89,22 +104,21 @@ class Library(Geometries):
                 f"{library}: the distance of {names} is {distance:.6g} m, that of its points {apart:.6g} m."
             )
         normal = way / apart
-        if isinstance(first.shape, ConvexShape) and isinstance(second.shape, ConvexShape):
-            low = two[0] + two[1] @ second.shape.support(two[1].T @ -normal)
-            high = one[0] + one[1] @ first.shape.support(one[1].T @ normal)
-            lower = float(normal @ (low - high)) + first.sweep + second.sweep
-            if lower <= 0.0:
-                raise DoubtfulDistance(
-                    f"{library}: it says that {names} are {distance:.3g} m apart, but no plane across its line parts "
-                    "them: whether they overlap remains open."
-                )
-            scale = distance + _size(first, second)
-            if not -_BELOW * scale <= distance - lower <= _DOUBT * scale:
-                raise DoubtfulDistance(
-                    f"{library}: it says that {names} are {distance:.6g} m apart, but support functions along its line "
-                    f"give {lower:.6g} m at least, which is not what nearest points give."
-                )
-        return normal
+        if not (isinstance(first.shape, ConvexShape) and isinstance(second.shape, ConvexShape)):
+            return normal, None
+        lower = _between(first, one, second, two, normal)
+        if lower <= 0.0:
+            raise DoubtfulDistance(
+                f"{library}: it says that {names} are {distance:.3g} m apart, but no plane across its line parts them: "
+                "whether they overlap remains open."
+            )
+        scale = distance + _size(first, second)
+        if not -_BELOW * scale <= distance - lower <= _DOUBT * scale:
+            raise DoubtfulDistance(
+                f"{library}: it says that {names} are {distance:.6g} m apart, but support functions along its line "
+                f"give {lower:.6g} m at least, which is not what nearest points give."
+            )
+        return normal, max(distance - lower, 0.0)
 
 
 _NOWHERE = np.full(3, math.nan)
@@ -117,6 +131,15 @@ def _is_mesh(solid: Made) -> bool:
 
 def _size(first: Made, second: Made) -> float:
     return min(first.shape.extent, second.shape.extent)
+
+
+def _between(first: Made, one: Place, second: Made, two: Place, normal: Vector) -> float:
+    """Return how far apart planes across a normal are that part the cores of convex solids [m]."""
+    assert isinstance(first.shape, ConvexShape)
+    assert isinstance(second.shape, ConvexShape)
+    low = two[0] + two[1] @ second.shape.support(two[1].T @ -normal)
+    high = one[0] + one[1] @ first.shape.support(one[1].T @ normal)
+    return float(normal @ (low - high)) + first.sweep + second.sweep
 
 
 def _stands(solid: Made, place: Place, origin: Vector) -> Place:
