@@ -53,7 +53,7 @@ def warn_of_overlaps(system: System) -> None:
         "Declare their contact by system.contact(...), or say by system.exclude(first, second) that they do not touch. "
         "nonsmooth.proximity(system) lists all pairs.",
         UndeclaredOverlap,
-        stacklevel=4,
+        stacklevel=3,
     )
 
 
