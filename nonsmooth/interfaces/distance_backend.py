@@ -15,7 +15,7 @@ Place: TypeAlias = tuple[Vector, Vector]
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Separation:
     """How far two solids are from each other, as a library tells.
 

@@ -47,11 +47,14 @@ class BodyPair:
         if not all(sides):
             raise InvalidInput("distance", "needs bodies that carry shapes", None, "Without a shape nothing is near.")
         self._by, self._quick = by, quick
-        self._numbered = [
+        numbered = [
             ((i, j), frame, other, one, two)
             for i, (frame, one) in enumerate(sides[0])
             for j, (other, two) in enumerate(sides[1])
         ]
+        # two planes have no nearest points: where bodies have other shapes these count, else it is an error
+        bounded = [pair for pair in numbered if math.isfinite(min(pair[3].extent, pair[4].extent))]
+        self._numbered = bounded or numbered[:1]
         # a pair that nothing knows is told of at once, the others are made ready when they are near
         self._pairs: dict[tuple[int, int], ShapePair] = {}
         if len(self._numbered) == 1:

@@ -40,11 +40,10 @@ class Contacts:
         kinematics, self._in_order = found
         contacts = kinematics.between(*((first, second) if self._in_order else (second, first)))
         self._calls = [pair_caller(one.evaluator, one.parameters(), type(one).__name__) for one in contacts]
-        self._blocks = np.zeros(FRAME), np.zeros(FRAME), np.zeros(GEOMETRY)
 
     def least(self, one: Place, two: Place) -> DistanceResult | None:
         """Return the least gap that faces, None if none does; bounds are its own value, as nobody has proved it."""
-        a, b, out = self._blocks
+        a, b, out = np.zeros(FRAME), np.zeros(FRAME), np.zeros(GEOMETRY)
         for block, (position, axes) in zip((a, b), (one, two) if self._in_order else (two, one), strict=True):
             block[:3], block[3:12] = position, axes.ravel()
         best: Vector | None = None

@@ -14,7 +14,7 @@ EXACT, PLANES = "exact", "planes"
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DistanceResult:
     """How far two bodies or shapes are from each other.
 
@@ -58,7 +58,7 @@ class DistanceResult:
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DistanceHistory:
     """How far two bodies are from each other at the samples of a run; what its parts are says :class:`DistanceResult`.
 

@@ -69,6 +69,7 @@ class System:
         self._declared: list[Declaration] = []
         self._paired: set[_ShapePair] = set()
         self._excluded: list[tuple[Body, Body]] = []
+        self._left_out: list[tuple[Body, Body]] = []
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
         self._guards: list[Guard] = []
@@ -110,8 +111,8 @@ class System:
 
     @property
     def excluded(self) -> tuple[tuple[Body, Body], ...]:
-        """The pairs of bodies of which was said that they do not touch."""
-        return tuple(self._excluded)
+        """The pairs of bodies that were said not to touch, and those that :meth:`contact_all` was to leave out."""
+        return (*self._excluded, *self._left_out)
 
     @property
     def guards(self) -> tuple[Guard, ...]:
@@ -344,7 +345,7 @@ class System:
         except InvalidInput:
             self._contacts, self._declared, self._paired = kept
             raise
-        self._excluded += apart
+        self._left_out += apart
         return tuple(self._contacts[added:])
 
     def exclude(self, first: Body, second: Body) -> None:

@@ -190,6 +190,10 @@ def test_bodies_and_their_shapes() -> None:
     wall = DrivenBody(Rest(position=(0.0, 0.0, -1.0)), (HalfSpace(),))
     assert ns.distance(wall, Ball(0.25)).gap == pytest.approx(0.75, abs=1e-15)
     assert ns.distance(wall, Ball(0.25), at=((0.0, 0.0, 0.0), None)).gap == pytest.approx(-0.25, abs=1e-15)
+    # planes of two bodies have no distance, their other shapes have
+    held = DrivenBody(Rest(position=(0.0, 0.0, 1.0)), (HalfSpace(-3.0), Sphere(0.5)))
+    assert ns.distance(wall, held).gap == pytest.approx(1.5, abs=1e-15)
+    assert ns.distance(wall, held).shapes == (0, 1)
 
 
 def test_a_mesh_with_too_many_features_for_contacts() -> None:

@@ -161,6 +161,21 @@ def test_nobody_is_warned_of_what_was_meant() -> None:
     assert not _warned(touching)
 
 
+def test_what_one_call_leaves_out_another_may_declare() -> None:
+    """Exclusions of `contact_all` are its own, those of `exclude` hold for all that follow."""
+    system = _row(1e-3, 1e-3)
+    _, one, two, three = system.bodies
+    laws = ns.Materials(default=ns.ContactLaws(**LAWS))
+    system.exclude(two, three)
+    system.contact_all(laws, bodies=[one, two, three], exclude=[(one, two)])
+    assert len(system.contacts) == 1
+    system.contact_all(laws, bodies=[one, two, three])
+    assert {frozenset(map(id, (c.first, c.second))) for c in system.contacts} == {
+        frozenset(map(id, pair)) for pair in ((one, two), (one, three))
+    }
+    assert set(system.excluded) == {(two, three), (one, two)}
+
+
 def test_bodies_through_one_another_are_found_without_a_corner_inside() -> None:
     """Crossed bars, and a ball inside of a mesh."""
     bars = [BoxBody(0.1, 0.01, 0.01), BoxBody(0.01, 0.1, 0.01)]
