@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -51,6 +52,17 @@ class Made:
     axes: Vector
     sweep: float
     point: Vector
+
+    @functools.cached_property
+    def extent(self) -> float:
+        """That of the shape [m]."""
+        return self.shape.extent
+
+    @functools.cached_property
+    def box(self) -> tuple[Vector, Vector]:
+        """Corners of a box in the body round the solid [m], shape [3] each."""
+        assert self.shape.solid is not None
+        return self.shape.solid.bounds
 
 
 class Geometries(DistanceBackend):

@@ -130,7 +130,7 @@ def _is_mesh(solid: Made) -> bool:
 
 
 def _size(first: Made, second: Made) -> float:
-    return min(first.shape.extent, second.shape.extent)
+    return min(first.extent, second.extent)
 
 
 def _between(first: Made, one: Place, second: Made, two: Place, normal: Vector) -> float:
@@ -151,7 +151,7 @@ def _inside(solid: Made, place: Place, point: Vector) -> bool:
     """Return whether a point is inside of a mesh: for a library a mesh is a hollow surface."""
     if not isinstance(solid.shape, TriangleMesh):
         return False
-    own, (low, high) = place[1].T @ (point - place[0]), solid.shape.bounds
+    own, (low, high) = place[1].T @ (point - place[0]), solid.box
     if np.any(own < low) or np.any(own > high):
         return False
     return winding_number(*solid.shape.drawing(), own) > 0.5

@@ -52,9 +52,11 @@ class BodyPair:
             for i, (frame, one) in enumerate(sides[0])
             for j, (other, two) in enumerate(sides[1])
         ]
-        # two planes have no nearest points: where bodies have other shapes these count, else it is an error
-        bounded = [pair for pair in numbered if math.isfinite(min(pair[3].extent, pair[4].extent))]
-        self._numbered = bounded or numbered[:1]
+        if len(numbered) > 1:
+            # two planes have no nearest points: where bodies have other shapes these count, else it is an error
+            bounded = [pair for pair in numbered if math.isfinite(min(pair[3].extent, pair[4].extent))]
+            numbered = bounded or numbered[:1]
+        self._numbered = numbered
         # a pair that nothing knows is told of at once, the others are made ready when they are near
         self._pairs: dict[tuple[int, int], ShapePair] = {}
         if len(self._numbered) == 1:
@@ -74,10 +76,12 @@ class BodyPair:
             If nothing tells it there.
         """
         # nearer than this no shapes are whose balls about the origins of their frames are so far apart
-        least = [
-            float(np.linalg.norm(first[frame][0] - second[other][0])) - one.extent - two.extent
-            for _, frame, other, one, two in self._numbered
-        ]
+        least = [0.0]
+        if len(self._numbered) > 1:
+            least = [
+                float(np.linalg.norm(first[frame][0] - second[other][0])) - one.extent - two.extent
+                for _, frame, other, one, two in self._numbered
+            ]
         best: DistanceResult | None = None
         for number in sorted(range(len(least)), key=least.__getitem__):
             if best is not None and least[number] > best.gap:
