@@ -9,11 +9,11 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, NoDistance
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.queries.pair import ShapePair, shape_pair
-from nonsmooth.queries.result import DistanceResult
+from nonsmooth.queries.result import EXACT, DistanceResult
 
 Carried = Sequence[Sequence[Shape]]
 """The shapes of every frame of a body."""
@@ -83,13 +83,22 @@ class BodyPair:
                 for _, frame, other, one, two in self._numbered
             ]
         best: DistanceResult | None = None
+        untold: NoDistance | None = None
         for number in sorted(range(len(least)), key=least.__getitem__):
             if best is not None and least[number] > best.gap:
                 break
             shapes, frame, other, one, two = self._numbered[number]
-            found = self._pair(*shapes, one, two).at(first[frame], second[other])
+            try:
+                found = self._pair(*shapes, one, two).at(first[frame], second[other])
+            except NoDistance as error:
+                # of contacts alone those count that face
+                if self._by != EXACT:
+                    raise
+                untold = error
+                continue
             if best is None or found.gap < best.gap:
                 best = replace(found, shapes=shapes)
-        assert best is not None
-        assert not math.isnan(best.gap)
+        if best is None:
+            assert untold is not None
+            raise untold
         return best

@@ -40,7 +40,7 @@ class ShapePair:
 
     def __init__(self, first: Shape, second: Shape, by: str | None = None, quick: bool = False) -> None:
         if by is not None and by not in (ways := (EXACT, PLANES, *library_names())):
-            raise UnknownName("way to find a distance", by, ways)
+            raise UnknownName("way to find a distance", str(by), ways)
         self._names = f"{type(first).__name__} and {type(second).__name__}"
         self._by, self._solids = by, (first.solid, second.solid)
         bounded = first.solid is not None and second.solid is not None

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import final
 
+from nonsmooth.interfaces import Body
 from nonsmooth.system.system import System
 
 Pairs = frozenset[frozenset[int]]
@@ -34,8 +36,8 @@ class Ties:
         """Return what a system says."""
         number = {id(body): i for i, body in enumerate(system.bodies)}
 
-        def pairs(things: object) -> Pairs:
-            return frozenset(frozenset((number[id(one)], number[id(two)])) for one, two in things)  # type: ignore[attr-defined]
+        def pairs(bodies: Iterable[tuple[Body, Body]]) -> Pairs:
+            return frozenset(frozenset((number[id(one)], number[id(two)])) for one, two in bodies)
 
         joined = pairs((tie.first, tie.second) for tie in system.joints)
         return cls(

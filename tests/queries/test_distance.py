@@ -187,6 +187,12 @@ def test_bodies_and_their_shapes() -> None:
     assert found.gap == pytest.approx(0.1 - centres[1][0] - 0.03, abs=1e-15)
     assert found.shapes == (1, 0)
     assert ns.distance(Ball(0.01), first, at=((0.1, 0.0, 0.0), None)).shapes == (0, 1)
+    two = DrivenBody(Rest(), (Box(0.01, 0.01, 0.01), Sphere(0.01, z=0.03)))
+    corner = Box(0.01, 0.01, 0.01, x=0.03, y=0.03, z=0.03)
+    # of the boxes no features face each other, of the sphere one does
+    assert ns.distance(two, corner, by="exact").shapes == (1, 0)
+    with pytest.raises(ns.NoDistance, match="Box and Box cannot be told by 'exact'"):
+        ns.distance(DrivenBody(Rest(), (Box(0.01, 0.01, 0.01),)), corner, by="exact")
     wall = DrivenBody(Rest(position=(0.0, 0.0, -1.0)), (HalfSpace(),))
     assert ns.distance(wall, Ball(0.25)).gap == pytest.approx(0.75, abs=1e-15)
     assert ns.distance(wall, Ball(0.25), at=((0.0, 0.0, 0.0), None)).gap == pytest.approx(-0.25, abs=1e-15)
