@@ -40,8 +40,8 @@ Array = NDArray[np.float64]
 WRONG = 1e-9
 """Error of ours that counts [m]."""
 _PER_SHAPES = 50
-_SMALL = 2e-5
-"""Radius of curvature that counts as none, that of an edge along a rim included [m]."""
+_SMALL, _PARALLEL = 1e-6, 0.01
+"""Radius of curvature that counts as none [m], and angle of an edge and a rim, or of two, below which they do [rad]."""
 DRAWN: dict[str, Callable[[Generator], Shape]] = {
     "plane": lambda rng: Plane(float(rng.uniform(-0.01, 0.01))),
     "sphere": touches.sphere,
@@ -162,11 +162,17 @@ def has_no_contact(shapes: tuple[Shape, Shape], one: Place, two: Place, found: D
     t = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
     t /= np.linalg.norm(t)
     ways, e = (t, np.cross(n, t)), 1e-6
-    rows = np.zeros((2, 2))
+    own, other = np.zeros((2, 2)), np.zeros((2, 2))
     for j, way in enumerate(ways):
-        moved = [(first(n + s * e * way) - second(-(n + s * e * way))) for s in (1.0, -1.0)]
-        rows[:, j] = [w @ (moved[0] - moved[1]) / (2.0 * e) for w in ways]
-    return bool(np.linalg.svd(rows)[1][1] < _SMALL)
+        up, down = n + e * way, n - e * way
+        own[:, j] = [w @ (first(up) - first(down)) / (2.0 * e) for w in ways]
+        other[:, j] = [w @ (second(-down) - second(-up)) / (2.0 * e) for w in ways]
+    # along an edge the point jumps, the same way for all normals to one side: what counts is the way that it goes
+    (ways_of, radii), (others_ways, others_radii) = (np.linalg.svd(rows)[:2] for rows in (own, other))
+    both = (ways_of * radii) @ ways_of.T + (others_ways * others_radii) @ others_ways.T
+    # of two lines at an angle the least radius is that of the rounder one times the square of the sine
+    least = np.linalg.svd(both)[1][1]
+    return bool(least < max(_SMALL, _PARALLEL**2 * min(radii[0], others_radii[0])))
 
 
 def _poses(asked: _Asked, rng: Generator) -> Iterator[tuple[Place, Place, DistanceResult]]:
