@@ -161,7 +161,7 @@ def has_no_contact(shapes: tuple[Shape, Shape], one: Place, two: Place, found: D
     n = found.normal
     t = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
     t /= np.linalg.norm(t)
-    ways, e = (t, np.cross(n, t)), 1e-6
+    ways, e = (t, np.cross(n, t)), 1e-8
     own, other = np.zeros((2, 2)), np.zeros((2, 2))
     for j, way in enumerate(ways):
         up, down = n + e * way, n - e * way
