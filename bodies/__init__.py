@@ -76,14 +76,17 @@ from bodies.shapes.frustum import Frustum
 from bodies.shapes.ground import Ground
 from bodies.shapes.half_space import HalfSpace
 from bodies.shapes.hull import ConvexHull
+from bodies.shapes.moved_shape import MovedShape
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.superellipsoid import Superellipsoid
+from bodies.shapes.support_shape import SupportShape
 from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.superellipsoid_body import SuperellipsoidBody
+from bodies.support_body import SupportBody
 
 __all__ = [
     "Ball",
@@ -138,6 +141,7 @@ __all__ = [
     "MeshSmooth",
     "MeshSphere",
     "MeshSwept",
+    "MovedShape",
     "Part",
     "PlanarBody",
     "Plane",
@@ -167,6 +171,8 @@ __all__ = [
     "Spring",
     "Superellipsoid",
     "SuperellipsoidBody",
+    "SupportBody",
+    "SupportShape",
     "SweptPolytope",
     "SweptSwept",
     "Table",

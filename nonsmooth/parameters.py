@@ -5,10 +5,12 @@ from __future__ import annotations
 import dataclasses
 import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, get_origin, get_type_hints
+from typing import Any, ClassVar, TypeAlias, final, get_origin, get_type_hints
+
+import numpy as np
 
 from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 
@@ -92,7 +94,35 @@ def check_number(thing: str, value: Any, rule: Rule) -> None:
         )
 
 
-Value: TypeAlias = float | tuple[float, ...]
+@final
+class Table(Sequence[float]):
+    """Many numbers, of which the engine has one copy for all contacts with the same object.
+
+    Parameters
+    ----------
+    numbers : array_like
+        The numbers; a copy of them is kept.
+    """
+
+    def __init__(self, numbers: Any) -> None:
+        self.numbers = np.array(numbers, dtype=float)
+        self.numbers.flags.writeable = False
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __getitem__(self, place: Any) -> Any:
+        found = self.numbers[place]
+        return found if isinstance(place, slice) else float(found)
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (isinstance(other, Table) and np.array_equal(self.numbers, other.numbers))
+
+    def __hash__(self) -> int:
+        return hash((len(self), self.numbers[:8].tobytes()))
+
+
+Value: TypeAlias = float | tuple[float, ...] | Table
 """A parameter of a compiled function."""
 
 

@@ -22,7 +22,7 @@ from bodies.shapes.frustum import HIGH, SIDE, SWEEP, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
 
 
@@ -78,7 +78,7 @@ class ApexMesh(ContactKinematics):
     ----------
     first : tuple of float
         The cone (:func:`bodies.shapes.frustum.frustum_numbers`).
-    surface : tuple of float
+    surface : Table
         The surface (:mod:`bodies.contacts.surface_tables`).
     patch : int
         Number of the patch.
@@ -91,7 +91,7 @@ class ApexMesh(ContactKinematics):
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
 
     first: Numbers
-    surface: Numbers
+    surface: Table
     patch: int
     size: float
     counts: tuple[int, int, int]

@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from bodies.contacts.smooth_core import RADIUS, Axes, back, bend, forth
 from bodies.contacts.tangents import tangent_of
-from bodies.shapes.support_function import boxy_gauge_of, support_by
+from bodies.shapes.support_function import boxy_gauge_of, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -61,7 +61,7 @@ def place_on(core: Floats, x: float, y: float, z: float) -> Place:
 
 @compiled
 def climb_boxy(
-    core: Floats, other: Norm, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+    core: Floats, other: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
     """Return the gap of a boxy core and one that is not, the point on the former, and the normal from it, in its axes.
 
@@ -75,8 +75,8 @@ def climb_boxy(
     ----------
     core : Floats
         The boxy core; its radius is left out.
-    other : Norm
-        Semi-axes and powers of the other.
+    other : Floats
+        The core of the other, or its semi-axes and powers.
     turn : Axes
         Rotation from the axes of the other to those of the boxy one.
     x, y, z : float
@@ -95,7 +95,7 @@ def climb_boxy(
         px, py, pz, nx, ny, nz = s[0], s[1], s[2], s[3], s[4], s[5]
         tx, ty, tz, ux, uy, uz = s[6], s[7], s[8], s[9], s[10], s[11]
         mx, my, mz = back(turn, -nx, -ny, -nz)
-        b = support_by(other[0], other[1], other[2], other[3], other[4], mx, my, mz)
+        b = support_of(other, mx, my, mz)
         dx, dy, dz = forth(turn, b[1], b[2], b[3])
         dx, dy, dz = x + dx - px, y + dy - py, z + dz - pz
         found = 0.5 * (dx * dx + dy * dy + dz * dz)

@@ -32,7 +32,7 @@ from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
 
 
@@ -135,7 +135,7 @@ class FrustumCorner(ContactKinematics):
         The corner in its body frame [m].
     star, lengths : tuple of float
         Unit vectors along its edges, and their lengths [m].
-    surface : tuple of float
+    surface : Table
         The surface (:mod:`bodies.contacts.surface_tables`).
     size : float
         Size of the larger body [m].
@@ -149,7 +149,7 @@ class FrustumCorner(ContactKinematics):
     place: tuple[float, float, float]
     star: Numbers
     lengths: Numbers
-    surface: Numbers
+    surface: Table
     size: float
     corner: int
 

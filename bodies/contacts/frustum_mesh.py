@@ -17,7 +17,7 @@ from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_wor
 from bodies.contacts.frustum import axis_in_world
 from bodies.contacts.frustum_corner import FrustumCorner
 from bodies.contacts.frustum_swept import FrustumSwept
-from bodies.contacts.mesh_mesh import check_numbers
+from bodies.contacts.mesh_mesh import check_contacts
 from bodies.contacts.mesh_point import Corner, PointMesh
 from bodies.contacts.offset import gap_at_distance
 from bodies.contacts.plane_rim import FLATTEST
@@ -32,7 +32,7 @@ from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.frustum import AXIS, CENTER, COS, SIN, SWEEP, Frustum, Point, frustum_numbers
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
 
 _WAYS = 12
@@ -97,7 +97,7 @@ class FrustumMesh(ContactKinematics):
         Its centre in the body frame [m].
     up : float
         1 for the upper rim, else -1.
-    surface : tuple of float
+    surface : Table
         The surface (:mod:`bodies.contacts.surface_tables`).
     patch : int
         Number of the patch.
@@ -111,7 +111,7 @@ class FrustumMesh(ContactKinematics):
     radius: float
     center: Point
     up: float
-    surface: Numbers
+    surface: Table
     patch: int
     n_faces: int
 
@@ -138,7 +138,7 @@ class FrustumMesh(ContactKinematics):
         rims = tuple(itertools.chain(*(cls._of_rim(first, numbers, i, own) for i in range(len(first.standing_rims)))))
         feet = PointMesh.of_vertices(_feet(first), own, sweep)
         crossings = *FlankMesh.of_edges(numbers, own, size), *RimMesh.of_edges(numbers, own, size)
-        check_numbers(len(crossings), [rim.surface for rim in rims], (len(own.triangles), 0))
+        check_contacts(len(crossings), len(rims))
         vertices = _rounded_vertices if sweep > 0.0 else _sharp_vertices
         return *rims, *feet, *vertices(first, numbers, own, size), *crossings
 

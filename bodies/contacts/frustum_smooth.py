@@ -27,14 +27,15 @@ from bodies.contacts.frustum import (
     write_part,
 )
 from bodies.contacts.frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
+from bodies.contacts.gauge import gauge
 from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.round_search import up_hills
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest_of_round, write_surface
+from bodies.contacts.smooth_starts import starts_of, uphill
 from bodies.contacts.tangents import write_tangent
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.smooth_shape import SmoothShape
-from bodies.shapes.support_function import gauge_of
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -48,6 +49,8 @@ _SAMPLES, _PROJECTIONS = 8, 16
 """Parts of the way between the points of a stop at whose ends a point of both is looked for, and further points."""
 _HIGHER = 1e-14
 """By how much more the gap of another top is larger, in units of the size: less is round-off of the same one."""
+_NEARBY = 1e-3
+"""How close to a top steps go that tell only where the search begins [rad]."""
 _DEEP = 0.9
 """Gauge of the frustum's point next to the core's centre, from which on bodies overlap more than a little."""
 _ON_SURFACE = 1e-12
@@ -64,7 +67,7 @@ def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: An
     if nx * px + ny * py + nz * pz >= 0.0:
         return False
     px, py, pz = back(turn, px, py, pz)
-    return bool(gauge_of(core, px, py, pz) < 1.0)
+    return bool(gauge(core, px, py, pz) < 1.0)
 
 
 @compiled
@@ -137,7 +140,7 @@ def _share_a_point(
             px, py, pz = px + part * wx, py + part * wy, pz + part * wz
         px, py, pz = _into(frustum, px, py, pz)
         bx, by, bz = back(turn, px - x, py - y, pz - z)
-        if gauge_of(core, bx, by, bz) <= 1.0 + _ON_SURFACE:
+        if gauge(core, bx, by, bz) <= 1.0 + _ON_SURFACE:
             return True
     return False
 
@@ -226,7 +229,7 @@ def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: f
     """Return whether the frustum's point next to the core's centre is so far in that bodies overlap by much."""
     px, py, pz = _into(frustum, x, y, z)
     px, py, pz = back(turn, px - x, py - y, pz - z)
-    return bool(gauge_of(core, px, py, pz) < _DEEP)
+    return bool(gauge(core, px, py, pz) < _DEEP)
 
 
 @compiled
@@ -249,6 +252,13 @@ def _higher(
         found, part = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
         if found[0] > best[0] + _HIGHER * size:
             best, where = found, part
+        if frustum[SIDE] > 0.0:
+            # tops over the apex alone that lean too far for it lie over the side, next to it
+            for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
+                _, nx, ny, _ = uphill(high, core, turn, x, y, z - frustum[HIGH], start, _NEARBY)
+                found = on_flank(frustum, core, turn, x, y, z, nx, ny, ON_BORDER * size)
+                if found[0] > best[0] + _HIGHER * size:
+                    best, where = found, FLANK
     return best, where
 
 

@@ -11,6 +11,7 @@ radius d: from its gradient G at the point on, a ball of the radius G / L stays 
 from __future__ import annotations
 
 from bodies.contacts.smooth_core import Axes, back
+from bodies.shapes.support_function import OF_FUNCTION
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -47,7 +48,7 @@ def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float,
     """Return a radius up to ``most`` of a ball in a core that touches its surface at a point with the normal n."""
     a, b, c = core[0], core[1], core[2]
     height = nx * x + ny * y + nz * z
-    if min(a, min(b, c)) <= 0.0 or height <= 0.0:
+    if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
         return 0.0
     # below is r^j + |z / c|^j with r^k = |x / a|^k + |y / b|^k; first the least and the greatest part of each in r^k
     j, k = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)

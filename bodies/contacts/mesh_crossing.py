@@ -17,6 +17,7 @@ from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
 from nonsmooth.compiled import compiled
+from nonsmooth.parameters import Table
 from nonsmooth.types import Floats
 
 _ASTRAY = 1e-6
@@ -98,7 +99,7 @@ def judge_crossing(
         out[10 + i] = out[7 + i] - apart * out[1 + i]
 
 
-def edges_of(second: Features) -> Iterator[tuple[Numbers, Numbers, str]]:
+def edges_of(second: Features) -> Iterator[tuple[Numbers, Table, str]]:
     """Yield row, surface and name of the convex edges of a mesh."""
     surface = surface_numbers(second, patches_for_body(second, 0.0))
     for i in range(len(second.edges)):

@@ -9,17 +9,15 @@ from typing import ClassVar, final
 
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from bodies.contacts.surface_edges import evaluate_edges
-from bodies.contacts.surface_tables import NODE, TRIANGLE, Numbers, edge_row, surface_numbers
+from bodies.contacts.surface_tables import Numbers, edge_row, surface_numbers
 from bodies.contacts.swept_swept import MOST_CONTACTS
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 
-MOST_NUMBERS = 20_000_000
-"""Every contact keeps the surfaces that it needs; more numbers in all are refused."""
 DEPARTURES = MappingProxyType(
     dict.fromkeys(
         ("gap rate", "second-order terms"),
@@ -36,7 +34,7 @@ class MeshEdges:
     ----------
     edges : tuple
         The edges (:func:`bodies.contacts.surface_tables.edge_row`).
-    surfaces : tuple
+    surfaces : tuple of Table
         The surfaces (:mod:`bodies.contacts.surface_tables`).
     radius : float
         Radius about the second edge [m].
@@ -47,7 +45,7 @@ class MeshEdges:
     """
 
     edges: tuple[Numbers, Numbers]
-    surfaces: tuple[Numbers, Numbers]
+    surfaces: tuple[Table, Table]
     radius: float
     size: float
     names: tuple[str, str]
@@ -58,7 +56,7 @@ class MeshEdges:
         first: Features,
         rows: Sequence[Numbers],
         names: Sequence[str],
-        surface: Numbers,
+        surface: Table,
         radius: float,
         size: float,
     ) -> Iterator[MeshEdges]:
@@ -138,7 +136,7 @@ def sharp_contacts(one: Features, two: Features) -> tuple[Iterator[MeshEdges], t
     check_crossings(len(one.edges), len(two.edges))
     vertices: tuple[MeshPoint | PointMesh, ...] = *MeshPoint.of_corners(one, two), *PointMesh.of_corners(one, two)
     crossings = len(one.edges) * len(two.edges)
-    check_numbers(crossings, [vertex.vertex.surface for vertex in vertices], (len(one.triangles), len(two.triangles)))
+    check_contacts(crossings, len(vertices))
     rows = [edge_row(two, j) for j in range(len(two.edges))]
     names = [f"edge {j}" for j in range(len(two.edges))]
     surface = surface_numbers(two, patches_for_body(two, 0.0))
@@ -151,28 +149,16 @@ def check_crossings(first: int, second: int) -> None:
         raise _too_many(f"{first} convex edges against {second}")
 
 
-def check_numbers(crossings: int, others: Sequence[Numbers], triangles: tuple[int, int]) -> None:
-    """Raise InvalidInput if there are too many contacts, or numbers in them.
-
-    Parameters
-    ----------
-    crossings : int
-        Pairs of convex edges.
-    others : sequence of tuple of float
-        The surface that every other contact keeps.
-    triangles : tuple of int
-        Numbers of those of both bodies.
-    """
-    if crossings + len(others) > MOST_CONTACTS:
-        raise _too_many(f"{crossings} pairs of convex edges and {len(others)} of corners and patches")
-    if sum(len(surface) for surface in others) + crossings * (TRIANGLE + NODE) * sum(triangles) > MOST_NUMBERS:
-        raise _too_many(f"{triangles[0]} triangles against {triangles[1]}")
+def check_contacts(crossings: int, others: int) -> None:
+    """Raise InvalidInput if there are too many pairs of convex edges, and other contacts."""
+    if crossings + others > MOST_CONTACTS:
+        raise _too_many(f"{crossings} pairs of convex edges and {others} of corners and patches")
 
 
 def _too_many(figure: str) -> InvalidInput:
     return InvalidInput(
         "contact of a mesh that is not convex",
-        f"must have at most {MOST_CONTACTS} pairs of features, and {MOST_NUMBERS:.0e} numbers in all",
+        f"must have at most {MOST_CONTACTS} pairs of features",
         figure,
         "Take coarser meshes, or a smooth shape for a rounded body, or a decomposition of the body into convex pieces.",
     )

@@ -17,7 +17,7 @@ from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.point import Point
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
 
 Corner = tuple[tuple[float, float, float], Numbers, str]
@@ -81,7 +81,7 @@ class _Vertex:
 
     Attributes
     ----------
-    surface : tuple of float
+    surface : Table
         The surface (:mod:`bodies.contacts.surface_tables`).
     n_faces : int
         Number of its faces.
@@ -95,7 +95,7 @@ class _Vertex:
         What it is called.
     """
 
-    surface: Numbers
+    surface: Table
     n_faces: int
     patch: int
     place: tuple[float, float, float]

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.surface_smooth import evaluate_surface_smooth
-from bodies.contacts.surface_tables import Numbers, surface_numbers
+from bodies.contacts.surface_tables import surface_numbers
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.smooth import extent
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 
 _POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 """The core of a point (:func:`bodies.shapes.smooth.core_numbers`)."""
@@ -26,7 +26,7 @@ class MeshSmooth(ContactKinematics):
 
     Attributes
     ----------
-    surface : tuple of float
+    surface : Table
         The surface (:mod:`bodies.contacts.surface_tables`), in patches for a body of this size.
     patch : int
         Number of the patch.
@@ -37,7 +37,7 @@ class MeshSmooth(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SmoothShape)
-    surface: Numbers
+    surface: Table
     patch: int
     second: SmoothShape
     counts: tuple[int, int, int]

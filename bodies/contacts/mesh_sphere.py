@@ -19,7 +19,7 @@ from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
 
 
@@ -67,7 +67,7 @@ class MeshSphere(ContactKinematics):
 
     Attributes
     ----------
-    surface : tuple of float
+    surface : Table
         The surface (:mod:`bodies.contacts.surface_tables`).
     patch : int
         Number of the patch.
@@ -86,7 +86,7 @@ class MeshSphere(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
-    surface: Numbers
+    surface: Table
     patch: int
     center: tuple[float, float, float]
     radius: float

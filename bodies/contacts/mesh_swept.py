@@ -8,7 +8,7 @@ from typing import ClassVar, final
 
 import numpy as np
 
-from bodies.contacts.mesh_mesh import DEPARTURES, MeshEdges, check_crossings, check_numbers, sharp_contacts
+from bodies.contacts.mesh_mesh import DEPARTURES, MeshEdges, check_contacts, check_crossings, sharp_contacts
 from bodies.contacts.mesh_sphere import MeshSphere
 from bodies.contacts.polytope_tables import edge_rows
 from bodies.contacts.polytope_tables import star_of as star_of_vertex
@@ -21,7 +21,7 @@ from bodies.shapes.polytope import Polytope
 from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 
 
 @final
@@ -58,8 +58,7 @@ class MeshSwept(ContactKinematics):
         tips = own.vertices[list(own.corners)].tolist()
         stars = [((x, y, z), tuple(star_of(own, i)), f"corner {i}") for i, (x, y, z) in enumerate(tips)]
         corners = SweptVertex.over(second, stars, 0.0, size, True)
-        surfaces = [ball.surface for ball in balls] + [corner.faces + corner.edges for corner in corners]
-        check_numbers(len(own.edges) * len(core.edges), surfaces, (len(own.triangles), len(core.triangles)))
+        check_contacts(len(own.edges) * len(core.edges), len(balls) + len(corners))
         names = [f"edge {j}" for j in range(len(core.edges))] if core.faces else ["side"]
         crossings = MeshEdges.crossings(own, edge_rows(core), names, _surface(core), second.sweep, size)
         return *(cls(pair) for pair in crossings), *balls, *corners
@@ -83,7 +82,7 @@ def _features(core: Polytope) -> Features:
     return features_of(np.array(core.vertices), np.array(core.triangles))
 
 
-def _surface(core: Polytope) -> tuple[float, ...]:
+def _surface(core: Polytope) -> Table:
     """Return the surface of a core; a segment has none."""
     if not core.faces:
         return NOTHING

@@ -14,12 +14,13 @@ from typing import TypeAlias
 from bodies.contacts.boxy_newton import Answer
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.gauge import gauge
 from bodies.contacts.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
 from bodies.contacts.round_search import along_segment, up_hills
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest_from, write_surface
 from bodies.contacts.tangents import tangent_of, write_tangent
-from bodies.shapes.support_function import gauge_of, is_round, support_of
+from bodies.shapes.support_function import is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -211,7 +212,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
             # the point of the polytope lies in the smooth body: they do overlap
             px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
             px, py, pz = back(turn, px - g * nx - x, py - g * ny - y, pz - g * nz - z)
-            if gauge_of(core, px, py, pz) < 1.0:
+            if gauge(core, px, py, pz) < 1.0:
                 return g, nx, ny, nz, _feature(hull, kind, number), way
             best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, kind, number), way
         if g != g or after == _HERE:

@@ -14,10 +14,11 @@ from typing import TypeAlias
 
 from bodies.contacts.boxy_newton import Answer, Point
 from bodies.contacts.cuts import settle
+from bodies.contacts.gauge import gauge
 from bodies.contacts.smooth_core import Axes, back, bend, forth
 from bodies.contacts.smooth_newton import widest_of_round
 from bodies.contacts.smooth_starts import starts_of, uphill
-from bodies.shapes.support_function import gauge_of, support_of
+from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -307,4 +308,4 @@ def _facing(
 def _over(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
     """Return what the gauge of a point is off 1."""
     bx, by, bz = back(turn, x, y, z)
-    return float(abs(gauge_of(core, bx, by, bz) - 1.0))
+    return float(abs(gauge(core, bx, by, bz) - 1.0))

@@ -11,6 +11,7 @@ from bodies.contacts.chart import write_chart
 from bodies.contacts.chart_newton import meet_in_charts
 from bodies.contacts.cuts import settle
 from bodies.contacts.dual_newton import climb
+from bodies.contacts.gauge import gauge
 from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.smooth_core import Axes, back, forth, write_core
 from bodies.contacts.smooth_starts import gap_along, starts_of, uphill
@@ -131,7 +132,7 @@ def _share_a_point(first: Floats, second: Floats, turn: Axes, x: float, y: float
         part = g * (1.0 - i / _SAMPLES)
         px, py, pz = qx - part * nx, qy - part * ny, qz - part * nz
         bx, by, bz = back(turn, px - x, py - y, pz - z)
-        if gauge_of(second, bx, by, bz) <= 1.0 + _ON_SURFACE and gauge_of(first, px, py, pz) <= 1.0 + _ON_SURFACE:
+        if gauge(second, bx, by, bz) <= 1.0 + _ON_SURFACE and gauge(first, px, py, pz) <= 1.0 + _ON_SURFACE:
             return True
     # on the line of centres either body has a part next to its own
     ax, ay, az = back(turn, -x, -y, -z)
@@ -173,8 +174,7 @@ def _from_start(
         if is_boxy(second):
             g, px, py, pz, nx, ny, nz = _both(first, second, turn, x, y, z, sx, sy, sz)
         else:
-            other = second[0], second[1], second[2], second[3], second[4]
-            g, px, py, pz, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
+            g, px, py, pz, nx, ny, nz = climb_boxy(first, second, turn, x, y, z, sx, sy, sz)
         return g, px + g * nx, py + g * ny, pz + g * nz, nx, ny, nz
     found: Answer = widest_of_round(first, second, turn, x, y, z, sx, sy, sz)
     return found
@@ -253,10 +253,9 @@ def _from_boxy(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
     """Return the same by the points of the second core, which is boxy."""
-    other = first[0], first[1], first[2], first[3], first[4]
     ax, ay, az = back(turn, -x, -y, -z)
     sx, sy, sz = back(turn, -sx, -sy, -sz)
-    g, px, py, pz, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, sx, sy, sz)
+    g, px, py, pz, nx, ny, nz = climb_boxy(second, first, opposite(turn), ax, ay, az, sx, sy, sz)
     nx, ny, nz = forth(turn, -nx, -ny, -nz)
     px, py, pz = forth(turn, px, py, pz)
     return g, x + px, y + py, z + pz, nx, ny, nz
@@ -273,13 +272,13 @@ def _by_cuts(
     bx, by, bz = back(turn, -x, -y, -z)
     length = math.sqrt(sx * sx + sy * sy + sz * sz)
     nx, ny, nz = sx / length, sy / length, sz / length
-    if gauge_of(core, bx, by, bz) <= 1.0:
+    if gauge(core, bx, by, bz) <= 1.0:
         return math.nan, x, y, z, nx, ny, nz
     start = gap_along(point, core, turn, x, y, z, nx, ny, nz), nx, ny, nz
     start = uphill(point, core, turn, x, y, z, start, _NEARBY)
     g, nx, ny, nz = settle(point, core, turn, x, y, z, start)
     bx, by, bz = back(turn, g * nx - x, g * ny - y, g * nz - z)
-    if not (g > 0.0 and abs(gauge_of(core, bx, by, bz) - 1.0) <= _ON_SURFACE):
+    if not (g > 0.0 and abs(gauge(core, bx, by, bz) - 1.0) <= _ON_SURFACE):
         g = math.nan
     return g, g * nx, g * ny, g * nz, nx, ny, nz
 

@@ -12,6 +12,8 @@ from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, between_axe
 from bodies.contacts.smooth_newton import widest, write_surface
 from bodies.contacts.tangents import write_tangent
 from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.support_function import OF_FUNCTION
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -65,9 +67,23 @@ class SmoothSmooth(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[SmoothSmooth, ...]:
-        """Return the single contact of two smooth shapes."""
+        """Return the single contact of two smooth shapes.
+
+        Raises
+        ------
+        InvalidInput
+            If one is known by its farthest points only and the other is flat one way and sharp the other.
+        """
         assert isinstance(first, SmoothShape)
         assert isinstance(second, SmoothShape)
+        for one, other in ((first, second), (second, first)):
+            if one.mixed and other.core[3] == OF_FUNCTION:
+                raise InvalidInput(
+                    f"contact of {type(one).__name__} and {type(other).__name__}",
+                    "needs exponents both up to 1, or both from 1 on",
+                    [2.0 - 2.0 / power for power in one.core[3:5]],
+                    "Next to flat and sharp places at once the search needs the powers of both bodies.",
+                )
         return (cls(first, second),)
 
     def parameters(self) -> Mapping[str, Value]:

@@ -6,7 +6,7 @@ import math
 
 from bodies.contacts.across import across
 from bodies.contacts.frustum_writing import astray_of_rim
-from bodies.contacts.surface_search import box_square, face_height, pierced
+from bodies.contacts.surface_search import box_square, face_height, has_patch, pierced
 from bodies.contacts.surface_tables import (
     FACE,
     FACES,
@@ -85,7 +85,8 @@ def rim_under(
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
-        if math.sqrt(box_square(surface, at, cx, cy, cz)) - radius > math.sqrt(best):
+        apart_at_least = math.sqrt(box_square(surface, at, cx, cy, cz)) - radius
+        if apart_at_least > math.sqrt(best) or not has_patch(surface, at, patch):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from bodies.contacts.surface_tables import (
+    BITS,
     CORNER,
     CORNERS,
     EDGE,
@@ -14,6 +15,7 @@ from bodies.contacts.surface_tables import (
     MEMBERS,
     N_EDGES,
     N_NODES,
+    N_PATCHES,
     N_TRIANGLES,
     NODE,
     NODES,
@@ -104,6 +106,25 @@ def in_triangle(surface: Floats, triangle: int, x: float, y: float, z: float) ->
 
 
 @compiled
+def has_patch(surface: Floats, at: int, patch: float) -> bool:
+    """Return whether a node may have members of a patch, or of any where it is below 0."""
+    return patch < 0.0 or surface[N_PATCHES] > BITS or (int(surface[at + 9]) >> int(patch)) & 1 == 1
+
+
+@compiled
+def _first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> int:
+    """Return a leaf whose members of a patch are near a point: with what is found there most others can be left out."""
+    nodes, node = int(surface[NODES]), 0
+    while surface[nodes + NODE * node + 8] == 0.0:
+        left = node + 1
+        right = int(surface[nodes + NODE * left + 6])
+        one, two = nodes + NODE * left, nodes + NODE * right
+        nearer = box_square(surface, one, x, y, z) <= box_square(surface, two, x, y, z)
+        node = left if has_patch(surface, one, patch) and (nearer or not has_patch(surface, two, patch)) else right
+    return node
+
+
+@compiled
 def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
     """Return how far a point is inside of the body [m], 0 outside.
 
@@ -115,10 +136,11 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
     if box_square(surface, nodes, x, y, z) > 0.0:
         return 0.0
     least, side = 1e300, 0.0
-    node = 0
+    first = _first_leaf(surface, -1.0, x, y, z)
+    node = -1
     while node < int(surface[N_NODES]):
-        at = nodes + NODE * node
-        if box_square(surface, at, x, y, z) > least:
+        at = nodes + NODE * (first if node < 0 else node)
+        if node >= 0 and box_square(surface, at, x, y, z) > least:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -208,10 +230,11 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     best, distance, past, kind, number = 1e300, 0.0, 0.0, ON_FACE, 0
     qx, qy, qz = 0.0, 0.0, 0.0
     under, under_past, under_face = 1e300, 0.0, -1
-    node = 0
+    first = _first_leaf(surface, patch, x, y, z)
+    node = -1
     while node < int(surface[N_NODES]):
-        at = nodes + NODE * node
-        if box_square(surface, at, x, y, z) > best:
+        at = nodes + NODE * (first if node < 0 else node)
+        if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, x, y, z) > best):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):

@@ -24,6 +24,7 @@ from bodies.contacts.surface_search import (
     box_square,
     depth_inside,
     face_height,
+    has_patch,
     in_triangle,
     nearest_in_patch,
     over_ends,
@@ -50,7 +51,7 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import REACH
-from bodies.shapes.support_function import is_round, support_of
+from bodies.shapes.support_function import OF_FUNCTION, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -63,7 +64,7 @@ Aim: TypeAlias = tuple[float, float, float, float]
 @compiled
 def _extent(core: Floats) -> float:
     """Return a bound of the distance of the farthest point from the centre, with flat places the corner of a box."""
-    if is_round(core):
+    if is_round(core) and core[3] != OF_FUNCTION:
         return float(max(core[0], core[1], core[2]) + core[RADIUS])
     return math.sqrt(core[0] * core[0] + core[1] * core[1] + core[2] * core[2])
 
@@ -243,7 +244,8 @@ def _nearest(
         node = 0
         while node < int(surface[N_NODES]):
             at = nodes + NODE * node
-            if math.sqrt(box_square(surface, at, x, y, z)) - size > best or _above_box(surface, at, aim) > best:
+            far = math.sqrt(box_square(surface, at, x, y, z)) - size > best or _above_box(surface, at, aim) > best
+            if far or not has_patch(surface, at, patch):
                 node = int(surface[at + 6])
                 continue
             for i in range(int(surface[at + 8])):

@@ -13,6 +13,7 @@ from bodies.meshes.features import Features
 from bodies.meshes.patches import Patches
 from bodies.meshes.topology import Integers, neighbours
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import Table
 
 Numbers = tuple[float, ...]
 
@@ -20,43 +21,46 @@ SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CO
     range(13)
 )
 """Where size [m], numbers and offsets of the parts stand."""
-NODE, FACE, TRIANGLE, EDGE, CORNER = 9, 5, 43, 14, 6
+NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
 """Numbers of
 
 - a node: lowest and highest coordinates, the node that follows where this one is left out, where the list of its
-  members begins, and their number, 0 but in leaves;
+  members begins, and their number, 0 but in leaves, and the patches of all members below, as the bits of a number;
 - a face: outward normal, distance of its plane from the origin, patch;
 - a triangle: vertices, face, for every edge the outward normal in the plane and its distance from the origin, whether
   its face ends there, then the vectors that point out of the body at the three edges and at the three vertices;
 - an edge: first end, direction, length, in either face the direction from the edge into it, patch;
 - a corner: place, patch, where its star of unit vectors along its edges begins, and their number.
 """
-NOTHING: Numbers = (0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(3 * [0.0]))
+NOTHING = Table((0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(4 * [0.0])))
 """The surface of a body without volume: no point is inside of it."""
+BITS = 52
+"""Bits of a number that are exact: with more patches every node counts as having all."""
 _LEAF = 4
 """Members of a leaf, at most."""
 
 
 @lru_cache(maxsize=4)
-def surface_numbers(features: Features, patches: Patches) -> Numbers:
+def surface_numbers(features: Features, patches: Patches) -> Table:
     """Return the numbers of a surface whose features are divided into patches."""
     triangles = _triangles(features)
-    edges = [(*edge_row(features, i), patches.of_edges[i]) for i in range(len(features.edges))]
-    corners, stars = [], list[float]()
-    for i, vertex in enumerate(features.corners):
-        star = star_of(features, i)
-        corners.append((*features.vertices[vertex].tolist(), patches.of_corners[i], len(stars), len(star) // 3))
-        stars += star
-    ends = features.vertices[[edge[:2] for edge in features.edges]]
+    edges = np.column_stack([edge_rows(features), np.array(patches.of_edges, dtype=float)])
+    lengths = np.array([len(star) for star in features.stars], dtype=int)
     tips = features.vertices[list(features.corners)]
+    stars = [np.array(star_of(features, i)) for i in range(len(features.corners))]
+    corners = np.column_stack([tips, patches.of_corners, 3 * (np.cumsum(lengths) - lengths), lengths])
+    ends = features.vertices[np.array(features.edges, dtype=int).reshape(-1, 4)[:, :2]]
     boxes = [features.vertices[features.triangles], ends, tips[:, None]]
-    low = np.concatenate([box.reshape(-1, *box.shape[-2:]).min(axis=1) for box in boxes if len(box)])
-    high = np.concatenate([box.reshape(-1, *box.shape[-2:]).max(axis=1) for box in boxes if len(box)])
+    low = np.concatenate([box.min(axis=1) for box in boxes])
+    high = np.concatenate([box.max(axis=1) for box in boxes])
     members, nodes = list[int](), list[list[float]]()
-    _branch(low, high, np.arange(len(low)), members, nodes)
-    faces = [(*plane, patches.of_faces[i]) for i, plane in enumerate(features.planes.tolist())]
-    parts = [list(itertools.chain(*rows)) for rows in (nodes, [members], faces, triangles, edges, corners, [stars])]
-    begins = list(itertools.accumulate((len(part) for part in parts), initial=13))
+    of_faces = np.array(patches.of_faces, dtype=int)
+    owners = np.concatenate([of_faces[features.face_of], patches.of_edges, patches.of_corners]).astype(np.int64)
+    bits = np.left_shift(1, owners) if patches.count <= BITS else np.full(len(owners), (1 << BITS) - 1)
+    _branch(low, high, bits, np.arange(len(low)), members, nodes)
+    faces = np.column_stack([features.planes, patches.of_faces])
+    parts = [np.array(nodes), np.array(members), faces, triangles, edges, corners, np.concatenate([*stars, []])]
+    begins = list(itertools.accumulate((part.size for part in parts), initial=13))
     head = (
         features.size,
         begins[0],
@@ -69,7 +73,17 @@ def surface_numbers(features: Features, patches: Patches) -> Numbers:
         len(faces),
         patches.count,
     )
-    return tuple(float(x) for x in itertools.chain(head, *parts))
+    return Table(np.concatenate([head, *(part.ravel() for part in parts)]))
+
+
+def edge_rows(features: Features) -> Vector:
+    """Return first end, direction, length, and in either face the direction into it, of all convex edges, [n, 13]."""
+    edges = np.array(features.edges, dtype=int).reshape(-1, 4)
+    start, way = features.vertices[edges[:, 0]], features.vertices[edges[:, 1]] - features.vertices[edges[:, 0]]
+    length = np.linalg.norm(way, axis=1, keepdims=True)
+    along = way / length
+    left, right = features.planes[edges[:, 2], :3], features.planes[edges[:, 3], :3]
+    return np.hstack([start, along, length, np.cross(left, along), np.cross(along, right)])
 
 
 def edge_row(features: Features, number: int) -> Numbers:
@@ -99,7 +113,7 @@ def star_lengths(features: Features, number: int) -> list[float]:
     return [float(x) for x in np.linalg.norm(ways, axis=1)]
 
 
-def _triangles(features: Features) -> list[Sequence[float]]:
+def _triangles(features: Features) -> Vector:
     corners = features.vertices[features.triangles]
     normals = features.planes[features.face_of, :3]
     along = np.roll(corners, -1, axis=1) - corners
@@ -114,22 +128,24 @@ def _triangles(features: Features) -> list[Sequence[float]]:
     angles = np.arccos(np.clip(-np.einsum("nij,nij->ni", along, np.roll(along, 1, axis=1)), -1.0, 1.0))
     at_vertices = np.zeros_like(features.vertices)
     np.add.at(at_vertices, features.triangles.reshape(-1), angles.reshape(-1, 1) * np.repeat(normals, 3, axis=0))
-    rows = zip(
-        corners.reshape(-1, 9).tolist(),
-        features.face_of.tolist(),
-        np.concatenate([out, heights[:, :, None]], axis=2).reshape(-1, 12).tolist(),
-        np.logical_not(features.inner).astype(float).tolist(),
-        at_edges.reshape(-1, 9).tolist(),
-        at_vertices[features.triangles].reshape(-1, 9).tolist(),
-        strict=True,
+    return np.hstack(
+        [
+            corners.reshape(-1, 9),
+            features.face_of[:, None],
+            np.concatenate([out, heights[:, :, None]], axis=2).reshape(-1, 12),
+            np.logical_not(features.inner),
+            at_edges.reshape(-1, 9),
+            at_vertices[features.triangles].reshape(-1, 9),
+        ]
     )
-    return [(*a, b, *c, *d, *e, *f) for a, b, c, d, e, f in rows]
 
 
-def _branch(low: Vector, high: Vector, own: Integers, members: list[int], nodes: list[list[float]]) -> None:
+def _branch(
+    low: Vector, high: Vector, bits: Integers, own: Integers, members: list[int], nodes: list[list[float]]
+) -> None:
     """Append the nodes of a tree over the boxes ``own``, the first one before what is in it."""
     box = [*np.min(low[own], axis=0).tolist(), *np.max(high[own], axis=0).tolist()]
-    node = [*box, 0.0, float(len(members)), 0.0]
+    node = [*box, 0.0, float(len(members)), 0.0, float(np.bitwise_or.reduce(bits[own]))]
     nodes.append(node)
     if len(own) <= _LEAF:
         node[8] = float(len(own))
@@ -139,5 +155,5 @@ def _branch(low: Vector, high: Vector, own: Integers, members: list[int], nodes:
         axis = int(np.argmax(np.ptp(middles, axis=0)))
         order = own[np.argsort(middles[:, axis], kind="stable")]
         for half in (order[: len(order) // 2], order[len(order) // 2 :]):
-            _branch(low, high, half, members, nodes)
+            _branch(low, high, bits, half, members, nodes)
     node[6] = float(len(nodes))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.surface_search import box_square, depth_inside, face_height, in_triangle, over_ends
+from bodies.contacts.surface_search import box_square, depth_inside, face_height, has_patch, in_triangle, over_ends
 from bodies.contacts.surface_tables import (
     FACE,
     FACES,
@@ -129,7 +129,7 @@ def face_under(
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
-        if box_square(surface, at, x, y, z) > best:
+        if box_square(surface, at, x, y, z) > best or not has_patch(surface, at, patch):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import itertools
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 
-from bodies.meshes.features import Bools, Features
-from nonsmooth.errors import InvalidInput
+from bodies.meshes.features import Features
+from bodies.meshes.topology import Integers
 from nonsmooth.interfaces.body import Vector
 
-MOST_FACES = 10000
-"""Surfaces with more flat faces are refused: each face is held against each."""
+_AT_ONCE = 2000
+"""Faces that are looked at together."""
+Reach: TypeAlias = Callable[[Integers, Integers], Vector]
 _ABOVE = 1e-9
 """Height over a plane, in sizes of the surface, from which a face counts as standing out of it."""
 _AROUND = 1.1
@@ -46,17 +48,17 @@ class Patches:
 def patches_for_ball(features: Features, radius: float) -> Patches:
     """Return patches for a ball of a radius [m]; points p and q that it touches are r |n_p - n_q| from each other."""
     normals = features.planes[:, :3]
-    return _patches(features, lambda i: radius * np.linalg.norm(normals - normals[i], axis=1))
+    return _patches(features, 2.0 * radius, lambda i, j: radius * np.linalg.norm(normals[i] - normals[j], axis=1))
 
 
 @lru_cache(maxsize=4)
 def patches_for_body(features: Features, diameter: float) -> Patches:
     """Return patches for a convex body of a diameter [m]; 0 for a vertex."""
-    return _patches(features, lambda _: np.full(len(features.planes), diameter))
+    return _patches(features, diameter, lambda i, _: np.full(len(i), diameter))
 
 
-def _patches(features: Features, reach: Callable[[int], Vector]) -> Patches:
-    """Return patches, where ``reach`` says how far from each other a body may touch a face and each other one [m].
+def _patches(features: Features, most: float, reach: Reach) -> Patches:
+    """Return patches, where ``reach`` says how far from each other a body may touch two faces, ``most`` at most [m].
 
     A body that touches points p and q of two faces from outside lies over both planes: each of the two faces has a
     point over the plane of the other.  Faces of which that is not so, such as all of a convex surface, can be in one
@@ -64,22 +66,10 @@ def _patches(features: Features, reach: Callable[[int], Vector]) -> Patches:
 
     Faces are taken one after the other over convex edges, and go with a neighbour where they can, because a body that
     rolls from one patch to another changes its contact.
-
-    Raises
-    ------
-    InvalidInput
-        If there are more than :data:`MOST_FACES` faces.
     """
     n_faces = len(features.planes)
-    if n_faces > MOST_FACES:
-        raise InvalidInput(
-            "a mesh that is not convex",
-            f"must have at most {MOST_FACES} flat faces to touch other bodies than planes",
-            n_faces,
-            "Take a coarser mesh, or give its body a decomposition into convex pieces.",
-        )
-    excludes = _conflicts(features, reach)
-    if not np.any(excludes):
+    excludes = _conflicts(features, most, reach)
+    if not any(excludes):
         return Patches((0,) * n_faces, (0,) * len(features.edges), (0,) * len(features.corners))
     colours = _Colours(excludes)
     beside: list[list[int]] = [[] for _ in range(n_faces)]
@@ -105,21 +95,20 @@ def _patches(features: Features, reach: Callable[[int], Vector]) -> Patches:
 class _Colours:
     """A greedy colouring of sets of faces."""
 
-    def __init__(self, excludes: Bools) -> None:
+    def __init__(self, excludes: Sequence[set[int]]) -> None:
         self._excludes = excludes
-        self._members: list[Bools] = []
+        self._of: list[set[int]] = [set() for _ in excludes]
+        self._count = 0
 
     def of(self, faces: Iterable[int], preferred: list[int]) -> int:
         """Return the first colour that takes these faces, the preferred ones first."""
         own = list(faces)
-        out = np.any(self._excludes[own], axis=0)
-        for colour in (*preferred, *range(len(self._members))):
-            if not np.any(out & self._members[colour]):
-                self._members[colour][own] = True
-                return int(colour)
-        self._members.append(np.zeros(len(out), dtype=bool))
-        self._members[-1][own] = True
-        return len(self._members) - 1
+        taken = set[int]().union(*(self._of[other] for face in own for other in self._excludes[face]))
+        colour: int = next(colour for colour in (*preferred, *range(self._count + 1)) if colour not in taken)
+        self._count = max(self._count, colour + 1)
+        for face in own:
+            self._of[face].add(colour)
+        return int(colour)
 
 
 def _areas(features: Features) -> Vector:
@@ -128,18 +117,59 @@ def _areas(features: Features) -> Vector:
     return np.asarray(np.bincount(features.face_of, areas, len(features.planes)), dtype=float)
 
 
-def _conflicts(features: Features, reach: Callable[[int], Vector]) -> Bools:
-    """Return for every two faces whether a body may touch both, shape [k, k]."""
+def _conflicts(features: Features, most: float, reach: Reach) -> list[set[int]]:
+    """Return for every face those of which a body may touch both, where ``most`` is as far as it reaches [m]."""
+    found: list[set[int]] = [set() for _ in features.planes]
+    points, starts = _points(features)
+    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    least = _ABOVE * features.size
+    for one, two in _near(0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1), _AROUND * most + least):
+        apart = np.linalg.norm(np.maximum(np.maximum(low[two] - high[one], low[one] - high[two]), 0.0), axis=1)
+        close = apart <= _AROUND * reach(one, two) + least
+        for a, b in ((one, two), (two, one)):
+            own = np.flatnonzero(close)
+            close[own] = _height(points, starts, features.planes[a[own]], b[own]) > least
+        for a, b in zip(one[close].tolist(), two[close].tolist(), strict=True):
+            found[a].add(b)
+            found[b].add(a)
+    return found
+
+
+def _points(features: Features) -> tuple[Vector, Integers]:
+    """Return the vertices of all triangles, face by face [m], and where those of each face begin."""
     faces = np.repeat(features.face_of, 3)
     order = np.argsort(faces, kind="stable")
     points = features.vertices[features.triangles.reshape(-1)[order]]
-    starts = np.searchsorted(faces[order], np.arange(len(features.planes)))
-    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
-    least = _ABOVE * features.size
-    out = np.zeros((len(starts), len(starts)), dtype=bool)
-    for i, plane in enumerate(features.planes):
-        apart = np.linalg.norm(np.maximum(np.maximum(low - high[i], low[i] - high), 0.0), axis=1)
-        out[i] = (np.maximum.reduceat(points @ plane[:3], starts) - plane[3] > least) & (
-            apart <= _AROUND * reach(i) + least
-        )
-    return np.asarray(out & out.T)
+    return points, np.searchsorted(faces[order], np.arange(len(features.planes)))
+
+
+def _height(points: Vector, starts: Integers, planes: Vector, faces: Integers) -> Vector:
+    """Return how far each of some faces reaches over a plane [m], shape [n]."""
+    if len(faces) == 0:
+        return np.zeros(0)
+    counts = np.diff(starts, append=len(points))[faces]
+    begins = np.cumsum(counts) - counts
+    places = np.arange(int(np.sum(counts))) + np.repeat(starts[faces] - begins, counts)
+    heights = np.einsum("ij,ij->i", points[places], np.repeat(planes[:, :3], counts, axis=0))
+    return np.asarray(np.maximum.reduceat(heights, begins) - planes[:, 3])
+
+
+def _near(middles: Vector, radii: Vector, reach: float) -> Iterator[tuple[Integers, Integers]]:
+    """Yield arrays of the numbers of balls that are no farther than a reach [m] from each other, each pair once."""
+    from scipy.spatial import cKDTree
+
+    order = np.argsort(radii, kind="stable")
+    # of about one size together, so that a large ball does not widen the search of all
+    sizes = np.searchsorted(radii[order], np.max(radii) * 0.25 ** np.arange(6)[::-1], side="right")
+    for begin, end in itertools.pairwise((0, *sizes.tolist())):
+        group = order[begin:end]
+        if len(group) == 0:
+            continue
+        tree, others = cKDTree(middles[group]), order[:end]
+        for chunk in np.array_split(others, 1 + len(others) // _AT_ONCE):
+            found = tree.query_ball_point(middles[chunk], reach + radii[chunk] + radii[group[-1]])
+            one = np.repeat(chunk, [len(near) for near in found])
+            two = group[np.fromiter(itertools.chain.from_iterable(found), dtype=np.int64, count=len(one))]
+            # those of one group come twice
+            once = (radii[one] < radii[group[0]]) | (one < two)
+            yield one[once], two[once]

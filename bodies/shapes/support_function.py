@@ -5,11 +5,19 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import call_support, compiled
 from nonsmooth.types import Floats
 
 Support: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float]
 """h, the point (gradient), and xx, yy, zz, yz, xz, xy of the second derivative."""
+
+
+OF_FUNCTION = math.inf
+"""Power of a core whose points are those of a function of its own."""
+FUNCTION = 18
+"""Where in such a core the function's address stands, its parameters behind it."""
+_TURN = 3e-4
+"""Angle over which such points are differentiated [rad]; the error is of its fourth power."""
 
 
 @compiled
@@ -18,8 +26,54 @@ def support_of(core: Floats, x: float, y: float, z: float) -> Support:
 
     Of a core that is not round its second derivative, which is infinite at the axes, is not a number.
     """
-    found: Support = support_by(core[0], core[1], core[2], core[3], core[4], x, y, z)
+    if core[3] == OF_FUNCTION:
+        found: Support = _by_function(core, x, y, z)
+    else:
+        found = support_by(core[0], core[1], core[2], core[3], core[4], x, y, z)
     return found
+
+
+@compiled
+def _by_function(core: Floats, x: float, y: float, z: float) -> Support:
+    """Return the same by the points that a function finds, and by differences of them."""
+    px, py, pz = call_support(core, FUNCTION, x, y, z)
+    # across the direction, (t, u) right-handed with it
+    if abs(z) < 0.7:
+        length = math.sqrt(x * x + y * y)
+        tx, ty, tz = -y / length, x / length, 0.0
+    else:
+        length = math.sqrt(y * y + z * z)
+        tx, ty, tz = 0.0, -z / length, y / length
+    ux, uy, uz = y * tz - z * ty, z * tx - x * tz, x * ty - y * tx
+    ax, ay, az = _slope(core, x, y, z, tx, ty, tz)
+    bx, by, bz = _slope(core, x, y, z, ux, uy, uz)
+    tt, uu = ax * tx + ay * ty + az * tz, bx * ux + by * uy + bz * uz
+    tu = 0.5 * (ax * ux + ay * uy + az * uz + bx * tx + by * ty + bz * tz)
+    return (
+        x * px + y * py + z * pz,
+        px,
+        py,
+        pz,
+        tt * tx * tx + 2.0 * tu * tx * ux + uu * ux * ux,
+        tt * ty * ty + 2.0 * tu * ty * uy + uu * uy * uy,
+        tt * tz * tz + 2.0 * tu * tz * uz + uu * uz * uz,
+        tt * ty * tz + tu * (ty * uz + tz * uy) + uu * uy * uz,
+        tt * tx * tz + tu * (tx * uz + tz * ux) + uu * ux * uz,
+        tt * tx * ty + tu * (tx * uy + ty * ux) + uu * ux * uy,
+    )
+
+
+@compiled
+def _slope(core: Floats, x: float, y: float, z: float, tx: float, ty: float, tz: float) -> tuple[float, float, float]:
+    """Return the derivative of the point as the direction turns to a unit vector across it."""
+    sx, sy, sz = 0.0, 0.0, 0.0
+    for i in range(-2, 3):
+        if i != 0:
+            weight = (8.0 if abs(i) == 1 else -1.0) * (1.0 if i > 0 else -1.0) / (12.0 * _TURN)
+            c, s = math.cos(i * _TURN), math.sin(i * _TURN)
+            px, py, pz = call_support(core, FUNCTION, c * x + s * tx, c * y + s * ty, c * z + s * tz)
+            sx, sy, sz = sx + weight * px, sy + weight * py, sz + weight * pz
+    return sx, sy, sz
 
 
 @compiled
@@ -140,9 +194,10 @@ def norm_of(a: float, b: float, c: float, p: float, q: float, x: float, y: float
 def gauge_of(core: Floats, x: float, y: float, z: float) -> float:
     """Return by how much the core, without the radius, has to grow about its centre to reach (x, y, z) of its axes.
 
-    The norm of which the support function is the dual one, with the powers p / (p - 1) and q / (q - 1).
+    The norm of which the support function is the dual one, with the powers p / (p - 1) and q / (q - 1); infinite where
+    that is not known.
     """
-    if core[0] == 0.0:
+    if core[0] == 0.0 or core[3] == OF_FUNCTION:
         return math.inf
     p, q = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
     r = ((abs(x) / core[0]) ** q + (abs(y) / core[1]) ** q) ** (1.0 / q)

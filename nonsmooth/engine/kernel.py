@@ -65,6 +65,8 @@ forget_watch: Callable[[int], None] = _half.forget_watch
 call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.call_map
 """Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
 
+call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _half.call_support
+"""Call ``support(direction, parameters, point)`` at the address at a place of a heap, the parameters behind it."""
 jit: Callable[[Callable[..., Any]], Any] = _half.jit
 """Compile a plug-in's function on demand."""
 shared: Callable[[Callable[..., Any]], Any] = _half.shared
@@ -91,6 +93,7 @@ __all__ = [
     "call_pair",
     "call_room",
     "call_scalar",
+    "call_support",
     "call_watch",
     "forget_watch",
     "jit",

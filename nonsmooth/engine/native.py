@@ -16,6 +16,7 @@ from typing import Any
 import numba
 from llvmlite import ir
 from numba import types
+from numba.core import cgutils
 from numba.extending import intrinsic, typeof_impl
 
 from nonsmooth.engine.native_build import CFunction, EnginePasses, numbered, raw, raw_inside, typed_once, uncollected
@@ -287,6 +288,7 @@ _C_SIGNATURES = {
     "load": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
     "pair": types.void(FLOATS, FLOATS, FLOATS, FLOATS),
     "map": types.void(types.int64, FLOATS, FLOATS, FLOATS, FLOATS),
+    "support": types.void(FLOATS, FLOATS, FLOATS),
 }
 
 
@@ -296,11 +298,11 @@ def jit(function: Callable[..., Any]) -> Any:
 
 
 class _Shared:
-    """A function that compiled functions call compiled, and Python calls as it stands."""
+    """A function that compiled functions call compiled, or ``inner`` in its place, and Python calls as it stands."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Callable[..., Any], inner: Callable[..., Any] | None = None) -> None:
         self.function = function
-        self.dispatcher = jit(function)
+        self.dispatcher = jit(inner or function)
         functools.update_wrapper(self, function)
 
     def __call__(self, *arguments: Any) -> Any:
@@ -320,6 +322,43 @@ def shared(function: Callable[..., Any]) -> Any:
 def unshared(value: Any) -> Any:
     """Return the function out of which :func:`shared` has made a value, any other value as it is."""
     return value.function if isinstance(value, _Shared) else value
+
+
+@intrinsic
+def _support_at(typingctx: Any, heap: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
+    point = types.UniTuple(types.float64, 3)
+
+    def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        number, size = ir.DoubleType(), ir.IntType(64)
+        numbers = number.as_pointer()
+        way, found = (cgutils.alloca_once(builder, number, 3) for _ in range(2))
+        ends = [size(i) for i in range(3)]
+        for end, value in zip(ends, args[2:], strict=True):
+            builder.store(value, builder.gep(way, [end]))
+        if heap == FLOATS:
+            function = ir.FunctionType(ir.VoidType(), [numbers, numbers, numbers]).as_pointer()
+            address = builder.fptosi(builder.load(builder.gep(args[0], [args[1]])), size)
+            parameters = builder.gep(args[0], [builder.add(args[1], size(1))])
+            builder.call(builder.inttoptr(address, function), [way, parameters, found])
+        values = [builder.load(builder.gep(found, [end])) for end in ends]
+        return context.make_tuple(builder, point, values)
+
+    return point(heap, types.int64, types.float64, types.float64, types.float64), lower
+
+
+def _compiled_support(heap: Any, place: int, x: float, y: float, z: float) -> Any:
+    return _support_at(heap, place, x, y, z)
+
+
+def _support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Call ``void support(direction, parameters, point)`` with what stands in a heap; return the point."""
+    numbers = (ctypes.c_double * (len(heap) - place))(*heap[place + 1 :])
+    way, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
+    ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(int(heap[place]))(way, numbers, found)
+    return found[0], found[1], found[2]
+
+
+call_support = _Shared(_support, _compiled_support)
 
 
 def address_of(shim: Callable[..., Any], form: str, key: str) -> int:

@@ -100,6 +100,13 @@ def call_pair(address: int, a: Any, b: Any, p: Any, out: Any) -> None:
     _functions[address - 1](a, b, p, out)
 
 
+def call_support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Call ``void support(direction, parameters, point)`` with what stands in a heap; return the point."""
+    found = [0.0, 0.0, 0.0]
+    _functions[int(heap[place]) - 1]([x, y, z], heap[place + 1 :], found)
+    return found[0], found[1], found[2]
+
+
 def call_map(address: int, n: int, g: Any, z: Any, p: Any, out: Any) -> None:
     """Call ``void impact(n, delassus, rates, parameters, impulses)``."""
     _functions[address - 1](n, g, z, p, out)

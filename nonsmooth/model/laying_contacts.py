@@ -23,9 +23,9 @@ from nonsmooth.interfaces import (
 from nonsmooth.model.laying import Places
 from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, FORCE_AND_MOMENT, N_ACCOUNTS, PAIR
 from nonsmooth.model.memory import Heap, Memory
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 from nonsmooth.plugins.bounds import try_out
-from nonsmooth.plugins.compile import bind, parameter_names, vector_place
+from nonsmooth.plugins.compile import bind, parameter_names, parameter_place, vector_place
 from nonsmooth.system.contact import Contact
 
 _Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
@@ -34,9 +34,10 @@ _Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
 
 def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places: Places) -> None:
     """Lay the contacts, and reserve the Jacobians of the slots."""
+    tried = set[tuple[Any, ...]]()
     first_state, first = 0, int(memory.scalars["n_q"][0] + memory.scalars["n_u"][0]) + N_ACCOUNTS
     for number, contact in enumerate(contacts):
-        _lay_contact(memory, heap, number, contact, places, first_state)
+        _lay_contact(memory, heap, number, contact, places, first_state, tried)
         scales = state_scale(contact)
         n_y = int(memory.scalars["n_y"][0])
         memory.array("y_scale", n_y)[first + first_state : first + first_state + len(scales)] = scales
@@ -60,7 +61,15 @@ def state_scale(contact: Contact) -> tuple[float, ...]:
     return law.state_scale if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
 
 
-def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, places: Places, first_state: int) -> None:
+def _lay_contact(
+    memory: Memory,
+    heap: Heap,
+    number: int,
+    contact: Contact,
+    places: Places,
+    first_state: int,
+    tried: set[tuple[Any, ...]],
+) -> None:
     impact, reach = contact.impact, 0.0
     functions: list[_Function] = [
         ("geometry", contact.kinematics.evaluator, "pair", contact.kinematics.parameters()),
@@ -77,15 +86,21 @@ def _lay_contact(memory: Memory, heap: Heap, number: int, contact: Contact, plac
     fields: dict[str, int] = {"mode": OPEN}
     for name, function, form, available in functions:
         owner = f"{type(owners.get(name, contact.friction)).__name__} ({contact.name})"
-        address, values = bind(function, form, available, owner)
+        tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
+        address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
         if form == "pair":
-            try_out(function, form, available, values, PAIR, owner)
+            kind = function, *map(id, tables.values())
+            if not tables or kind not in tried:
+                tried.add(kind)
+                whole = bind(function, form, available, owner)[1] if tables else values
+                try_out(function, form, available, whole, PAIR, owner)
         elif form == "traction":
             given = 1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start
             try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, given)
         elif form == "rates":
             try_out(function, form, available, values, len(start), owner, (0.1, (), start))
-        fields |= {f"{name}_function": address, f"{name}_parameters": heap.store(values)}
+        at_tables = {parameter_place(function, form, name): table for name, table in tables.items()}
+        fields |= {f"{name}_function": address, f"{name}_parameters": heap.store_with_tables(values, at_tables)}
         if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
             fields["state_copy"] = fields["friction_parameters"] + _place_of_state(contact.friction, values)
     if start or isinstance(contact.friction, TractionLaw):

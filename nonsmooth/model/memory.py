@@ -18,6 +18,7 @@ from nonsmooth.model.layout import (
     SCALARS,
     UNTOUCHED,
 )
+from nonsmooth.parameters import Table
 
 
 class Heap:
@@ -27,6 +28,7 @@ class Heap:
         self._memory = memory
         self._blocks: list[np.ndarray] = []
         self._next = len(memory.floats)
+        self._references: list[tuple[np.ndarray, int, int, Table]] = []
 
     def block(self, size: int) -> int:
         """Reserve floats; return their offset."""
@@ -39,13 +41,23 @@ class Heap:
         self._next += len(values)
         return start
 
+    def store_with_tables(self, values: Sequence[float], tables: Mapping[int, Table]) -> int:
+        """Append values, of which some say how far behind their beginning a table lies; return their offset."""
+        start = self.store(values)
+        self._references += [(self._blocks[-1], place, start, table) for place, table in tables.items()]
+        return start
+
     def output(self, size: int) -> int:
         """Reserve floats that a plug-in writes, and guards behind them; return their offset."""
         return self.store(np.append(np.zeros(size), np.full(GUARD, UNTOUCHED)))
 
     def close(self) -> Memory:
-        """Return the memory with all blocks in it."""
-        old = self._memory
+        """Return the memory with all blocks in it, and behind them every table once."""
+        old, places = self._memory, dict[int, int]()
+        for block, place, start, table in self._references:
+            if id(table) not in places:
+                places[id(table)] = self.store(table.numbers)
+            block[place] = places[id(table)] - start
         floats = np.zeros(self._next + 1)
         written = int(old.scalars[0]["delassus"])
         floats[:written] = old.floats[:written]

@@ -15,7 +15,7 @@ import numpy as np
 
 from nonsmooth.engine.kernel import PLAIN, address_of, at, call_scalar, jit
 from nonsmooth.errors import RunsInPython, UnknownName
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Table, Value
 from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.fingerprint import fingerprint
 from nonsmooth.plugins.refusal import Refusal, refusal
@@ -31,6 +31,7 @@ ROLES = {
     "load": ("t", "a", "b", "out"),
     "pair": ("a", "b", "out"),
     "map": ("n", "delassus", "rates", "out"),
+    "support": ("direction", "out"),
 }
 """What the engine passes to a function of each form, before the function's own parameters."""
 
@@ -44,6 +45,7 @@ _CALLS = {
     "load": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
     "pair": ("a, b, p, out", "law(a, b, out{unpacked})", "out[0] = nan"),
     "map": ("n, delassus, rates, p, out", "law(n, delassus, rates, out{unpacked})", "out[0] = nan"),
+    "support": ("a, p, out", "law(a, out{unpacked})", "out[0] = nan"),
 }
 """What the engine calls with, the call of the function, and what stands for an exception."""
 _ENDINGS = {
@@ -108,8 +110,8 @@ def bind(
         A plain function whose first arguments are those of ``ROLES[form]``.
     form : str
         One of ``ROLES``.
-    values : mapping of str to float or tuple of float
-        The parameters that the law's object and its surroundings offer; the function gets a tuple as a heap.
+    values : mapping of str to float, tuple of float or Table
+        The parameters that the law's object and its surroundings offer; the function gets tuples and tables as heaps.
     owner : str
         The law, for messages.
 
@@ -129,12 +131,15 @@ def bind(
     for name in names:
         if name not in values:
             raise UnknownName(f"{owner}: {described(function)}, asks for a parameter whose", name, values)
-    vectors = tuple(isinstance(values[name], tuple) for name in names)
+    vectors = _vectors(values, names)
     first = RECORDED.get(form, 0)
     heap: list[float] = [math.nan] * first + [0.0] * len(names)
     for i, name in enumerate(names, start=first):
         value = values[name]
-        if isinstance(value, tuple):
+        if isinstance(value, Table):
+            heap[i] = float(len(heap))
+            heap += value.numbers.tolist()
+        elif isinstance(value, tuple):
             heap[i] = float(len(heap))
             heap += [float(x) for x in value]
         else:
@@ -146,9 +151,33 @@ def bind(
     return entry.address, tuple(heap)
 
 
+def _vectors(values: Mapping[str, Value], names: tuple[str, ...]) -> tuple[bool, ...]:
+    return tuple(isinstance(values[name], (tuple, Table)) for name in names)
+
+
+def refused(function: Callable[..., Any], form: str) -> Refusal | None:
+    """Return why a function of numbers cannot be compiled; None if it can."""
+    return _entry(function, form, (False,) * len(parameter_names(function, form))).refusal
+
+
+def bind_in_python(
+    function: Callable[..., Any], form: str, owner: str, method: Callable[..., Any], why: Refusal
+) -> tuple[int, tuple[float, ...]]:
+    """Return what :func:`bind` does for a function without parameters, which calls a method that cannot be compiled."""
+    shim = _made((_PYTHON_SHIM + _CALLED_SHIM).format(**_parts(form, ())), _scope_in_python(function))
+    address = interpreted.address(shim)
+    _warn(method, owner, why, interpreted.cost(shim, ()))
+    return address, ()
+
+
 def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float], name: str) -> int:
     """Return where a tuple begins in what :func:`bind` wants on the heap."""
-    return int(heap[RECORDED.get(form, 0) + parameter_names(function, form).index(name)])
+    return int(heap[parameter_place(function, form, name)])
+
+
+def parameter_place(function: Callable[..., Any], form: str, name: str) -> int:
+    """Return where the number of a parameter stands in what :func:`bind` wants on the heap."""
+    return RECORDED.get(form, 0) + parameter_names(function, form).index(name)
 
 
 _warned: set[int] = set()
@@ -197,7 +226,7 @@ def in_python(
 
     ``move(heap, offset)`` stands in the place of moved pointers.
     """
-    vectors = tuple(isinstance(values[name], tuple) for name in parameter_names(function, form))
+    vectors = _vectors(values, parameter_names(function, form))
     scope = {"law": interpreted.in_python(function, move), "at": move}
     return _made(_SHIM.format(**_parts(form, vectors), ending=""), scope)
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.engine.kernel import unshared
+from nonsmooth.engine.kernel import call_support, unshared
 
 _MODULES = (math, np)
 
@@ -49,7 +49,10 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
         parts.append(repr((one.__module__, one.__qualname__, *_shape(one.__code__), constants)))
         for name, value in sorted(inspect.getclosurevars(one).globals.items()):
             named = unshared(value)
-            if _is_constant(value) or any(value is module for module in _MODULES):
+            if value is call_support:
+                # the engine's, whose sources are part of where code is kept
+                parts.append(f"{name} = call_support")
+            elif _is_constant(value) or any(value is module for module in _MODULES):
                 parts.append(f"{name} = {value!r}")
             elif inspect.isfunction(named):
                 reached += [] if named in reached else [named]

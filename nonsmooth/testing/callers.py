@@ -21,6 +21,7 @@ _POINTERS = {
     "body": 4,
     "load": 4,
     "pair": 4,
+    "support": 3,
     "map": 4,
     "guard": 3,
     "scalar": 1,

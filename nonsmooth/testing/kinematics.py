@@ -81,7 +81,9 @@ def check_contact_kinematics(
 
 def _space(reach: float) -> list[Variable]:
     space = [Variable(f"place_{c}", -reach, reach, part * reach) for c, part in zip("xyz", _PLACE, strict=True)]
-    for name, size in (("turn_a", 3.0), ("turn_b", 3.0), ("velocity_a", 1.0), ("velocity_b", 1.0)):
+    # small bodies as slow as that, or differences over a step do not tell a rate
+    speed = min(reach, 1.0)
+    for name, size in (("turn_a", 3.0), ("turn_b", 3.0), ("velocity_a", speed), ("velocity_b", speed)):
         space += [Variable(f"{name}_{c}", -size, size) for c in "xyz"]
     return space + [Variable(f"{name}_{c}", -2.0, 2.0) for name in ("spin_a", "spin_b") for c in "xyz"]
 

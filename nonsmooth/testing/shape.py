@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from nonsmooth.interfaces import Shape
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.property import Broken, Property, properties
+
+_DIRECTIONS = 60
+"""Directions along which what a shape encloses is looked at."""
+_ROUND_OFF = 1e-9
 
 
 def check_shape(shape: Shape) -> list[Property]:
@@ -20,6 +26,12 @@ def check_shape(shape: Shape) -> list[Property]:
     rows = [
         ("length", "its length is finite and not negative", lambda: _check_length(shape)),
         ("extent", "a ball of its extent holds what is as far away as its length", lambda: _check_extent(shape)),
+        (
+            "solid",
+            "no point of what it encloses is farther along a direction than that which is told, all are within its "
+            "bounds and its extent, and points inside are",
+            lambda: _check_solid(shape),
+        ),
     ]
     return properties(shape, [*component_rows(shape), *rows])
 
@@ -32,3 +44,29 @@ def _check_length(shape: Shape) -> None:
 def _check_extent(shape: Shape) -> None:
     if not shape.extent >= shape.length:
         raise Broken(f"it must not be below the length {shape.length:g} m", "extent", shape.extent)
+
+
+def _check_solid(shape: Shape) -> None:
+    solid = shape.solid
+    if solid is None:
+        return
+    directions = np.random.default_rng(0).normal(size=(_DIRECTIONS, 3))
+    points = np.array([solid.support(n) for n in directions])
+    if points.shape != directions.shape or not np.all(np.isfinite(points)):
+        raise Broken("a point must be three finite numbers [m]", "support", points.tolist())
+    none = _ROUND_OFF * (float(np.ptp(points)) + float(np.max(np.abs(points))))
+    reach = directions @ points.T
+    for i, n in enumerate(directions):
+        far = float(np.max(reach[i]) - reach[i, i])
+        if far > none * float(np.linalg.norm(n)):
+            raise Broken(f"another point is farther along {n.tolist()}", "support", points[i].tolist())
+        if abs(float(n @ solid.support(3.0 * n)) - reach[i, i]) > none * float(np.linalg.norm(n)):
+            raise Broken("it must not depend on the length of the direction", "direction", n.tolist())
+        if np.min((points[i] - solid.inner) @ n) < -none * float(np.linalg.norm(n)):
+            raise Broken("a point inside must not lie beyond it", "inner", solid.inner.tolist())
+    low, high = solid.bounds
+    if np.any(points < low - none) or np.any(points > high + none):
+        raise Broken("they must hold all its points", "bounds", (low.tolist(), high.tolist()))
+    farthest = float(np.max(np.linalg.norm(points, axis=1)))
+    if farthest > shape.extent + none + solid.set_back:
+        raise Broken(f"a point of the solid is {farthest:g} m away", "extent", shape.extent)

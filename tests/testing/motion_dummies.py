@@ -7,7 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from nonsmooth.interfaces import Guard, Motion, Shape
+from nonsmooth.solids.convex import ConvexSolid
 from nonsmooth.types import Floats
 
 FAULTS = {
@@ -96,7 +99,34 @@ class Blob(Shape):
         return self.holds
 
 
-SHAPES: list[tuple[str, Shape]] = [("length", Blob(-1.0)), ("length", Blob(math.inf)), ("extent", Blob(1.0, 0.5))]
+@dataclass(frozen=True)
+class Ball(Shape):
+    """A ball of radius 1, wrong as its points are: as far along a direction as ``farthest`` says."""
+
+    farthest: Callable[[Any], Any]
+
+    @property
+    def length(self) -> float:
+        return 1.0
+
+    @property
+    def solid(self) -> ConvexSolid:
+        return ConvexSolid(self.farthest)
+
+
+def _dented(n: Any) -> Any:
+    return (1.0 - 0.3 * float(n[2] > 0.9 * np.linalg.norm(n))) * n / np.linalg.norm(n)
+
+
+SHAPES: list[tuple[str, Shape]] = [
+    ("length", Blob(-1.0)),
+    ("length", Blob(math.inf)),
+    ("extent", Blob(1.0, 0.5)),
+    ("solid", Ball(_dented)),
+    ("solid", Ball(lambda n: n)),
+    ("solid", Ball(lambda n: np.full(3, math.nan))),
+    ("solid", Ball(lambda n: 2.0 * n / np.linalg.norm(n))),
+]
 
 
 def value(t: float, q: Floats, u: Floats, step: float) -> float:

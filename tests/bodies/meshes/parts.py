@@ -96,3 +96,23 @@ def turned(mesh: Mesh, angle: float = 0.7, shift: Any = (0.0, 0.0, 0.0)) -> Mesh
     cross = np.cross(np.eye(3), axis)
     turn = np.eye(3) * math.cos(angle) - math.sin(angle) * cross + (1 - math.cos(angle)) * np.outer(axis, axis)
     return mesh[0] @ turn.T + np.array(shift), mesh[1]
+
+
+def hills(n: int = 40) -> Mesh:
+    """Return a block of 2 m whose upper side has hills and valleys of 3 cm, in 2 n^2 triangles there."""
+    x = np.linspace(-1.0, 1.0, n + 1)
+    wide, deep = (grid.ravel() for grid in np.meshgrid(x, x, indexing="ij"))
+    over = np.column_stack([wide, deep, 0.03 * np.sin(9.0 * wide) * np.cos(7.0 * deep)])
+    points = np.concatenate([over, np.column_stack([wide, deep, np.full(len(wide), -0.2)])])
+    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    lower = np.column_stack([first, first + n + 1, first + n + 2])
+    upper = np.concatenate([lower, np.column_stack([first, first + n + 2, first + 1])])
+    k, below, side = np.arange(n), (n + 1) ** 2, (n + 1) * n
+    borders = [
+        (k * (n + 1), (k + 1) * (n + 1)),
+        ((k + 1) * (n + 1) + n, k * (n + 1) + n),
+        (k + 1, k),
+        (side + k, side + k + 1),
+    ]
+    walls = [np.column_stack(face) for a, b in borders for face in ((a, a + below, b), (b, a + below, b + below))]
+    return points, np.concatenate([upper, upper[:, ::-1] + below, *walls])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies.meshes import patches as patches_module
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import patches_for_ball, patches_for_body
-from nonsmooth import InvalidInput
-from tests.bodies.meshes.parts import box, bracket, torus
+from tests.bodies.meshes.parts import box, bracket, hills, torus
 
 Array = NDArray[Any]
 
@@ -88,7 +87,20 @@ def test_larger_balls_touch_more_at_once() -> None:
     assert 2 <= few < more
 
 
-def test_fine_surfaces_are_refused_with_their_number(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(patches_module, "MOST_FACES", 7)
-    with pytest.raises(InvalidInput, match=r"at most 7 flat faces.* but it is 8.*decomposition"):
-        patches_for_ball(features_of(*bracket()), 1e-3)
+@pytest.mark.parametrize("mesh", [torus(12, 6), bracket(), hills(7)], ids=["torus", "bracket", "hills"])
+@pytest.mark.parametrize("radius", [1e-3, 1e-2, 0.3])
+def test_a_patch_has_no_two_faces_that_a_ball_touches_at_once(mesh: Any, radius: float) -> None:
+    """Each face held against each, as the search for near ones must not leave out any."""
+    features = features_of(*mesh)
+    patches, planes = patches_for_ball(features, radius), features.planes
+    corners = [features.vertices[features.triangles[features.face_of == f]].reshape(-1, 3) for f in range(len(planes))]
+    least, together = 1e-9 * features.size, 0
+    for one, two in itertools.combinations(range(len(planes)), 2):
+        if patches.of_faces[one] == patches.of_faces[two]:
+            a, b = corners[one], corners[two]
+            over = min(np.max(a @ planes[two, :3] - planes[two, 3]), np.max(b @ planes[one, :3] - planes[one, 3]))
+            apart = np.linalg.norm(np.maximum(np.maximum(a.min(0) - b.max(0), b.min(0) - a.max(0)), 0.0))
+            reach = radius * float(np.linalg.norm(planes[one, :3] - planes[two, :3]))
+            assert over <= least or apart > reach
+            together += 1
+    assert together > 0

@@ -1,0 +1,82 @@
+"""MovedShape: a shape that a user gives by its farthest points, somewhere else in its body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, final
+
+import numpy as np
+
+from bodies.shapes.placement import with_axes
+from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.support_shape import SupportShape
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import parameter
+from nonsmooth.vectors import UNIT_PART, unit_vector
+
+
+@final
+@dataclass(frozen=True)
+class MovedShape(SmoothShape):
+    """A shape turned about the origin of its own frame by a unit quaternion, then shifted to (x, y, z).
+
+    Attributes
+    ----------
+    shape : SupportShape
+        The shape where its class has it.
+    """
+
+    shape: SupportShape = field()
+    x: float = parameter(0.0, doc="shift, first coordinate", unit="m")
+    y: float = parameter(0.0, doc="shift, second coordinate", unit="m")
+    z: float = parameter(0.0, doc="shift, third coordinate", unit="m")
+    orientation_w: float = parameter(1.0, doc="quaternion from its axes to the body's, scalar part", **UNIT_PART)
+    orientation_x: float = parameter(0.0, doc="quaternion, first component", **UNIT_PART)
+    orientation_y: float = parameter(0.0, doc="quaternion, second component", **UNIT_PART)
+    orientation_z: float = parameter(0.0, doc="quaternion, third component", **UNIT_PART)
+
+    def _check(self) -> None:
+        orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
+        unit_vector("MovedShape orientation", orientation, 4)
+
+    @property
+    def _axes(self) -> Vector:
+        return with_axes(self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z)
+
+    def _placed(self, point: Any) -> Vector:
+        return np.asarray(np.array([self.x, self.y, self.z]) + self._axes @ np.asarray(point))
+
+    @property
+    def core(self) -> tuple[float, ...]:
+        """That of the shape with another middle and other axes."""
+        core = self.shape.core
+        return (*core[:6], *self._placed(core[6:9]).tolist(), *self._axes.ravel().tolist(), *core[18:])
+
+    @property
+    def length(self) -> float:
+        """A bound of the distance of the farthest point [m]."""
+        return self.shape.length + float(np.linalg.norm([self.x, self.y, self.z]))
+
+    def support(self, direction: Vector) -> Vector:
+        """Return the farthest point of the shape where it stands [m]."""
+        return self._placed(self.shape.support(np.asarray(direction) @ self._axes))
+
+    @property
+    def volume(self) -> float:
+        """That of the shape [m^3]."""
+        return self.shape.volume
+
+    @property
+    def centroid(self) -> Vector:
+        """That of the shape, moved [m]."""
+        return self._placed(self.shape.centroid)
+
+    @property
+    def inertia(self) -> Vector:
+        """That of the shape, turned [m^5]."""
+        return np.asarray(self._axes @ self.shape.inertia @ self._axes.T)
+
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+        """Return that of the shape, moved."""
+        points, triangles = self.shape.drawing(fineness)
+        return np.array([self._placed(point) for point in points]), triangles

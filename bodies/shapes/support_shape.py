@@ -1,0 +1,142 @@
+"""SupportShape: a convex shape of which nothing but the farthest points along directions is known."""
+
+from __future__ import annotations
+
+import functools
+import math
+from abc import abstractmethod
+from typing import Any
+
+import numpy as np
+
+from bodies.shapes.drawing import arc, revolved
+from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.support_function import OF_FUNCTION
+from bodies.shapes.support_integrals import integrals_over, largest_radius, least_radius, spiral
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.plugins.methods import bind_support
+
+_SHARPEST, _FLATTEST = 1e-3, 1e3
+"""Radii of curvature that a shape may have, in units of its size."""
+_LOOKS = 400
+"""Directions along which a shape is looked at before it is used."""
+_ROUND_OFF = 1e-9
+_DERIVED = ("core", "_integrals", "_checked")
+
+
+class SupportShape(SmoothShape):
+    """A convex shape that a user gives by its farthest points; all else follows from them.
+
+    A subclass is a final, frozen dataclass whose parameters are declared with :func:`nonsmooth.parameters.parameter`,
+    and has one method, ``support``.  The contract of that:
+
+    1. It returns the point of the shape that lies farthest along a direction of any length, in the frame of the body.
+    2. The surface has no edge, no corner and no flat place: of a shape with edges give the one with a ball rolled
+       over it, which adds ``radius * direction / |direction|``.
+    3. If it uses of ``self`` the declared parameters and else numbers, :mod:`math`, numpy and functions at module
+       level, it is compiled; otherwise it runs in Python, with a warning.
+
+    Raises
+    ------
+    InvalidInput
+        When it is first used: where points are not finite or not farthest, or a radius of curvature is below a
+        thousandth of the size or above a thousand times it.
+    """
+
+    @abstractmethod
+    def support(self, direction: Vector) -> Vector:
+        """Return the farthest point along ``direction`` (shape [3], not zero) [m], shape [3]."""
+
+    @functools.cached_property
+    def core(self) -> tuple[float, ...]:
+        """Half its extents [m], its middle [m], and where the engine finds its points."""
+        assert self._checked
+        low, high = self.bounds
+        half, (x, y, z) = (0.5 * (high - low)).tolist(), (0.5 * (low + high)).tolist()
+        address, heap = bind_support(self, (x, y, z))
+        axes = np.eye(3).ravel().tolist()
+        return (*half, OF_FUNCTION, OF_FUNCTION, 0.0, x, y, z, *axes, float(address), *heap)
+
+    @property
+    def length(self) -> float:
+        """Distance of the farthest point [m], a bound: no direction is far from one that is looked at."""
+        directions, reach = spiral(_LOOKS)
+        return max(float(np.linalg.norm(self.support(n))) for n in directions) / math.cos(reach)
+
+    @functools.cached_property
+    def _integrals(self) -> tuple[float, Vector, Vector]:
+        assert self._checked
+        return integrals_over(self.drawing)
+
+    @functools.cached_property
+    def _checked(self) -> bool:
+        _check(self)
+        return True
+
+    def __getstate__(self) -> dict[str, Any]:
+        # an address is one of this process
+        return {name: value for name, value in vars(self).items() if name not in _DERIVED}
+
+    @property
+    def volume(self) -> float:
+        """By those of ever finer meshes [m^3]."""
+        return self._integrals[0]
+
+    @property
+    def centroid(self) -> Vector:
+        """By those of ever finer meshes [m]."""
+        return self._integrals[1]
+
+    @property
+    def inertia(self) -> Vector:
+        """By those of ever finer meshes [m^5]."""
+        return self._integrals[2]
+
+    def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
+        """Return the points along the meridians and parallels of directions."""
+        sphere, triangles = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        return np.array([self.support(n) for n in sphere]), triangles
+
+
+def _check(shape: SupportShape) -> None:
+    """Look at a shape along directions all round."""
+    name = f"{type(shape).__name__}.support"
+    directions, _ = spiral(_LOOKS)
+    points = [np.asarray(shape.support(n), dtype=float) for n in directions]
+    for n, point in zip(directions, points, strict=True):
+        if point.shape != (3,) or not np.all(np.isfinite(point)):
+            raise InvalidInput(name, "must return three finite numbers", point.tolist(), f"It is asked along {n}.")
+    reach, heights = directions @ np.array(points).T, np.sum(directions * points, axis=1)
+    size = float(np.max(heights + np.max(reach, axis=1)))
+    beyond = np.max(reach, axis=1) - heights
+    worst = int(np.argmax(beyond))
+    if not size > 0.0 or beyond[worst] > _ROUND_OFF * size:
+        raise InvalidInput(
+            name,
+            "must return the farthest of the points that it returns along any direction",
+            points[worst].tolist(),
+            f"Along {directions[worst].tolist()} another one is {beyond[worst]:.3g} m farther. Is the shape convex?",
+        )
+    twice = max(float(np.max(np.abs(shape.support(2.0 * n) - p))) for n, p in zip(directions[:9], points, strict=False))
+    if twice > _ROUND_OFF * size:
+        raise InvalidInput(
+            name, "must not depend on the length of the direction", twice, "Divide by np.linalg.norm(direction)."
+        )
+    least = least_radius(shape.support, directions) / size
+    most = largest_radius(shape.support, directions, np.array(points)) / size
+    if not least >= _SHARPEST:
+        raise InvalidInput(
+            name,
+            f"must have radii of curvature of {_SHARPEST:g} of its size at least",
+            least * size,
+            f"It is sharp: roll a ball over it by adding radius * direction / np.linalg.norm(direction), with a radius "
+            f"of {_SHARPEST * size:.2g} m or more.",
+        )
+    if not most <= _FLATTEST:
+        raise InvalidInput(
+            name,
+            f"must have radii of curvature of {_FLATTEST:g} times its size at most",
+            most * size,
+            "A flat place has no single farthest point: give it a large radius, or take a box, a hull or a cylinder.",
+        )
