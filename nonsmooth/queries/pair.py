@@ -15,6 +15,9 @@ from nonsmooth.queries.result import EXACT, PLANES, DistanceResult
 from nonsmooth.queries.solids import TooManyPieces, by_planes, proved
 from nonsmooth.solids.placed import Placed
 
+_ROUND_OFF, _LEAST = 1e-9, 1e-12
+"""Differences that count as none, relative to a gap, and [m]."""
+
 
 @final
 class ShapePair:
@@ -156,6 +159,10 @@ def _ready(first: Shape, second: Shape, by: str | None, quick: bool) -> ShapePai
 
 def _within(found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
     """Return what contacts say with the bounds of another answer, or that if they are outside of these."""
-    if found is None or not bound.lower <= found.gap <= bound.upper:
+    if found is None:
         return bound
-    return replace(found, lower=bound.lower, upper=bound.upper)
+    # planes leave no more than round-off between their bounds
+    slack = _ROUND_OFF * abs(bound.gap) + _LEAST
+    if not bound.lower - slack <= found.gap <= bound.upper + slack:
+        return bound
+    return replace(found, lower=min(bound.lower, found.gap), upper=max(bound.upper, found.gap))

@@ -30,12 +30,14 @@ from bodies import (
     Point,
     Rest,
     Sphere,
+    SupportShape,
     TriangleMesh,
     Triangles,
 )
 from bodies.queries.coal import Coal
 from nonsmooth.errors import MissingPackagesError
 from nonsmooth.plugins import registry
+from tests.bodies.given_shapes import Egg, EllipsoidSum, RoundedLens
 from tests.bodies.meshes.parts import bracket
 from tests.queries.shapes import SHAPES, UNBOUNDED, Pose, pose
 
@@ -248,6 +250,20 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(Coal, "installed", False)
     with pytest.raises(MissingPackagesError, match=r'pip install "nonsmooth\[coal\]"'):
         ns.distance(Sphere(0.1), Sphere(0.1), by="coal")
+
+
+@pytest.mark.parametrize("kind", [EllipsoidSum, RoundedLens, Egg])
+@pytest.mark.parametrize("other", ["plane", "point", "box", "cylinder", "ellipsoid", "mesh"])
+def test_shapes_of_users(kind: type[SupportShape], other: str) -> None:
+    """What has nothing but farthest points is asked like all others; what contacts say is what planes prove."""
+    rng, shape = np.random.default_rng([9, *other.encode()]), kind()
+    for reach in (0.01, 0.02, 0.05):
+        at = pose(rng, reach), pose(rng, reach)
+        found = ns.distance(shape, SHAPES[other], at=at)
+        assert found.lower <= found.gap <= found.upper
+        if found.gap > 0.0 and other != "plane":
+            assert found.how == ("planes" if other == "point" else "exact")
+            assert found.gap == pytest.approx(ns.distance(shape, SHAPES[other], at=at, by="planes").gap, abs=1e-12)
 
 
 def test_aligned_boxes_on_a_grid() -> None:
