@@ -18,6 +18,9 @@ from nonsmooth.solids.placed import Placed
 _ROUND_OFF, _LEAST = 1e-9, 1e-12
 """Differences that count as none, relative to a gap, and [m]."""
 
+_MOST_PIECES = 2000
+"""Pieces of a surface up to which contacts are made: in a second, where a hundred thousand take many minutes."""
+
 
 @final
 class ShapePair:
@@ -50,7 +53,7 @@ class ShapePair:
         self._hollow = any(solid is not None and solid.hollow for solid in self._solids)
         self._contacts: Contacts | None = None
         self._library: LibraryPair | None = None
-        if by == EXACT or (by is None and not (quick and bounded)):
+        if by == EXACT or (by is None and not (bounded and (quick or self._many))):
             self._contacts = self._made(first, second)
         if by not in (None, EXACT, PLANES):
             self._library = named_pair(by, first, second)
@@ -63,6 +66,12 @@ class ShapePair:
                 self._names,
                 "Two planes have no nearest points.",
             )
+
+    @property
+    def _many(self) -> bool:
+        """Whether a surface has so many pieces that its contacts take longer to make than who asks will wait."""
+        surfaces = [solid for solid in self._solids if solid is not None and solid.hollow]
+        return any(len(solid.pieces(*solid.bounds)) > _MOST_PIECES for solid in surfaces)
 
     def _made(self, first: Shape, second: Shape) -> Contacts | None:
         try:
