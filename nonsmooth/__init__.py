@@ -2,13 +2,15 @@
 
 from nonsmooth.contact import solve_contact
 from nonsmooth.contact_result import ContactResult
-from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError, RunFailed, RunsInPython, UnknownName
+from nonsmooth.errors import InvalidInput, NoDistance, NonsmoothError, PluginError, RunFailed, RunsInPython, UnknownName
 from nonsmooth.files.reading import Setup, load_system
 from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.interfaces import Criterion
 from nonsmooth.model.options import Options
 from nonsmooth.placing import at_height, resting, touching
+from nonsmooth.queries.distance import distance
+from nonsmooth.queries.proximity import proximity
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.materials import ContactLaws, Materials
@@ -22,6 +24,7 @@ __all__ = [
     "ImpactResult",
     "InvalidInput",
     "Materials",
+    "NoDistance",
     "NonsmoothError",
     "Options",
     "PluginError",
@@ -32,7 +35,9 @@ __all__ = [
     "System",
     "UnknownName",
     "at_height",
+    "distance",
     "load_system",
+    "proximity",
     "resting",
     "save_system",
     "simulate",

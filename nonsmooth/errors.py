@@ -67,6 +67,14 @@ class MissingPackagesError(NonsmoothError):
     """Optional packages that a request needs and that are not installed."""
 
 
+class NoDistance(NonsmoothError):
+    """A pose at which the way that was asked for tells no distance."""
+
+
+class DoubtfulDistance(NoDistance):
+    """An answer of a library for distances that contradicts a bound; neither answer nor guess is returned."""
+
+
 class RunFailed(NonsmoothError, RuntimeError):
     """A run that could not go on.  What was computed until then is in ``solution``."""
 

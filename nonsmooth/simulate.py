@@ -16,6 +16,7 @@ from nonsmooth.model.model import Model
 from nonsmooth.model.options import Options
 from nonsmooth.plugins.blocks import written_past
 from nonsmooth.plugins.diagnose import culprit
+from nonsmooth.queries.undeclared import warn_of_overlaps
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
@@ -59,6 +60,11 @@ def simulate(
         With status "done", "suspect" where its own checks found something (the message says what), or "interrupted"
         after Ctrl-C.
 
+    Warns
+    -----
+    UndeclaredOverlap
+        If bodies overlap at the start that have no contact, are not joined and not excluded.
+
     Raises
     ------
     InvalidInput
@@ -71,6 +77,7 @@ def simulate(
         if not (math.isfinite(value) and value > 0.0):
             raise InvalidInput(f"simulate: {name}", "must be positive and finite", value, "Give it in [s].")
     model = assemble(system, options or Options())
+    warn_of_overlaps(system)
     model.memory.scalars["t_end"] = t_end
     model.memory.scalars["sample_interval"] = interval
     return _run(model, progress)

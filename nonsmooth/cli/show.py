@@ -22,12 +22,25 @@ def add_to(commands: Any) -> None:
     command = commands.add_parser(
         "show", help="parameters with units, defaults, ranges, and what is assumed", allow_abbrev=False
     )
-    command.add_argument("name", metavar="NAME", help="anything of `nonsmooth list`, or FILE.py:CLASS")
+    command.add_argument(
+        "name", metavar="NAME", help="anything of `nonsmooth list`, FILE.py:CLASS, or a scenario file for --proximity"
+    )
+    command.add_argument(
+        "--proximity",
+        action="store_true",
+        help="of a scenario or a file: which bodies are near each other at the start, and what is said of them",
+    )
     command.set_defaults(execute=execute)
 
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Print everything of that name: a scenario and a body may share one."""
+    if arguments.proximity:
+        # imported when asked for: the other commands start faster without it
+        from nonsmooth.cli import near
+
+        say(near.table(arguments.name))
+        return True
     if file.is_file(arguments.name):
         owner = file.load("show", registry.INTERFACES, arguments.name)
         say(_describe(owner, f"{owner.__name__}: {registry.kind_of(owner)} of {arguments.name.rpartition(':')[0]}"))

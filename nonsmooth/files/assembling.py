@@ -48,6 +48,9 @@ def system(tables: Table, path: Path) -> System:
         reader.tie(made_system.joint, table, f"{path}: joints[{i}]", Joint)
     for i, table in enumerate(tables_in(f"{path}: contacts", tables.get("contacts", []))):
         reader.contact(made_system, table, f"{path}: contacts[{i}]")
+    for one, other in reader.excluded(tables, f"{path}: exclude"):
+        with naming(f"{path}: exclude"):
+            made_system.exclude(one, other)
     if "materials" in tables:
         reader.materials(made_system, tables["materials"], made_of, f"{path}: materials")
     elif made_of:
@@ -100,6 +103,12 @@ class _Reader:
     def between(self, table: Table, thing: str) -> tuple[Body, Body]:
         one, two = words(f"{thing}.between", table.get("between"), 2)
         return self.body(one, thing), self.body(two, thing)
+
+    def excluded(self, table: Table, thing: str) -> list[tuple[Body, Body]]:
+        left_out = table.get("exclude", [])
+        if not isinstance(left_out, list):
+            raise InvalidInput(thing, "must be a list of pairs", left_out, 'For example [["a", "b"]].')
+        return [self.between({"between": pair}, thing) for pair in left_out]
 
     def law(self, value: Any, thing: str, base: type) -> Any:
         if isinstance(value, str) and not file.is_file(value):
@@ -154,9 +163,6 @@ class _Reader:
         if "default" in table:
             check_keys(f"{thing}.default", table["default"], tuple(_ROLES))
             default = self.contact_laws(table["default"], f"{thing}.default")
-        left_out = table.get("exclude", [])
-        if not isinstance(left_out, list):
-            raise InvalidInput(f"{thing}.exclude", "must be a list of pairs", left_out, 'For example [["a", "b"]].')
-        exclude = [self.between({"between": pair}, f"{thing}.exclude") for pair in left_out]
+        exclude = self.excluded(table, f"{thing}.exclude")
         with naming(thing):
             made.contact_all(Materials(pairs, default), of, exclude=exclude)

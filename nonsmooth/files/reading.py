@@ -25,6 +25,7 @@ _KEYS = (
     "laws",
     "bodies",
     "contacts",
+    "exclude",
     "materials",
     "joints",
     "loads",

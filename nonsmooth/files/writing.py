@@ -68,6 +68,7 @@ def save_system(
     tables["laws"] = laws.tables
     tables["bodies"] = {known[id(body)]: _body(system, body, f"bodies.{known[id(body)]}") for body in system.bodies}
     tables["contacts"] = contacts
+    tables["exclude"] = [[known[id(one)], known[id(other)]] for one, other in system.excluded]
     for kind, ties in (("joints", system.joints), ("loads", system.loads)):
         tables[kind] = [_tie(tie, known, f"{kind}[{i}]") for i, tie in enumerate(ties)]
     tables["guards"] = [table_of(guard, f"guards[{i}]") for i, guard in enumerate(system.guards)]

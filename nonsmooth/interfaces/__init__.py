@@ -4,6 +4,7 @@ from nonsmooth.interfaces.body import Body
 from nonsmooth.interfaces.contact_kinematics import ContactKinematics
 from nonsmooth.interfaces.convex_shape import ConvexShape
 from nonsmooth.interfaces.criterion import Criterion
+from nonsmooth.interfaces.distance_backend import DistanceBackend
 from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
@@ -23,6 +24,7 @@ __all__ = [
     "ContactKinematics",
     "ConvexShape",
     "Criterion",
+    "DistanceBackend",
     "FrictionLaw",
     "Guard",
     "ImpactLaw",

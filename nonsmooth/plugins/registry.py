@@ -15,6 +15,7 @@ from nonsmooth.errors import NonsmoothWarning, PluginError, UnknownName
 from nonsmooth.interfaces import (
     Body,
     ContactKinematics,
+    DistanceBackend,
     Guard,
     ImpactLaw,
     Joint,
@@ -36,6 +37,7 @@ GROUPS: dict[str, tuple[type, ...]] = {
     "shapes": (Shape,),
     "motions": (Motion,),
     "guards": (Guard,),
+    "distances": (DistanceBackend,),
 }
 """Entry-point groups ``nonsmooth.<name>`` and the interfaces that their members implement."""
 
@@ -49,6 +51,7 @@ KINDS = {
     "shapes": "shape",
     "motions": "motion",
     "guards": "guard",
+    "distances": "library for distances",
 }
 """What one member of a group is called."""
 

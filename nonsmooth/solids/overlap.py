@@ -10,13 +10,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import final
 
 import numpy as np
 
 from nonsmooth.interfaces.solid import Piece, Vector
 
-_EXACT = 0.1
-"""A depth is told as exactly as this, relative to it."""
+_EXACT, _CLOSE = 0.1, 1e-3
+"""A depth is told as exactly as this, relative to it: a bound, and where the shortest way out is asked for."""
 _ROUND_OFF = 1e-14
 _MOST = 400
 """Steps, after which the bound is taken as it is."""
@@ -24,6 +26,28 @@ _MOST = 400
 _Point = tuple[float, float, float]
 _Face = tuple[float, _Point, int, int, int]
 """Height over the origin, outward normal, corners counter-clockwise seen from outside."""
+
+
+@final
+@dataclass(frozen=True)
+class Penetration:
+    """The shortest way that parts two convex sets.
+
+    Attributes
+    ----------
+    lower, upper : float
+        No way that parts them is shorter than the first; that by the second along the normal does [m].
+    normal : Vector
+        Unit vector along which the second is to be moved, shape [3].
+    first, second : Vector
+        Points of either that are farthest in the other one [m], shape [3] each.
+    """
+
+    lower: float
+    upper: float
+    normal: Vector
+    first: Vector
+    second: Vector
 
 
 def depth(one: Piece, two: Piece, tolerance: float) -> float:
@@ -51,7 +75,48 @@ def depth(one: Piece, two: Piece, tolerance: float) -> float:
         if parted(normal) or parted(-normal):
             return 0.0
     points = _tetrahedron(farthest, tolerance)
-    return _expanded(points, farthest, tolerance) if points else 0.0
+    return _expanded(points, farthest, tolerance, _EXACT)[0] if points else 0.0
+
+
+def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
+    """Return the shortest way that parts two convex sets to a thousandth, None if a tolerance covers their overlap.
+
+    Round ones may be told less exactly: what is known lies between the bounds.
+
+    Parameters
+    ----------
+    one, two : Piece
+        The sets, in the same axes.
+    tolerance : float
+        By how much sets that touch may overlap [m].
+    """
+    points: dict[_Point, tuple[Vector, Vector]] = {}
+    best: list[tuple[float, _Point]] = []
+
+    def farthest(direction: Vector) -> Vector:
+        size = float(np.linalg.norm(direction))
+        first, second = one.support(direction), two.support(-direction)
+        found = first - second
+        points[_point(found)] = first, second
+        best.append((float(direction @ found) / size, _point(direction / size)))
+        return found
+
+    corners = _tetrahedron(farthest, tolerance)
+    if not corners:
+        return None
+    lower, corner, unit = _expanded(corners, farthest, tolerance, _CLOSE)
+    if lower == 0.0:
+        return None
+    upper, normal = min(best)
+    # the points under the face that is nearest to the origin
+    trio = np.array(corner)
+    shares = np.linalg.lstsq(
+        np.vstack([trio.T, np.full(3, np.max(np.abs(trio)))]),
+        np.append(lower * np.array(unit), np.max(np.abs(trio))),
+        rcond=None,
+    )[0]
+    first, second = (shares @ np.array(rows) for rows in zip(*(points[point] for point in corner), strict=True))
+    return Penetration(min(lower, upper), upper, np.array(normal), first, second)
 
 
 def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list[_Point]:
@@ -92,7 +157,10 @@ def _across(points: list[Vector]) -> Iterable[Vector]:
     return [sign * way for way in ways for sign in (1.0, -1.0)]
 
 
-def _expanded(corners: list[_Point], farthest: Callable[[Vector], Vector], tolerance: float) -> float:
+def _expanded(
+    corners: list[_Point], farthest: Callable[[Vector], Vector], tolerance: float, exact: float
+) -> tuple[float, list[_Point], _Point]:
+    """Return the depth, or 0, and corners and normal of the face that it is that of."""
     points = list(corners)
     faces = [_face(points, *trio) for trio in ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2))]
     size = max(math.hypot(*point) for point in points)
@@ -101,14 +169,14 @@ def _expanded(corners: list[_Point], farthest: Callable[[Vector], Vector], toler
         found = _point(farthest(np.array(normal)))
         reach = _dot(normal, found)
         if reach <= tolerance:
-            return 0.0
-        if reach - height <= max(_EXACT * reach if height > tolerance else 0.0, _ROUND_OFF * size):
-            return height if height > tolerance else 0.0
+            return 0.0, [], normal
+        if reach - height <= max(exact * reach if height > tolerance else 0.0, _ROUND_OFF * size):
+            break
         points.append(found)
         size = max(size, math.hypot(*found))
         faces = _pushed_out(points, faces, _ROUND_OFF * size)
-    height = min(faces)[0]
-    return height if height > tolerance else 0.0
+    height, normal, *trio = min(faces)
+    return (height if height > tolerance else 0.0), [points[i] for i in trio], normal
 
 
 def _pushed_out(points: list[_Point], faces: list[_Face], least: float) -> list[_Face]:

@@ -1,4 +1,4 @@
-"""Distance of two convex sets, with a plane that proves it.
+"""Distance of two convex sets, with a plane that proves it, and the points that are nearest.
 
 The search of E. Gilbert, D. Johnson and S. Keerthi, IEEE J. Robotics Automat. 4 (1988) 193, for the point nearest to
 the origin of the set of all differences.
@@ -7,6 +7,8 @@ the origin of the set of all differences.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import final
 
 import numpy as np
 
@@ -16,6 +18,27 @@ _MOST = 200
 _Point = tuple[float, float, float]
 _Nearest = tuple[float, _Point, tuple[_Point, ...]]
 """Squared distance from the origin, the nearest point of a simplex, the corners that it lies between."""
+
+
+@final
+@dataclass(frozen=True)
+class Nearest:
+    """Where two convex sets are nearest.
+
+    Attributes
+    ----------
+    lower : float
+        All of the second is so far beyond all of the first along the normal [m]; not above 0 where they overlap.
+    normal : Vector
+        Unit vector from the first to the second, shape [3].
+    first, second : Vector
+        Points of either, as far apart as the sets to the accuracy asked for [m], shape [3] each.
+    """
+
+    lower: float
+    normal: Vector
+    first: Vector
+    second: Vector
 
 
 def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float) -> tuple[float, Vector]:
@@ -38,31 +61,75 @@ def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float
         All of the second is so far beyond all of the first along the unit normal, shape [3], and beyond the margin.
         Not above -margin, with some unit vector, where they overlap or nearly touch.
     """
+    found = _search(one, two, way, margin, enough, 1e-3)
+    return found.bound - margin, found.normal
+
+
+def nearest(one: Piece, two: Piece, enough: float) -> Nearest:
+    """Return where two convex sets are nearest.
+
+    Parameters
+    ----------
+    one, two : Piece
+        The sets, in the same axes.
+    enough : float
+        By how much the bound may be too low [m].
+    """
+    found = _search(one, two, np.zeros(3), 0.0, enough, 0.0)
+    if not found.corners:
+        return Nearest(found.bound, found.normal, one.place, two.place)
+    # the parts with which the corners make up the nearest point
+    corners = np.array(found.corners)
+    rows = np.vstack([corners.T, np.full(len(corners), np.max(np.abs(corners), initial=1e-300))])
+    shares = np.linalg.lstsq(rows, np.append(np.array(found.point), rows[3, 0]), rcond=None)[0]
+    first, second = (shares @ np.array(points) for points in zip(*found.points, strict=True))
+    return Nearest(found.bound, found.normal, first, second)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """What a search ended with: a bound and its normal, and the simplex that holds the nearest point."""
+
+    bound: float
+    normal: Vector
+    point: _Point
+    corners: tuple[_Point, ...]
+    points: list[tuple[Vector, Vector]]
+
+
+def _search(one: Piece, two: Piece, way: Vector, margin: float, enough: float, part: float) -> _Found:
     nearest = _tuple(two.place - one.place - way)
     simplex: tuple[_Point, ...] = ()
+    origins: dict[_Point, tuple[Vector, Vector]] = {}
     best, normal = -math.inf, np.array([0.0, 0.0, 1.0])
     square, size = _dot(nearest, nearest), 0.0
+
+    def ended(bound: float) -> _Found:
+        return _Found(bound, normal, nearest, simplex, [origins[corner] for corner in simplex])
+
     for _ in range(_MOST):
         distance = math.sqrt(square)
         if distance <= 1e-15 * size or distance == 0.0:
             break
         unit = np.array(nearest) / distance
-        found = _tuple(two.support(-unit) - one.support(unit) - way)
+        first, second = one.support(unit), two.support(-unit)
+        found = _tuple(second - first - way)
         bound = _dot(_tuple(unit), found)
         if bound > best:
             best, normal = bound, unit
-        if distance - best <= max(1e-3 * (best - margin), enough) or found in simplex:
+        if simplex and (distance - best <= max(part * (best - margin), enough) or found in simplex):
             break
         size = max(size, math.hypot(*found))
         last = square
-        square, nearest, kept = _nearest((*simplex, found))
+        origins[found] = first, second
+        now, point, kept = _nearest((*simplex, found))
         if len(kept) == 4:
-            return min(best, 0.0) - margin, normal
-        if simplex and square >= last:
+            return ended(min(best, 0.0))
+        if simplex and now >= last:
             # no progress but round-off
             break
-        simplex = kept
-    return (best if best > -math.inf else 0.0) - margin, normal
+        square, nearest, simplex = now, point, kept
+    return ended(best if best > -math.inf else 0.0)
 
 
 def _nearest(simplex: tuple[_Point, ...]) -> _Nearest:

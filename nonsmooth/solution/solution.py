@@ -18,6 +18,8 @@ from nonsmooth.system.system import System
 if TYPE_CHECKING:
     import xarray
 
+    from nonsmooth.queries.result import DistanceHistory
+
 
 @dataclass(frozen=True)
 class Counters:
@@ -124,6 +126,25 @@ class Solution:
         """Return the mode word that holds just after each of the times [s]."""
         index = np.clip(np.searchsorted(self.events.time, times, side="right") - 1, 0, None)
         return words(self.events.after[index])
+
+    def distances(self, first: Body, second: Body, *, by: str | None = None) -> DistanceHistory:
+        """Return how far two bodies are from each other at the samples: gap, points, normal, and how they were found.
+
+        Parameters
+        ----------
+        first, second : Body
+            Bodies of the system; all of their shapes count.
+        by : str, optional
+            One way to find it (:func:`nonsmooth.distance`).
+
+        Raises
+        ------
+        InvalidInput, NoDistance, MissingPackagesError
+            As :func:`nonsmooth.distance`, or if a body is not of the system.
+        """
+        from nonsmooth.queries.over_time import distances
+
+        return distances(self, first, second, by)
 
     def to_xarray(self) -> xarray.Dataset:
         """Return samples and events as one dataset with units."""

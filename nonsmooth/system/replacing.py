@@ -47,6 +47,8 @@ def with_laws(
             impact=kept if impact is None else impact,
             shapes=said.shapes,
         )
+    for one, other in system.excluded:
+        made.exclude(one, other)
     for tie in system.joints:
         made.joint(tie.component, tie.first, tie.second, frames=tie.frames)  # type: ignore[arg-type]
     for tie in system.loads:

@@ -68,6 +68,8 @@ class System:
         self._contacts: list[Contact] = []
         self._declared: list[Declaration] = []
         self._paired: set[_ShapePair] = set()
+        self._excluded: list[tuple[Body, Body]] = []
+        self._left_out: list[tuple[Body, Body]] = []
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
         self._guards: list[Guard] = []
@@ -106,6 +108,11 @@ class System:
     def declarations(self) -> tuple[Declaration, ...]:
         """What was said of contacts, one entry for every two bodies or choice of their shapes, in that order."""
         return tuple(self._declared)
+
+    @property
+    def excluded(self) -> tuple[tuple[Body, Body], ...]:
+        """The pairs of bodies that were said not to touch, and those that :meth:`contact_all` was to leave out."""
+        return (*self._excluded, *self._left_out)
 
     @property
     def guards(self) -> tuple[Guard, ...]:
@@ -304,7 +311,7 @@ class System:
         bodies : sequence of Body, optional
             Which bodies touch each other; by default all of the system that carry shapes.
         exclude : iterable of pairs of Body
-            Pairs that do not touch.
+            Pairs that do not touch, beside those of :meth:`exclude`.
 
         Returns
         -------
@@ -322,10 +329,11 @@ class System:
         names = self._material_names(materials, of or {})
         out = {self._pair_of(tie.first, tie.second) for tie in self._joints}
         out |= {frozenset(body for body, _ in pair) for pair in self._paired}
-        for one, other in exclude:
+        apart = list(exclude)
+        for one, other in apart:
             self._require(one, "System.contact_all: exclude")
             self._require(other, "System.contact_all: exclude")
-            out.add(self._pair_of(one, other))
+        out |= {self._pair_of(one, other) for one, other in (*self._excluded, *apart)}
         for body in chosen:
             self._require(body, "System.contact_all: bodies")
         kept, added = (list(self._contacts), list(self._declared), set(self._paired)), len(self._contacts)
@@ -337,7 +345,24 @@ class System:
         except InvalidInput:
             self._contacts, self._declared, self._paired = kept
             raise
+        self._left_out += apart
         return tuple(self._contacts[added:])
+
+    def exclude(self, first: Body, second: Body) -> None:
+        """Say that two bodies do not touch: :meth:`contact_all` will leave them out, and nothing warns of an overlap.
+
+        Raises
+        ------
+        InvalidInput
+            If a body is not of this system, or they are the same.
+        """
+        self._require(first, "System.exclude")
+        self._require(second, "System.exclude")
+        if first is second:
+            raise InvalidInput(
+                "System.exclude", "needs two different bodies", type(first).__name__, "Name the other body."
+            )
+        self._excluded.append((first, second))
 
     def _material_names(self, materials: Materials, of: Mapping[str, Sequence[Body]]) -> dict[int, str]:
         names: dict[int, str] = {}

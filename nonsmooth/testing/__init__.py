@@ -8,6 +8,7 @@ Each ``check_...`` returns a list of :class:`Property`; nothing runs before a pr
 """
 
 from nonsmooth.testing.body import check_body
+from nonsmooth.testing.distances import check_distance_backend
 from nonsmooth.testing.friction import check_friction_law
 from nonsmooth.testing.guard import check_guard
 from nonsmooth.testing.impact import check_impact_law
@@ -28,6 +29,7 @@ __all__ = [
     "PropertyFailed",
     "check_body",
     "check_contact_kinematics",
+    "check_distance_backend",
     "check_friction_law",
     "check_guard",
     "check_impact_law",

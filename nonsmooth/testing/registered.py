@@ -13,6 +13,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     Body,
     ContactKinematics,
+    DistanceBackend,
     FrictionLaw,
     Guard,
     ImpactLaw,
@@ -27,6 +28,7 @@ from nonsmooth.interfaces import (
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.plugins import registry
 from nonsmooth.testing.body import check_body
+from nonsmooth.testing.distances import check_distance_backend
 from nonsmooth.testing.friction import check_friction_law
 from nonsmooth.testing.guard import check_guard
 from nonsmooth.testing.impact import check_impact_law
@@ -51,6 +53,7 @@ _CHECKS: tuple[tuple[Any, Callable[[Any], list[Property]]], ...] = (
     (Motion, check_motion),
     (Shape, check_shape),
     (Guard, check_guard),
+    (DistanceBackend, check_distance_backend),
     (Scenario, check_scenario),
 )
 

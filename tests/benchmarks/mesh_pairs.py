@@ -32,7 +32,8 @@ Known = tuple[tuple[Shape, Shape], Any, float, Array, Array, int]
 Round = Sphere | Ellipsoid | Superellipsoid
 
 
-def _mesh(rng: Generator) -> TriangleMesh:
+def any_mesh(rng: Generator) -> TriangleMesh:
+    """Return a bracket of any size and proportions, turned."""
     points, triangles = bracket(float(rng.uniform(8e-3, 15e-3)))
     q = rng.normal(size=4)
     stretched = (points - np.mean(points, axis=0)) * rng.uniform(0.4, 0.7, 3)
@@ -113,7 +114,7 @@ def _patch(patches: Patches, part: str, number: int) -> int:
 def _with_round(kind: str, part: str) -> Callable[[float, Generator], Known]:
     def draw(gap: float, rng: Generator) -> Known:
         while True:
-            mesh, second = _mesh(rng), _round(rng, kind)
+            mesh, second = any_mesh(rng), _round(rng, kind)
             features = mesh.features
             if isinstance(second, Sphere):
                 patches = patches_for_ball(features, second.radius)
@@ -138,7 +139,7 @@ def _with_round(kind: str, part: str) -> Callable[[float, Generator], Known]:
 
 def _with_box(part: str, other_part: str) -> Callable[[float, Generator], Known]:
     def draw(gap: float, rng: Generator) -> Known:
-        mesh, box = _mesh(rng), Box(*[float(x) for x in rng.uniform(4e-3, 10e-3, 3)])
+        mesh, box = any_mesh(rng), Box(*[float(x) for x in rng.uniform(4e-3, 10e-3, 3)])
         one = mesh.features
         two = features_of(np.array(box.polytope.vertices), np.array(box.polytope.triangles))
         number, point, n = _feature(rng, one, part, True)
@@ -170,7 +171,7 @@ def _cross(known: Known, first: Array, second: Array) -> bool:
 
 def _with_swept(shape: Callable[[Generator], SweptPolytope], part: str, other_part: str) -> Callable[..., Known]:
     def draw(gap: float, rng: Generator) -> Known:
-        mesh, second = _mesh(rng), shape(rng)
+        mesh, second = any_mesh(rng), shape(rng)
         own, core = mesh.features, second.core
         number, point, n = _feature(rng, own, part, True)
         touching, m, other = feature(rng, second, other_part)
@@ -192,7 +193,7 @@ def _with_swept(shape: Callable[[Generator], SweptPolytope], part: str, other_pa
 
 def _with_frustum(name: str, part: str, other: str) -> Callable[[float, Generator], Known]:
     def draw(gap: float, rng: Generator) -> Known:
-        mesh, first = _mesh(rng), touch_round(rng, name, part)
+        mesh, first = any_mesh(rng), touch_round(rng, name, part)
         number, point, n = _feature(rng, mesh.features, other, True)
         along = None
         if other == "edge":

@@ -7,8 +7,7 @@ two readings is subtracted; what the readings cost in all shows as the run's tim
 
 Printed are, per run: simulated and wall time without the clock, that with it over the former, shares of the search for
 near pairs (the compiled sweep), of the pairs' evaluators (closed forms, polishing, features) and of the rest of the
-engine; then calls and microseconds of every kind of pair.  FCL is not called in a run, so that it has no share; what it
-would take in place of the sweep is in ``tests.benchmarks.broad_phase``.
+engine; then calls and microseconds of every kind of pair.  FCL is not called in a run, so that it has no share.
 """
 
 from __future__ import annotations

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from bodies import Cone, ConeBody, Cylinder, CylinderBody, Disc, DiscBody
-from bodies.distances.placing import sharp
 from nonsmooth import InvalidInput
 from nonsmooth.engine.kernel import PLAIN
 from tests.benchmarks.touches import ROUND, hull, on, rounded
@@ -180,8 +179,3 @@ def test_bad_roundings(kind: type, sizes: tuple[float, ...], rounding: float, wo
     with pytest.raises(InvalidInput) as caught:
         kind(*sizes, rounding=rounding)
     assert all(word in str(caught.value) for word in words)
-
-
-def test_libraries_that_know_sharp_cylinders_only_are_not_given_rounded_ones() -> None:
-    with pytest.raises(InvalidInput, match="without a rounding"):
-        sharp("FCL", Cylinder(0.1, 0.2, rounding=0.02))

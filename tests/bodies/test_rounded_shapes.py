@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from bodies import Box, BoxBody, ConvexHull, HullBody, Sphere
-from bodies.distances.placing import sharp
 from nonsmooth import InvalidInput
 
 
@@ -32,11 +31,9 @@ def test_a_box_rounded_almost_all_over_is_almost_a_ball() -> None:
 
 
 def test_who_asks_a_rounded_polyhedron_for_sharp_edges_is_refused() -> None:
-    """Pairs and libraries that know sharp ones only must not take the core for the body."""
+    """Pairs that know sharp ones only must not take the core for the body."""
     with pytest.raises(InvalidInput, match=r"Box\.rounding"):
         assert Box(0.1, 0.2, 0.3, rounding=0.05).polytope
-    with pytest.raises(InvalidInput, match="polyhedra and cylinders without a rounding"):
-        sharp("FCL", Box(0.1, 0.2, 0.3, rounding=0.05))
 
 
 @pytest.mark.parametrize(

@@ -115,6 +115,7 @@ def test_every_kind_of_that_name(call: Call) -> None:
 
 ONE_OF_A_KIND = {
     "bodies": "line_body",
+    "distances": "fcl",
     "guards": "tilt_guard",
     "joints": "ball_joint",
     "kinematics": "plane_vertex",

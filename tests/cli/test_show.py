@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -51,3 +52,40 @@ def test_what_has_no_parameters_says_so(call: Call) -> None:
     assert status == 0
     assert "no parameters" in output
     assert "assumed" not in output
+
+
+def test_proximity_of_a_file(call: Call, tmp_path: Path) -> None:
+    """Gap, state, bodies by the names of the file, how it was found, what is said; a scenario by its name, too."""
+    file = tmp_path / "three.toml"
+    file.write_text(
+        """
+        [bodies.floor]
+        type = "plate"
+        [bodies.low]
+        type = "ball"
+        radius = 0.01
+        start = {position = [0.0, 0.0, 0.01]}
+        [bodies.high]
+        type = "ball"
+        radius = 0.01
+        start = {position = [0.0, 0.0, 0.029]}
+        [[contacts]]
+        between = ["floor", "low"]
+        normal = "unilateral"
+        friction = "frictionless"
+        impact = {type = "newton", restitution = 0.5}
+        """
+    )
+    status, output, errors = call("show", str(file), "--proximity")
+    assert status == 0, errors
+    assert errors == ""
+    rows = [line.split() for line in output.splitlines()[3:]]
+    assert rows[0] == ["-0.001", "overlapping", "low", "and", "high", "planes", "none"]
+    assert rows[1] == ["0", "touching", "floor", "and", "low", "exact", "declared"]
+    assert "GeneralisedBody 0 and Plate 1" in call("show", "woodpecker", "--proximity")[1]
+    assert (
+        call("show", "dice_throw", "--proximity")[1] == "dice_throw: no two bodies are near each other at the start.\n"
+    )
+    status, _, errors = call("show", "none.toml", "--proximity")
+    assert status == 2
+    assert "none.toml" in errors

@@ -250,7 +250,7 @@ def _all() -> Iterator[Property]:
     for motion in MOTIONS:
         yield from check_motion(motion)
     yield from _of_pairs()
-    for group in ("guards", "scenarios"):
+    for group in ("distances", "guards", "scenarios"):
         for name in registry.names(group):
             yield from check_class(registry.load(group, name), name, {})
     for shape in {type(one): one for pair in SHAPES for one in pair}.values():

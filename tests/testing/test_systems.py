@@ -8,12 +8,13 @@ from typing import Any
 import pytest
 
 from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.interfaces import Body, ContactKinematics, Guard, Joint, Load, Motion, Scenario, Shape
+from nonsmooth.interfaces import Body, ContactKinematics, DistanceBackend, Guard, Joint, Load, Motion, Scenario, Shape
 from nonsmooth.testing import (
     Departs,
     NotChecked,
     check_body,
     check_contact_kinematics,
+    check_distance_backend,
     check_guard,
     check_joint,
     check_load,
@@ -22,6 +23,7 @@ from nonsmooth.testing import (
 )
 from tests.testing import (
     body_dummies,
+    distance_dummies,
     friction_dummies,
     joint_dummies,
     load_dummies,
@@ -45,6 +47,20 @@ def test_body(name: str, thing: Body) -> None:
 @_cases(pair_dummies.DUMMIES)
 def test_kinematics(name: str, thing: ContactKinematics) -> None:
     assert_caught(check_contact_kinematics(thing, FIRST, SECOND), name)
+
+
+@_cases(distance_dummies.DUMMIES)
+def test_distances(name: str, thing: DistanceBackend) -> None:
+    assert_caught(check_distance_backend(thing), name)
+
+
+def test_a_library_is_looked_at_if_it_is_there() -> None:
+    """Right answers hold; of a library that is not installed nothing is looked at."""
+    assert not failures(check_distance_backend(distance_dummies.Balls()))
+    for prop in check_distance_backend(distance_dummies.Balls("not installed")):
+        if prop.name in ("points", "order", "planes"):
+            with pytest.raises(NotChecked, match="not installed"):
+                prop()
 
 
 @_cases(joint_dummies.DUMMIES)

@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.distance_backend import Place
 
 _ALIGNED = 1e-9
 
-Frame = tuple[Vector, Vector]
 
-
-def aligned_boxes(one: Frame, half: Vector, two: Frame, other: Vector) -> tuple[float, Vector, Vector] | None:
+def aligned_boxes(one: Place, half: Vector, two: Place, other: Vector) -> tuple[float, Vector, Vector] | None:
     """Return distance [m] and nearest points of two boxes whose edges are parallel to 1e-9 rad; else None.
 
     Parameters

@@ -1,1 +1,0 @@
-"""coal, a fork of FCL with tolerances that can be set, as another library for the same; needs nonsmooth[coal]."""

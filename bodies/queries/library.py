@@ -1,0 +1,162 @@
+"""Library: how any library is asked, and what becomes of its answer."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from typing import final
+
+import numpy as np
+
+from bodies.meshes.integrals import winding_number
+from bodies.queries.aligned import aligned_boxes
+from bodies.queries.geometries import MAKERS, Geometries, Made
+from bodies.shapes.box import Box
+from bodies.shapes.hull import ConvexHull
+from bodies.shapes.sphere import Sphere
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.errors import DoubtfulDistance
+from nonsmooth.interfaces import ConvexShape, Shape
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.distance_backend import Place, Separation
+
+_DOUBT = 1e-3
+"""Part of distance and size by which an answer may exceed the lower bound, which is no better than the direction."""
+_BELOW = 1e-7
+"""The same by which it may be below: points of the bodies are not."""
+_FLAT = TriangleMesh, ConvexHull, Box, Sphere
+"""Kinds of which libraries tell distances to round-off, beside one another."""
+_LEAST = 1e-12
+"""Distance [m] at which a library does not tell any more whether bodies overlap."""
+
+
+class Library(Geometries):
+    """A library that is asked for unsigned distances only; subclasses are final, one for each.
+
+    Errors of the distance of centimetres are mostly below 1e-11 m.  What is stated is, of convex solids, how far the
+    distance is from a lower bound by support functions; of meshes the worst that was met in many poses, and more.
+    Points may be off by the square root of that, relative to the size.
+    """
+
+    @property
+    @abstractmethod
+    def part(self) -> float:
+        """By how much distances of meshes and round solids may be off, relative to distance and size."""
+
+    @abstractmethod
+    def unsigned(self, first: Made, one: Place, second: Made, two: Place) -> tuple[float, Vector, Vector]:
+        """Return the distance of two geometries at two places [m], and nearest points in the same axes.
+
+        A distance that is not positive stands for an overlap.  A mesh is asked for its distance to another shape, not
+        the other way round.
+        """
+
+    @final
+    def solid(self, shape: Shape) -> Made | None:
+        """Return the shape as an object of the library; None if it has no such kind."""
+        make = MAKERS.get(type(shape))
+        return None if make is None else make(self, shape)
+
+    @final
+    def separation(self, first: Made, one: Place, second: Made, two: Place) -> Separation:
+        """Return the distance of two solids and where they are nearest."""
+        if _is_mesh(second) and not _is_mesh(first):
+            # the other order gives points in swapped places
+            back = self.separation(second, two, first, one)
+            return Separation(back.overlap, back.distance, back.error, back.second, back.first, -back.normal)
+        origin = 0.5 * (one[0] + two[0])
+        places = _stands(first, one, origin), _stands(second, two, origin)
+        if _inside(first, one, _some(second, two)) or _inside(second, two, _some(first, one)):
+            return _OVERLAP
+        distance, p, q = self._found(first, places[0], second, places[1])
+        if not distance > _LEAST:
+            return _OVERLAP
+        normal, above = self._judged(first, one, second, two, distance, q - p)
+        whole = distance - first.sweep - second.sweep
+        flat = isinstance(first.shape, _FLAT) and isinstance(second.shape, _FLAT)
+        part = max(self.part, _BELOW) if above is None and not flat else _BELOW
+        error = max(above or 0.0, part * (distance + _size(first, second)))
+        p, q = p + origin + first.sweep * normal, q + origin - second.sweep * normal
+        return Separation(False, whole, error, p, q, normal)
+
+    def _found(self, first: Made, one: Place, second: Made, two: Place) -> tuple[float, Vector, Vector]:
+        if isinstance(first.shape, Box) and isinstance(second.shape, Box):
+            found = aligned_boxes(one, np.array(first.shape.core_sizes), two, np.array(second.shape.core_sizes))
+            if found is not None:
+                return found
+        return self.unsigned(first, one, second, two)
+
+    def _judged(
+        self, first: Made, one: Place, second: Made, two: Place, distance: float, way: Vector
+    ) -> tuple[Vector, float | None]:
+        """Return the normal of two cores, and how far above a bound their distance is if they are convex.
+
+        Raises
+        ------
+        DoubtfulDistance
+            If what is known of them contradicts the distance.
+        """
+        library = type(self).__name__
+        names = f"{type(first.shape).__name__}-{type(second.shape).__name__}"
+        apart = float(np.linalg.norm(way))
+        if not abs(apart - distance) <= _DOUBT * distance + _LEAST:
+            raise DoubtfulDistance(
+                f"{library}: the distance of {names} is {distance:.6g} m, that of its points {apart:.6g} m."
+            )
+        normal = way / apart
+        if not (isinstance(first.shape, ConvexShape) and isinstance(second.shape, ConvexShape)):
+            return normal, None
+        lower = _between(first, one, second, two, normal)
+        if lower <= 0.0:
+            raise DoubtfulDistance(
+                f"{library}: it says that {names} are {distance:.3g} m apart, but no plane across its line parts them: "
+                "whether they overlap remains open."
+            )
+        scale = distance + _size(first, second)
+        if not -_BELOW * scale <= distance - lower <= _DOUBT * scale:
+            raise DoubtfulDistance(
+                f"{library}: it says that {names} are {distance:.6g} m apart, but support functions along its line "
+                f"give {lower:.6g} m at least, which is not what nearest points give."
+            )
+        return normal, max(distance - lower, 0.0)
+
+
+_NOWHERE = np.full(3, math.nan)
+_OVERLAP = Separation(True, math.nan, math.nan, _NOWHERE, _NOWHERE, _NOWHERE)
+
+
+def _is_mesh(solid: Made) -> bool:
+    return isinstance(solid.shape, TriangleMesh)
+
+
+def _size(first: Made, second: Made) -> float:
+    return min(first.extent, second.extent)
+
+
+def _between(first: Made, one: Place, second: Made, two: Place, normal: Vector) -> float:
+    """Return how far apart planes across a normal are that part the cores of convex solids [m]."""
+    assert isinstance(first.shape, ConvexShape)
+    assert isinstance(second.shape, ConvexShape)
+    low = two[0] + two[1] @ second.shape.support(two[1].T @ -normal)
+    high = one[0] + one[1] @ first.shape.support(one[1].T @ normal)
+    return float(normal @ (low - high)) + first.sweep + second.sweep
+
+
+def _stands(solid: Made, place: Place, origin: Vector) -> Place:
+    """Return where the geometry stands, its place from ``origin`` [m]."""
+    return place[0] - origin + place[1] @ solid.place, place[1] @ solid.axes
+
+
+def _inside(solid: Made, place: Place, point: Vector) -> bool:
+    """Return whether a point is inside of a mesh: for a library a mesh is a hollow surface."""
+    if not isinstance(solid.shape, TriangleMesh):
+        return False
+    own, (low, high) = place[1].T @ (point - place[0]), solid.box
+    if np.any(own < low) or np.any(own > high):
+        return False
+    return winding_number(*solid.shape.drawing(), own) > 0.5
+
+
+def _some(solid: Made, place: Place) -> Vector:
+    """Return a point of a solid in the world."""
+    return np.asarray(place[0] + place[1] @ solid.point)

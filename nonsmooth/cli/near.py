@@ -1,0 +1,48 @@
+"""The bodies of a scenario that are near each other at the start, as a table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from nonsmooth.cli import request
+from nonsmooth.cli.table import lines
+from nonsmooth.files.formats import SUFFIXES
+from nonsmooth.files.reading import read
+from nonsmooth.queries.proximity import NearPair, proximity
+
+_HEAD = ("gap [m]", "", "bodies", "found by", "contact")
+
+
+def table(name: str) -> str:
+    """Return the table of a scenario file, or of a scenario with its defaults.
+
+    Raises
+    ------
+    InvalidInput
+        If there is no such file or scenario, or it is not valid.
+    """
+    if name.endswith(SUFFIXES):
+        setup = read(Path(name))
+        system, names = setup.system, setup.names
+    else:
+        system = request.job(name, ()).build()
+        names = tuple(f"{type(body).__name__} {i}" for i, body in enumerate(system.bodies))
+    pairs = proximity(system)
+    if not pairs:
+        return f"{name}: no two bodies are near each other at the start."
+    rows = [
+        (
+            f"{pair.distance.gap:.3g}",
+            pair.state,
+            " and ".join(names[number] for number in pair.numbers),
+            pair.distance.how,
+            _said(pair),
+        )
+        for pair in pairs
+    ]
+    return "\n".join([f"{name}: bodies near each other at the start", "", *lines([_HEAD, *rows])])
+
+
+def _said(pair: NearPair) -> str:
+    words = {"declared": pair.declared, "joined": pair.joined, "excluded": pair.excluded}
+    return ", ".join(word for word, holds in words.items() if holds) or "none"

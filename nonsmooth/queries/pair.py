@@ -1,0 +1,177 @@
+"""Two shapes, made ready once, and how far they are from each other wherever they stand."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+from typing import final
+
+from nonsmooth.errors import InvalidInput, NoDistance, UnknownName
+from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.distance_backend import Place
+from nonsmooth.queries.exact import Contacts
+from nonsmooth.queries.libraries import LibraryPair, library_names, library_pair, named_pair
+from nonsmooth.queries.result import EXACT, PLANES, DistanceResult
+from nonsmooth.queries.solids import TooManyPieces, by_planes, proved
+from nonsmooth.solids.placed import Placed
+
+_ROUND_OFF, _LEAST = 1e-9, 1e-12
+"""Differences that count as none, relative to a gap, and [m]."""
+
+_MOST_PIECES = 2000
+"""Pieces of a surface up to which contacts are made: in a second, where a hundred thousand take many minutes."""
+
+
+@final
+class ShapePair:
+    """Two shapes, ready to be asked.
+
+    Parameters
+    ----------
+    first, second : Shape
+        The shapes.
+    by : str, optional
+        The one way to be taken: "exact", "planes" or the name of a library.  By default contacts are asked, and what
+        they say is proved by planes or, of surfaces that are not convex, by a library; where that fails, these answer.
+    quick : bool
+        Whether contacts are left alone where solids tell: those of a mesh take seconds to make.
+
+    Raises
+    ------
+    InvalidInput
+        If there is no such way, or it does not know the shapes, or nothing does.
+    MissingPackagesError
+        If the library is not installed.
+    """
+
+    def __init__(self, first: Shape, second: Shape, by: str | None = None, quick: bool = False) -> None:
+        if by is not None and by not in (ways := (EXACT, PLANES, *library_names())):
+            raise UnknownName("way to find a distance", str(by), ways)
+        self._names = f"{type(first).__name__} and {type(second).__name__}"
+        self._by, self._solids = by, (first.solid, second.solid)
+        bounded = first.solid is not None and second.solid is not None
+        self._hollow = any(solid is not None and solid.hollow for solid in self._solids)
+        self._contacts: Contacts | None = None
+        self._library: LibraryPair | None = None
+        if by == EXACT or (by is None and not (bounded and (quick or self._many))):
+            self._contacts = self._made(first, second)
+        if by not in (None, EXACT, PLANES):
+            self._library = named_pair(by, first, second)
+        elif by is None and self._hollow and bounded:
+            self._library = library_pair(first, second)
+        if (by == PLANES and not bounded) or (by is None and not bounded and self._contacts is None):
+            raise InvalidInput(
+                f"distance of {self._names}",
+                "must be asked of shapes of which at least one is bounded, and of solids where no contacts are known",
+                self._names,
+                "Two planes have no nearest points.",
+            )
+
+    @property
+    def _many(self) -> bool:
+        """Whether a surface has so many pieces that its contacts take longer to make than who asks will wait."""
+        surfaces = [solid for solid in self._solids if solid is not None and solid.hollow]
+        return any(len(solid.pieces(*solid.bounds)) > _MOST_PIECES for solid in surfaces)
+
+    def _made(self, first: Shape, second: Shape) -> Contacts | None:
+        try:
+            return Contacts(first, second)
+        except (LookupError, InvalidInput) as error:
+            if self._by is None:
+                return None
+            why = str(error) if isinstance(error, InvalidInput) else "No contact kinematics is installed for them."
+            raise InvalidInput(
+                f"distance of {self._names} by 'exact'", "needs their contacts", self._names, why
+            ) from None
+
+    def at(self, one: Place, two: Place) -> DistanceResult:
+        """Return how far the shapes are from each other, their frames at two places.
+
+        Raises
+        ------
+        NoDistance
+            If the way that was asked for tells nothing there, or nothing does.
+        """
+        if self._by == EXACT:
+            return self._told(self._least(one, two), "no features of theirs face each other")
+        if self._by not in (None, PLANES):
+            return self._by_library(one, two)
+        if any(solid is None for solid in self._solids):
+            return self._told(self._least(one, two), "no features of theirs face each other")
+        placed = self._placed(one, two)
+        if self._by == PLANES:
+            return self._by_planes(*placed)
+        found = self._least(one, two)
+        if not self._hollow:
+            return (found and proved(found, *placed)) or by_planes(*placed)
+        return self._of_surfaces(found, one, two)
+
+    def _of_surfaces(self, found: DistanceResult | None, one: Place, two: Place) -> DistanceResult:
+        """Return the answer for surfaces that are not convex: that of contacts, if it is within what else is known."""
+        told = None if self._library is None else self._library.separation(one, two)
+        if told is not None and not told.overlap:
+            assert self._library is not None
+            bound = self._library.result(told)
+            # points of contacts are points of the shapes: what is nearer contradicts the library
+            if found is None or found.gap >= bound.lower:
+                return _within(found, bound)
+        return _within(found, self._by_planes(*self._placed(one, two)))
+
+    def _least(self, one: Place, two: Place) -> DistanceResult | None:
+        return None if self._contacts is None else self._contacts.least(one, two)
+
+    def _placed(self, one: Place, two: Place) -> tuple[Placed, Placed]:
+        first, second = self._solids
+        assert first is not None
+        assert second is not None
+        return Placed(first, *one), Placed(second, *two)
+
+    def _by_planes(self, one: Placed, two: Placed) -> DistanceResult:
+        try:
+            return by_planes(one, two)
+        except TooManyPieces as many:
+            raise NoDistance(
+                f"The distance of {self._names} cannot be told: no library answers, and there are {many.args[0]} pairs "
+                "of pieces to look at. Take a coarser mesh."
+            ) from None
+
+    def _by_library(self, one: Place, two: Place) -> DistanceResult:
+        assert self._library is not None
+        told = self._library.backend.separation(self._library.solids[0], one, self._library.solids[1], two)
+        return self._told(None if told.overlap else self._library.result(told), "they overlap, and it tells no depth")
+
+    def _told(self, found: DistanceResult | None, why: str) -> DistanceResult:
+        if found is None:
+            raise NoDistance(f"The distance of {self._names} cannot be told by {self._by or EXACT!r}: {why}.")
+        return found
+
+
+def shape_pair(first: Shape, second: Shape, by: str | None, quick: bool) -> ShapePair:
+    """Return two shapes, ready to be asked: equal ones of the last questions still are.
+
+    Raises
+    ------
+    InvalidInput, MissingPackagesError
+        As :class:`ShapePair`.
+    """
+    try:
+        hash((first, second))
+    except TypeError:
+        return ShapePair(first, second, by, quick)
+    return _ready(first, second, by, quick)
+
+
+@functools.lru_cache(maxsize=32)
+def _ready(first: Shape, second: Shape, by: str | None, quick: bool) -> ShapePair:
+    return ShapePair(first, second, by, quick)
+
+
+def _within(found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
+    """Return what contacts say with the bounds of another answer, or that if they are outside of these."""
+    if found is None:
+        return bound
+    # planes leave no more than round-off between their bounds
+    slack = _ROUND_OFF * abs(bound.gap) + _LEAST
+    if not bound.lower - slack <= found.gap <= bound.upper + slack:
+        return bound
+    return replace(found, lower=min(bound.lower, found.gap), upper=max(bound.upper, found.gap))

@@ -1,0 +1,71 @@
+"""Where the frames of bodies are: as a user says, or as their motion and coordinates put them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, final
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Body
+from nonsmooth.interfaces.distance_backend import Place
+from nonsmooth.interfaces.solid import Vector
+from nonsmooth.model.layout import FRAME
+from nonsmooth.plugins.call import body_caller
+from nonsmooth.rotations import rotation
+from nonsmooth.vectors import unit_vector, vector
+
+HERE: Place = (np.zeros(3), np.eye(3))
+
+
+def read_place(thing: str, pose: Any) -> Place:
+    """Return a place from a position [m], or a position and a unit quaternion (scalar first).
+
+    Raises
+    ------
+    InvalidInput
+        If it is neither, a number is not finite, or the quaternion not of unit length.
+    """
+    try:
+        parts = tuple(pose)
+    except TypeError:
+        parts = ()
+    if len(parts) == 3 and all(np.ndim(part) == 0 for part in parts):
+        parts = (parts, (1.0, 0.0, 0.0, 0.0))
+    if len(parts) != 2:
+        raise InvalidInput(
+            thing,
+            "must be a position, or a position and a unit quaternion (scalar first)",
+            pose,
+            "For example (0.0, 0.0, 0.1) or ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0)), in [m].",
+        )
+    place = np.array(vector(f"{thing}: position", parts[0], 3, "m"))
+    return place, rotation(unit_vector(f"{thing}: quaternion", parts[1], 4))
+
+
+@final
+class BodyFrames:
+    """The frames of a body, wherever its coordinates put them.
+
+    Parameters
+    ----------
+    body : Body
+        The body.
+    gravity : sequence of float
+        Gravity vector of its system [m/s^2], which a body may ask for.
+    """
+
+    def __init__(self, body: Body, gravity: Sequence[float] = (0.0, 0.0, -9.81)) -> None:
+        offered = {**body.parameters(), **dict(zip(("gravity_x", "gravity_y", "gravity_z"), gravity, strict=True))}
+        self._call = body_caller(body.evaluator, offered, type(body).__name__)
+        self._n, self._width = len(body.frames), FRAME + 6 * body.n_u
+        self._out = np.zeros(self._n * self._width + body.n_q + body.n_u + body.n_u**2 + 2)
+
+    def at(self, t: float, q: Vector, u: Vector) -> list[Place]:
+        """Return the places of all frames at a time [s], for coordinates and velocities."""
+        self._out[:] = 0.0
+        # a driven body has none, and an empty array no address of its own
+        self._call(t, np.append(q, 0.0), np.append(u, 0.0), self._out)
+        blocks = self._out[: self._n * self._width].reshape(self._n, self._width)
+        return [(block[:3].copy(), block[3:12].reshape(3, 3).copy()) for block in blocks]
