@@ -256,9 +256,10 @@ def _higher(
             # tops over the apex alone that lean too far for it lie over the side, next to it
             for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
                 _, nx, ny, _ = uphill(high, core, turn, x, y, z - frustum[HIGH], start, _NEARBY)
-                found = on_flank(frustum, core, turn, x, y, z, nx, ny, ON_BORDER * size)
-                if found[0] > best[0] + _HIGHER * size:
-                    best, where = found, FLANK
+                if nx != 0.0 or ny != 0.0:
+                    found = on_flank(frustum, core, turn, x, y, z, nx, ny, ON_BORDER * size)
+                    if found[0] > best[0] + _HIGHER * size:
+                        best, where = found, FLANK
     return best, where
 
 
