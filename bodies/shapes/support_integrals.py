@@ -68,7 +68,7 @@ def integrals_over(drawing: Callable[[int], tuple[Vector, Vector]]) -> tuple[flo
     """Return volume [m^3], centroid [m], and inertia at density 1 about the centroid [m^5].
 
     Those of meshes with vertices on the surface, each twice as fine, whose errors are a series in the squares of the
-    edges, extrapolated (L. F. Richardson): to 1e-10 where the curvature does not jump, else to some 1e-6.
+    edges, extrapolated (L. F. Richardson): to 1e-8 where the curvature does not jump, else to some 1e-4.
 
     Parameters
     ----------

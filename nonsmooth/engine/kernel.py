@@ -67,6 +67,7 @@ call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.cal
 
 call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _half.call_support
 """Call ``support(direction, parameters, point)`` at the address at a place of a heap, the parameters behind it."""
+
 jit: Callable[[Callable[..., Any]], Any] = _half.jit
 """Compile a plug-in's function on demand."""
 shared: Callable[[Callable[..., Any]], Any] = _half.shared

@@ -260,6 +260,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     theta = high - g_high * (high - low) / (g_high - g_low)
     theta_before, g_before = high, g_high
     for _iteration in range(100):
+        # next to a huge value the secant does not leave the other end
         if not low < theta <= high:
             theta = 0.5 * (low + high)
         g = _guard_at(S, w, k, h, theta, i, forces)
