@@ -13,28 +13,15 @@ from nonsmooth.types import Floats
 
 _CUTS, _WIDE = 400, 0.1
 """Cuts round a top, and the angle that they begin with [rad]."""
+_ELLIPSES = 8
+"""How often it begins anew where it ended, if that is far from where it began."""
 _HIGHER = 1e-16
 """By how much a gap may be larger than the answer, in units of the size."""
 
 
 @compiled
-def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
-    """Return the top next to a direction, by the ellipsoid method: no ridge is too narrow for it.
-
-    In the plane that touches the sphere of directions at the start, the part of an ellipse on which the gap may be
-    larger than in its middle is one half; the least ellipse round that is the next one.
-
-    Parameters
-    ----------
-    circle, core : Floats
-        A circle, or a point, and the smooth body, as cores.
-    turn : Axes
-        Rotation from the axes of the core to those of the circle.
-    x, y, z : float
-        The core's centre from that of the circle [m].
-    start : Start
-        Gap and direction to begin with.
-    """
+def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
+    """Return the top in reach of one ellipse; as in :func:`settle`."""
     best: Start = start
     _, nx, ny, nz = start
     tx, ty, tz = tangent_of(nx, ny, nz)
@@ -63,4 +50,32 @@ def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
         k, h = k / most, h / most
         i, j = i + k / 3.0, j + h / 3.0
         e11, e12, e22 = (e11 - k * k / 1.5) / 0.75, (e12 - k * h / 1.5) / 0.75, (e22 - h * h / 1.5) / 0.75
+    return best
+
+
+@compiled
+def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
+    """Return the top next to a direction, by the ellipsoid method: no ridge is too narrow for it.
+
+    In the plane that touches the sphere of directions at the start, the part of an ellipse on which the gap may be
+    larger than in its middle is one half; the least ellipse round that is the next one.  A top far from the start
+    is gone to in turns.
+
+    Parameters
+    ----------
+    circle, core : Floats
+        A circle, or a point, and the smooth body, as cores.
+    turn : Axes
+        Rotation from the axes of the core to those of the circle.
+    x, y, z : float
+        The core's centre from that of the circle [m].
+    start : Start
+        Gap and direction to begin with.
+    """
+    best: Start = start
+    for _ in range(_ELLIPSES):
+        before = best
+        best = _cut_round(circle, core, turn, x, y, z, before)
+        if before[1] * best[1] + before[2] * best[2] + before[3] * best[3] > 1.0 - 0.1 * _WIDE * _WIDE:
+            break
     return best

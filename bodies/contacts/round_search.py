@@ -17,7 +17,7 @@ from bodies.contacts.cuts import settle
 from bodies.contacts.gauge import gauge
 from bodies.contacts.smooth_core import Axes, back, bend, forth
 from bodies.contacts.smooth_newton import widest_of_round
-from bodies.contacts.smooth_starts import starts_of, uphill
+from bodies.contacts.smooth_starts import Start, gap_along, starts_of, uphill
 from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -244,20 +244,45 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
     """
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     for start in starts_of(circle, core, turn, x, y, z):
-        g, nx, ny, nz = uphill(circle, core, turn, x, y, z, start, _TOP)
-        found: Answer = widest_of_round(circle, core, turn, x, y, z, nx, ny, nz)
-        if not found[0] >= g - _TOP * lean[2]:
-            g, nx, ny, nz = settle(circle, core, turn, x, y, z, (g, nx, ny, nz))
-            a = support_of(circle, nx, ny, nz)
-            found = g, a[1] + g * nx, a[2] + g * ny, a[3] + g * nz, nx, ny, nz
-        g, _, _, _, nx, ny, nz = found
-        away = math.sqrt(nx * nx + ny * ny)
-        inside = up == 0.0 or up * (lean[0] * nz - lean[1] * away) >= -_TOP
-        if inside and not g <= best[0]:
+        top = uphill(circle, core, turn, x, y, z, start, _TOP)
+        found: Answer = widest_of_round(circle, core, turn, x, y, z, top[1], top[2], top[3])
+        if not found[0] >= top[0] - _TOP * lean[2]:
+            settled = settle(circle, core, turn, x, y, z, top)
+            # of two tops as high as each other but for round-off it may go from the one to the other
+            if _leans_so(settled, up, lean) or not _leans_so(top, up, lean):
+                top = settled
+            found = _along(circle, top)
+        top = found[0], found[4], found[5], found[6]
+        if not _leans_so(top, up, lean):
+            # next to a sharp place the gap hardly feels by how much the normal leans too far
+            nx, ny = lean[0] * top[1], lean[0] * top[2]
+            nz = lean[1] * math.sqrt(top[1] * top[1] + top[2] * top[2])
+            length = math.sqrt(nx * nx + ny * ny + nz * nz)
+            nx, ny, nz = nx / length, ny / length, nz / length
+            g = gap_along(circle, core, turn, x, y, z, nx, ny, nz)
+            if not g >= top[0] - _OVER * lean[2]:
+                continue
+            found = _along(circle, (g, nx, ny, nz))
+        if not found[0] <= best[0]:
             found, astray = _facing(circle, core, turn, x, y, z, found)
             if astray <= _OVER * lean[2]:
                 best = found
     return best
+
+
+@compiled
+def _leans_so(top: Start, up: float, lean: Point) -> bool:
+    """Return whether the normal of a top leans to where it may; arguments as in :func:`up_hills`."""
+    _, nx, ny, nz = top
+    return bool(up == 0.0 or up * (lean[0] * nz - lean[1] * math.sqrt(nx * nx + ny * ny)) >= -_TOP)
+
+
+@compiled
+def _along(circle: Floats, top: Start) -> Answer:
+    """Return gap, point and normal of a top, from the circle's farthest point along it."""
+    g, nx, ny, nz = top
+    a = support_of(circle, nx, ny, nz)
+    return g, a[1] + g * nx, a[2] + g * ny, a[3] + g * nz, nx, ny, nz
 
 
 @compiled
