@@ -255,10 +255,10 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
         top = found[0], found[4], found[5], found[6]
         if not _leans_so(top, up, lean):
             # next to a sharp place the gap hardly feels by how much the normal leans too far
-            nx, ny = lean[0] * top[1], lean[0] * top[2]
-            nz = lean[1] * math.sqrt(top[1] * top[1] + top[2] * top[2])
-            length = math.sqrt(nx * nx + ny * ny + nz * nz)
-            nx, ny, nz = nx / length, ny / length, nz / length
+            away = math.sqrt(top[1] * top[1] + top[2] * top[2])
+            if away == 0.0:
+                continue
+            nx, ny, nz = lean[0] * top[1] / away, lean[0] * top[2] / away, lean[1]
             g = gap_along(circle, core, turn, x, y, z, nx, ny, nz)
             if not g >= top[0] - _OVER * lean[2]:
                 continue
