@@ -76,5 +76,5 @@ def roll(
         return np.concatenate([turning, np.linalg.solve(matrix, mass * across_r @ bias - across_w @ tensor @ w)])
 
     start = np.concatenate([n, spin])
-    found = solve_ivp(rates, (times[0], times[-1]), start, "DOP853", times, rtol=1e-12, atol=1e-13)
+    found = solve_ivp(rates, (times[0], times[-1]), start, "DOP853", times, rtol=1e-10, atol=1e-11)
     return found.y[:3].T, found.y[3:].T
