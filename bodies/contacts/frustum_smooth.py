@@ -221,6 +221,8 @@ def _nearest(
         best, where = _higher(frustum, low, high, point, core, turn, x, y, z, size, best, where)
     if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
         best, where = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
+        if is_sharp and best[0] != best[0] and frustum[SIDE] > 0.0:
+            best, where = _beside_apex(frustum, high, core, turn, x, y, z, size), FLANK
     return best, where
 
 
@@ -253,14 +255,25 @@ def _higher(
         if found[0] > best[0] + _HIGHER * size:
             best, where = found, part
         if frustum[SIDE] > 0.0:
-            # tops over the apex alone that lean too far for it lie over the side, next to it
-            for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
-                _, nx, ny, _ = uphill(high, core, turn, x, y, z - frustum[HIGH], start, _NEARBY)
-                if nx != 0.0 or ny != 0.0:
-                    found = on_flank(frustum, core, turn, x, y, z, nx, ny, ON_BORDER * size)
-                    if found[0] > best[0] + _HIGHER * size:
-                        best, where = found, FLANK
+            found = _beside_apex(frustum, high, core, turn, x, y, z, size)
+            if found[0] > best[0] + _HIGHER * size:
+                best, where = found, FLANK
     return best, where
+
+
+@compiled
+def _beside_apex(
+    frustum: Floats, high: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, size: float
+) -> Answer:
+    """Return the stop of the side next to where tops over the apex alone lean too far for it, nan if there is none."""
+    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
+        _, nx, ny, _ = uphill(high, core, turn, x, y, z - frustum[HIGH], start, _NEARBY)
+        if nx != 0.0 or ny != 0.0:
+            found = on_flank(frustum, core, turn, x, y, z, nx, ny, ON_BORDER * size)
+            if found[0] == found[0] and not found[0] <= best[0]:
+                best = found
+    return best
 
 
 @compiled
