@@ -9,15 +9,18 @@ from typing import ClassVar, final
 
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from bodies.contacts.surface_edges import evaluate_edges
+from bodies.contacts.surface_pairs import SurfacePairs
 from bodies.contacts.surface_tables import Numbers, edge_row, surface_numbers
 from bodies.contacts.swept_swept import MOST_CONTACTS
 from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_body
+from bodies.meshes.patches import patches_for_ball, patches_for_body
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 
+MOST_EACH = 500
+"""Pairs of features of two surfaces up to which each of them is a contact of its own."""
 DEPARTURES = MappingProxyType(
     dict.fromkeys(
         ("gap rate", "second-order terms"),
@@ -90,7 +93,8 @@ class MeshMesh(ContactKinematics):
     """Where a convex edge of a mesh crosses one of another mesh.
 
     Every corner over each patch of the other's faces and every pair of convex edges is a contact of its own.  Which of
-    them is one at present is told by what is next to the points alone, so that neither body need be convex.
+    them is one at present is told by what is next to the points alone, so that neither body need be convex.  Where they
+    are hundreds, :class:`bodies.contacts.surface_pairs.SurfacePairs` are those near each other.
 
     Attributes
     ----------
@@ -107,8 +111,7 @@ class MeshMesh(ContactKinematics):
         """Return the pairs of edges, then the corners of the second body, then those of the first."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, TriangleMesh)
-        edges, vertices = sharp_contacts(first.features, second.features)
-        return *(cls(pair) for pair in edges), *vertices
+        return sharp_contacts(cls, first.features, second.features, (first.extent, second.extent))
 
     def parameters(self) -> dict[str, Value]:
         """Return edges, surfaces and size."""
@@ -125,22 +128,32 @@ class MeshMesh(ContactKinematics):
         return self.edges.features
 
 
-def sharp_contacts(one: Features, two: Features) -> tuple[Iterator[MeshEdges], tuple[MeshPoint | PointMesh, ...]]:
+def sharp_contacts(
+    kind: Callable[[MeshEdges], ContactKinematics], one: Features, two: Features, extents: tuple[float, float]
+) -> tuple[ContactKinematics, ...]:
     """Return the contacts of two surfaces: of edges, and of the corners of the second, then the first.
 
-    Raises
-    ------
-    InvalidInput
-        If there are too many.
+    Where they are more than :data:`MOST_EACH`, those of the features that are near each other at present.
+
+    Parameters
+    ----------
+    kind : callable
+        What makes a contact of two edges.
+    one, two : Features
+        The surfaces.
+    extents : tuple of float
+        Radii about the frames of the bodies [m].
     """
-    check_crossings(len(one.edges), len(two.edges))
-    vertices: tuple[MeshPoint | PointMesh, ...] = *MeshPoint.of_corners(one, two), *PointMesh.of_corners(one, two)
     crossings = len(one.edges) * len(two.edges)
-    check_contacts(crossings, len(vertices))
+    patches = (patches_for_ball(features, 0.0).count for features in (two, one))
+    corners = sum(len(own.corners) * count for own, count in zip((one, two), patches, strict=True))
+    if crossings + corners > MOST_EACH:
+        return SurfacePairs.of_surfaces(one, two, extents)
     rows = [edge_row(two, j) for j in range(len(two.edges))]
     names = [f"edge {j}" for j in range(len(two.edges))]
     surface = surface_numbers(two, patches_for_body(two, 0.0))
-    return MeshEdges.crossings(one, rows, names, surface, 0.0, max(one.size, two.size)), vertices
+    edges = MeshEdges.crossings(one, rows, names, surface, 0.0, max(one.size, two.size))
+    return *map(kind, edges), *MeshPoint.of_corners(one, two), *PointMesh.of_corners(one, two)
 
 
 def check_crossings(first: int, second: int) -> None:

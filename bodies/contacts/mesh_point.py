@@ -16,6 +16,7 @@ from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.point import Point
 from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
@@ -36,7 +37,28 @@ def _evaluate(
     n_star: float,
     star: Floats,
 ) -> None:
-    face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star)
+    write_over_first(a, b, out, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, 0)
+
+
+@compiled
+def write_over_first(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    surface: Floats,
+    patch: float,
+    vertex_x: float,
+    vertex_y: float,
+    vertex_z: float,
+    n_star: float,
+    star: Floats,
+    begin: int,
+) -> None:
+    """Write the geometry block of a vertex of the second body over a patch of the first.
+
+    Arguments as of :func:`bodies.contacts.surface_vertex.face_under`.
+    """
+    face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin)
     f = int(surface[FACES]) + FACE * face
     out[0], out[29], out[30] = gap, float(face), past
     out[1], out[2], out[3] = vector_in_world(a, surface[f], surface[f + 1], surface[f + 2])
@@ -61,7 +83,26 @@ def _evaluate_reversed(
     star: Floats,
     radius: float,
 ) -> None:
-    face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star)
+    write_over_second(a, b, out, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, 0, radius)
+
+
+@compiled
+def write_over_second(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    surface: Floats,
+    patch: float,
+    vertex_x: float,
+    vertex_y: float,
+    vertex_z: float,
+    n_star: float,
+    star: Floats,
+    begin: int,
+    radius: float,
+) -> None:
+    """Write the same of a vertex of the first body, with a radius about it [m], over a patch of the second."""
+    face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin)
     f = int(surface[FACES]) + FACE * face
     gap = gap_at_distance(gap, past, radius)
     out[0], out[29], out[30] = gap, float(face), past

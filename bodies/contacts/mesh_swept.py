@@ -49,8 +49,7 @@ class MeshSwept(ContactKinematics):
         assert isinstance(second, SweptPolytope)
         own, core = first.features, second.core
         if second.sweep == 0.0:
-            edges, vertices = sharp_contacts(own, _features(core))
-            return *(cls(pair) for pair in edges), *vertices
+            return sharp_contacts(cls, own, _features(core), (first.extent, second.extent))
         check_crossings(len(own.edges), len(core.edges))
         size = max(own.size, core.size + 2.0 * second.sweep)
         own_star = [(place, star_of_vertex(core, i), f"vertex {i}") for i, place in enumerate(core.vertices)]

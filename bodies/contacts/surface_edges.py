@@ -22,10 +22,11 @@ _NEAR_ENDS = 4.0
 
 
 @compiled
-def _astray(frame: Floats, edge: Floats, sign: float, x: float, y: float, z: float) -> float:
-    """Return the sine of the angle by which a vector across an edge, times ``sign``, leaves its normals."""
+def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: float, z: float) -> float:
+    """Return the sine of the angle by which a vector across the edge there, times ``sign``, leaves its normals."""
     x, y, z = vector_in_body(frame, sign * x, sign * y, sign * z)
-    return float(max(x * edge[7] + y * edge[8] + z * edge[9], x * edge[10] + y * edge[11] + z * edge[12]))
+    one = x * edge[at + 7] + y * edge[at + 8] + z * edge[at + 9]
+    return float(max(one, x * edge[at + 10] + y * edge[at + 11] + z * edge[at + 12]))
 
 
 @compiled
@@ -46,16 +47,34 @@ def evaluate_edges(
     radius: float,
     size: float,
 ) -> None:
+    """Write the geometry block of two edges; arguments as of :func:`write_edges`."""
+    write_edges(a, b, out, edge_a, 0, edge_b, 0, surface_a, surface_b, radius, size)
+
+
+@compiled
+def write_edges(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    at_a: int,
+    edge_b: Floats,
+    at_b: int,
+    surface_a: Floats,
+    surface_b: Floats,
+    radius: float,
+    size: float,
+) -> None:
     """Write the geometry block where the lines of two edges, the second with a radius about it, are nearest.
 
     The normal is the one of the two across both edges that is nearer to the normals that the edges have.  Where it
     leaves them, or the lines are nearest past an end, the contact is open, with a positive gap unless one of the
-    points is inside of the other body.
+    points is inside of the other body.  The numbers of the edges stand at ``at_a`` and ``at_b``.
     """
-    ax, ay, az = point_in_world(a, edge_a[0], edge_a[1], edge_a[2])
-    bx, by, bz = point_in_world(b, edge_b[0], edge_b[1], edge_b[2])
-    ex, ey, ez = vector_in_world(a, edge_a[3], edge_a[4], edge_a[5])
-    fx, fy, fz = vector_in_world(b, edge_b[3], edge_b[4], edge_b[5])
+    ax, ay, az = point_in_world(a, edge_a[at_a], edge_a[at_a + 1], edge_a[at_a + 2])
+    bx, by, bz = point_in_world(b, edge_b[at_b], edge_b[at_b + 1], edge_b[at_b + 2])
+    ex, ey, ez = vector_in_world(a, edge_a[at_a + 3], edge_a[at_a + 4], edge_a[at_a + 5])
+    fx, fy, fz = vector_in_world(b, edge_b[at_b + 3], edge_b[at_b + 4], edge_b[at_b + 5])
     wx, wy, wz = bx - ax, by - ay, bz - az
     nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
     sine = math.sqrt(nx * nx + ny * ny + nz * nz)
@@ -67,7 +86,7 @@ def evaluate_edges(
         # (w x f) . n / sine along the first, (w x e) . n / sine along the second
         s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
         t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
-        over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6]))
+        over = max(max(-s, s - edge_a[at_a + 6]), max(-t, t - edge_b[at_b + 6]))
         past = max(over - margin, size * (parallel - sine))
     else:
         along = wx * ex + wy * ey + wz * ez
@@ -77,8 +96,8 @@ def evaluate_edges(
             nx, ny, nz = nx / apart, ny / apart, nz / apart
         else:
             nx, ny, nz = tangent_of(ex, ey, ez)
-    plus = max(_astray(a, edge_a, 1.0, nx, ny, nz), _astray(b, edge_b, -1.0, nx, ny, nz))
-    minus = max(_astray(a, edge_a, -1.0, nx, ny, nz), _astray(b, edge_b, 1.0, nx, ny, nz))
+    plus = max(edge_astray(a, edge_a, at_a, 1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, -1.0, nx, ny, nz))
+    minus = max(edge_astray(a, edge_a, at_a, -1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, 1.0, nx, ny, nz))
     if minus < plus:
         nx, ny, nz, plus = -nx, -ny, -nz, minus
     gap = wx * nx + wy * ny + wz * nz

@@ -112,7 +112,7 @@ def has_patch(surface: Floats, at: int, patch: float) -> bool:
 
 
 @compiled
-def _first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> int:
+def first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> int:
     """Return a leaf whose members of a patch are near a point: with what is found there most others can be left out."""
     nodes, node = int(surface[NODES]), 0
     while surface[nodes + NODE * node + 8] == 0.0:
@@ -136,7 +136,7 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
     if box_square(surface, nodes, x, y, z) > 0.0:
         return 0.0
     least, side = 1e300, 0.0
-    first = _first_leaf(surface, -1.0, x, y, z)
+    first = first_leaf(surface, -1.0, x, y, z)
     node = -1
     while node < int(surface[N_NODES]):
         at = nodes + NODE * (first if node < 0 else node)
@@ -230,7 +230,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     best, distance, past, kind, number = 1e300, 0.0, 0.0, ON_FACE, 0
     qx, qy, qz = 0.0, 0.0, 0.0
     under, under_past, under_face = 1e300, 0.0, -1
-    first = _first_leaf(surface, patch, x, y, z)
+    first = first_leaf(surface, patch, x, y, z)
     node = -1
     while node < int(surface[N_NODES]):
         at = nodes + NODE * (first if node < 0 else node)

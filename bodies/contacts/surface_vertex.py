@@ -5,7 +5,15 @@ from __future__ import annotations
 import math
 
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.surface_search import box_square, depth_inside, face_height, has_patch, in_triangle, over_ends
+from bodies.contacts.surface_search import (
+    box_square,
+    depth_inside,
+    face_height,
+    first_leaf,
+    has_patch,
+    in_triangle,
+    over_ends,
+)
 from bodies.contacts.surface_tables import (
     FACE,
     FACES,
@@ -27,13 +35,14 @@ ASTRAY = 0.25
 
 
 @compiled
-def _leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats) -> float:
+def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats, begin: int) -> float:
     """Return the sine of the angle by which the steepest edge of a vertex of the other body points down to a face."""
     nx, ny, nz = vector_in_world(frame, surface[face], surface[face + 1], surface[face + 2])
     nx, ny, nz = vector_in_body(other, nx, ny, nz)
     down = -1.0
     for i in range(int(n_star)):
-        down = max(down, -(nx * star[3 * i] + ny * star[3 * i + 1] + nz * star[3 * i + 2]))
+        s = begin + 3 * i
+        down = max(down, -(nx * star[s] + ny * star[s + 1] + nz * star[s + 2]))
     return down
 
 
@@ -113,11 +122,13 @@ def face_under(
     vertex_z: float,
     n_star: float,
     star: Floats,
+    begin: int,
 ) -> tuple[int, float, float]:
     """Return face, gap and way past the end of a vertex of the other body against a patch of the surface in ``frame``.
 
     A face may be touched that the vertex stands over with no edge pointing into it.  Under a face is what is inside of
     the body and has no other face nearer.  Past the end the gap is a positive number, unless the vertex is inside.
+    The unit vectors along the vertex's edges stand in ``star`` from ``begin`` on.
     """
     px, py, pz = point_in_world(other, vertex_x, vertex_y, vertex_z)
     x, y, z = vector_in_body(frame, px - frame[0], py - frame[1], pz - frame[2])
@@ -126,10 +137,11 @@ def face_under(
     margin = REACH * size
     best, height_best, apart, past, found = 1e300, 0.0, 0.0, 1e300, 0
     under, under_past, under_face = 1e300, 0.0, -1
-    node = 0
+    first = first_leaf(surface, patch, x, y, z)
+    node = -1
     while node < int(surface[N_NODES]):
-        at = nodes + NODE * node
-        if box_square(surface, at, x, y, z) > best or not has_patch(surface, at, patch):
+        at = nodes + NODE * (first if node < 0 else node)
+        if node >= 0 and (box_square(surface, at, x, y, z) > best or not has_patch(surface, at, patch)):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -142,7 +154,7 @@ def face_under(
             height = face_height(surface, f, x, y, z)
             if surface[f + 4] != patch or height * height > best:
                 continue
-            lean = size * (_leaning(frame, other, surface, f, n_star, star) - ASTRAY)
+            lean = size * (leaning(frame, other, surface, f, n_star, star, begin) - ASTRAY)
             over, inside, ends, square = over_face(surface, t, height, lean, margin, x, y, z)
             if over <= 0.0 and height < 0.0 and -height < under:
                 under, under_past, under_face = -height, inside, face

@@ -2,7 +2,8 @@
 
 A unit is a frame that carries bounded shapes, all within a ball about its origin.  The list holds the pairs of units
 whose balls are nearer than a margin, found by sorting the balls along an axis and sweeping over them, and every contact
-with an unbounded shape.  It stands until some unit has moved by half the margin.
+with an unbounded shape.  It stands until some unit has moved by half the margin; of a unit with pools of features
+(:mod:`nonsmooth.engine.pools`), until some point of it has.
 """
 
 from __future__ import annotations
@@ -11,19 +12,24 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.pools import fill_pools, is_empty
 from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, GEOMETRY, PAIR
 
 _WIDTH = len(CATALOGUE)
 _MODE = CATALOGUE.index("mode")
 _SPENT = 0.6
 """A list is drawn anew when a unit has used up this part of its way."""
+_NARROWEST = 2.0**-12
+"""Least part of its widest margin that the list may have, where pools cannot hold what is nearer."""
 _ACCELERATION = 2.0
 """By how much a unit is taken to speed up within a step; the step is checked afterwards."""
 
 
 @kernel("i8(S, F, I, i8)")
 def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
-    """Put a declared contact into the next slot; return 0 if there is none."""
+    """Put a declared contact into the next slot, unless it is empty; return 0 if there is no slot."""
+    if is_empty(S, w, k, declared) == 1:
+        return 1
     if S.n_contacts == S.n_slots:
         return 0
     c = S.n_contacts
@@ -124,6 +130,13 @@ def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
     for unit in range(S.n_units):
         for i in range(3):
             w[S.unit_place + 3 * unit + i] = w[k[S.unit_frame + unit] + i]
+        for i in range(9):
+            w[S.unit_axes + 9 * unit + i] = w[k[S.unit_frame + unit] + 3 + i]
+    S.margin_of_list = min(S.widest_margin, 2.0 * S.margin_of_list)
+    while fill_pools(S, w, k) == 0:
+        S.margin_of_list *= 0.5
+        if S.margin_of_list < _NARROWEST * S.widest_margin:
+            return 0
     for i in range(k[S.partner_contact + S.n_partners], S.n_paired):
         if _enter(S, w, k, k[S.paired_contact + i]) == 0:
             return 0
@@ -147,17 +160,27 @@ def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
 
 @kernel("f8(S, F, I, i8)")
 def _way(S: Scalars, w: Floats, k: Integers, unit: int) -> float:
-    """Return how far a unit is from where it was listed."""
-    frame, square = k[S.unit_frame + unit], 0.0
+    """Return how far a unit is from where it was listed, and its farthest point if turning counts."""
+    frame, square, lever = k[S.unit_frame + unit], 0.0, w[S.unit_lever + unit]
     for i in range(3):
         square += (w[frame + i] - w[S.unit_place + 3 * unit + i]) ** 2
-    return math.sqrt(square)
+    way = math.sqrt(square)
+    if lever > 0.0:
+        square = 0.0
+        for i in range(9):
+            square += (w[frame + 3 + i] - w[S.unit_axes + 9 * unit + i]) ** 2
+        way += lever * math.sqrt(0.5 * square)
+    return way
 
 
 @kernel("f8(S, F, I, i8)")
 def _unit_speed(S: Scalars, w: Floats, k: Integers, unit: int) -> float:
     v = k[S.unit_frame + unit] + 12
-    return math.sqrt(w[v] * w[v] + w[v + 1] * w[v + 1] + w[v + 2] * w[v + 2])
+    speed = math.sqrt(w[v] * w[v] + w[v + 1] * w[v + 1] + w[v + 2] * w[v + 2])
+    o, lever = v + 3, w[S.unit_lever + unit]
+    if lever > 0.0:
+        speed += lever * math.sqrt(w[o] * w[o] + w[o + 1] * w[o + 1] + w[o + 2] * w[o + 2])
+    return speed
 
 
 @kernel("f8(S, F, I)")

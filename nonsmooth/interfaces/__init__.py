@@ -1,7 +1,7 @@
 """The interfaces: one abstract class a file."""
 
 from nonsmooth.interfaces.body import Body
-from nonsmooth.interfaces.contact_kinematics import ContactKinematics
+from nonsmooth.interfaces.contact_kinematics import CandidateSearch, ContactKinematics
 from nonsmooth.interfaces.convex_shape import ConvexShape
 from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.interfaces.distance_backend import DistanceBackend
@@ -20,6 +20,7 @@ from nonsmooth.interfaces.traction_law import TractionLaw
 __all__ = [
     "AnisotropicFrictionLaw",
     "Body",
+    "CandidateSearch",
     "CompliantNormalLaw",
     "ContactKinematics",
     "ConvexShape",

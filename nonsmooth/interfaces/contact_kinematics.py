@@ -3,11 +3,34 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from typing import ClassVar
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
 
 from nonsmooth.interfaces.shape import Shape
-from nonsmooth.parameters import Component
+from nonsmooth.parameters import Component, Value
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class CandidateSearch:
+    """A search for the features of two shapes that may be near each other, where they are too many for a contact each.
+
+    Its contacts are those of one ``between`` whose ``candidates`` it is, one after the other; their evaluators take
+    what was found as the vector ``candidate``.
+
+    Attributes
+    ----------
+    function : callable
+        A plain function ``find(a, b, out, ...)`` of the frame blocks of the bodies.  ``out[0]`` is a distance [m]; it
+        writes there how many pairs of features may be no farther from each other, and behind it three numbers of each,
+        the first of which is not 0, of one more than there are contacts at most.
+    values : mapping
+        Its parameters.
+    """
+
+    function: Callable[..., None]
+    values: Mapping[str, Value]
 
 
 class ContactKinematics(Component, ABC):
@@ -33,6 +56,11 @@ class ContactKinematics(Component, ABC):
     @abstractmethod
     def evaluator(self) -> Callable[..., None]:
         """The function of point 2."""
+
+    @property
+    def candidates(self) -> CandidateSearch | None:
+        """The search that tells which features this contact is of at present; None if they are given."""
+        return None
 
     @property
     @abstractmethod

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.engine.kernel import room_addresses
 from nonsmooth.engine.modes import POLICIES
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
 from nonsmooth.model.checks import check_start
@@ -15,6 +15,7 @@ from nonsmooth.model.linkages import linkages
 from nonsmooth.model.memory import Heap, allocate
 from nonsmooth.model.model import Model, map_width
 from nonsmooth.model.options import Options
+from nonsmooth.model.pools import lay_pools
 from nonsmooth.model.solvers import pivoted_contacts, solver_number
 from nonsmooth.model.units import find_units, lay_units
 from nonsmooth.system.system import System
@@ -40,7 +41,13 @@ def assemble(system: System, options: Options) -> Model:
 
 
 def lay_out(system: System, options: Options) -> Model:
-    """Lay out a system without looking at its start."""
+    """Lay out a system, and list the contacts that are near each other at its start; look at nothing else there.
+
+    Raises
+    ------
+    InvalidInput
+        If these are too many.
+    """
     bodies, contacts = system.bodies, system.contacts
     n_q = sum(body.n_q for body in bodies)
     n_u = sum(body.n_u for body in bodies)
@@ -55,6 +62,7 @@ def lay_out(system: System, options: Options) -> Model:
         "n_units": len(units.radii),
         "n_partners": len(units.pairs),
         "n_paired": len(contacts),
+        "n_pools": len(units.pools),
         "n_own_guards": len(system.guards),
         "n_loads": len(system.loads),
         "n_joints": len(system.joints),
@@ -79,10 +87,11 @@ def lay_out(system: System, options: Options) -> Model:
     lay_loads(system, memory, heap, places)
     lay_contacts(memory, heap, contacts, places)
     lay_units(memory, units, {(i, f): at for i, place in places.items() for f, at in enumerate(place.frames)})
+    lay_pools(memory, heap, units.pools, units.frames)
     lay_guards(system, memory, heap)
     model = Model(system, heap.close(), n_q, n_u, n_states)
     _set_scalars(model, options)
-    call_room("list_contacts", model.memory)
+    model.list_contacts()
     return model
 
 

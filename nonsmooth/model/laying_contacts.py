@@ -101,6 +101,8 @@ def _lay_contact(
             try_out(function, form, available, values, len(start), owner, (0.1, (), start))
         at_tables = {parameter_place(function, form, name): table for name, table in tables.items()}
         fields |= {f"{name}_function": address, f"{name}_parameters": heap.store_with_tables(values, at_tables)}
+        if name == "geometry" and contact.kinematics.candidates is not None:
+            fields["candidate"] = fields["geometry_parameters"] + vector_place(function, form, values, "candidate")
         if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
             fields["state_copy"] = fields["friction_parameters"] + _place_of_state(contact.friction, values)
     if start or isinstance(contact.friction, TractionLaw):

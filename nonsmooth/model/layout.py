@@ -106,9 +106,12 @@ CATALOGUE = (
     "state_copy",
     "oriented",
     "axis",
+    "candidate",
     "mode",
 )
 """Integers of a declared contact; in a slot each of them is an array of its own."""
+CANDIDATE = 3
+"""Numbers of a pair of features in a pool; the first is not 0."""
 CATALOGUE_FLOATS = 8
 """Floats of a contact: contact time, slip direction, reach, rate at which it closed, levers, size of the smaller."""
 SECTORS = 48
@@ -224,6 +227,8 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "unit_speed": _per(1, "n_units"),
     "unit_way": _per(1, "n_units"),
     "unit_place": _per(3, "n_units"),
+    "unit_axes": _per(9, "n_units"),
+    "unit_lever": _per(1, "n_units"),
     "event_impulse": _per(3, "n_slots"),
     "force": _per(3, "n_slots"),
     "share": _per(3, "n_slots"),
@@ -398,6 +403,13 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "partner_unit": _per(1, "n_partners"),
     "partner_contact": lambda n: n["n_partners"] + 1,
     "paired_contact": _per(1, "n_paired"),
+    "pool_function": _per(1, "n_pools"),
+    "pool_parameters": _per(1, "n_pools"),
+    "pool_out": _per(1, "n_pools"),
+    "pool_first": _per(1, "n_pools"),
+    "pool_contacts": _per(1, "n_pools"),
+    "pool_unit_a": _per(1, "n_pools"),
+    "pool_unit_b": _per(1, "n_pools"),
     "block_column": _blocks,
 }
 
@@ -415,6 +427,7 @@ COUNTS = (
     "n_units",
     "n_partners",
     "n_paired",
+    "n_pools",
     "n_own_guards",
     "n_loads",
     "n_joints",

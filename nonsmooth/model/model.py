@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.engine.kernel import call_room
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.model.layout import GEOMETRY, N_ACCOUNTS
 from nonsmooth.model.memory import Memory
@@ -39,6 +40,22 @@ class Model:
     def n_y(self) -> int:
         """Length of the integrated state: q, u, accounts, states of laws."""
         return self.n_q + self.n_u + N_ACCOUNTS + self.n_states
+
+    def list_contacts(self) -> None:
+        """List the contacts that are near each other at the present state.
+
+        Raises
+        ------
+        InvalidInput
+            If there is no room for so many.
+        """
+        if call_room("list_contacts", self.memory) == 0:
+            raise InvalidInput(
+                "contacts of the system",
+                f"must not be so many near each other: there is room for {int(self.memory.scalars['n_slots'][0])}",
+                "more of them",
+                "Place the bodies farther apart, or take coarser meshes.",
+            )
 
     def energy(self) -> tuple[float, float]:
         """Return kinetic and potential energy [J] of the present state."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from nonsmooth.model.memory import Memory
+from nonsmooth.model.pools import Pool, find_pools
 from nonsmooth.system.contact import Contact
 
 SMALL = 64
@@ -33,12 +34,15 @@ class Units:
         (unit, later unit) -> numbers of their contacts.
     unbounded : list of int
         Contacts with an unbounded shape.
+    pools : list of Pool
+        Contacts whose features are searched for.
     """
 
     frames: dict[tuple[int, int], int]
     radii: list[float]
     pairs: dict[tuple[int, int], list[int]]
     unbounded: list[int]
+    pools: list[Pool]
 
     @property
     def n_slots(self) -> int:
@@ -50,9 +54,10 @@ class Units:
 
 def find_units(contacts: Sequence[Contact]) -> Units:
     """Return the units of many contacts; none for few, which need no list."""
-    units = Units({}, [], {}, [])
-    if len(contacts) <= SMALL:
-        return Units({}, [], {}, list(range(len(contacts))))
+    pools = find_pools(contacts)
+    units = Units({}, [], {}, [], pools)
+    if len(contacts) <= SMALL and not pools:
+        return Units({}, [], {}, list(range(len(contacts))), [])
     for number, contact in enumerate(contacts):
         sides = [(id(body), frame) for body, frame in zip((contact.first, contact.second), contact.frames, strict=True)]
         if not all(math.isfinite(extent) for extent in contact.extents):
@@ -79,7 +84,7 @@ def lay_units(memory: Memory, units: Units, places: dict[tuple[int, int], int]) 
         memory.array("unit_frame", n)[unit] = places[side]
     memory.array("unit_radius", n)[:] = units.radii
     memory.array("unit_order", n)[:] = range(n)
-    memory.scalars["margin_of_list"] = _MARGIN * min(units.radii)
+    memory.scalars["margin_of_list"] = memory.scalars["widest_margin"] = _MARGIN * min(units.radii)
     ordered = sorted(units.pairs)
     starts = [0] * (n + 1)
     for one, _ in ordered:

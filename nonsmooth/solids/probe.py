@@ -87,12 +87,13 @@ class Probe:
 
     def gaps(self) -> Vector:
         """Return the gaps of its contacts [m]; bounds from below where shapes are too far apart to be looked at."""
-        call_room("list_contacts", self.model.memory)
+        self.model.list_contacts()
         gaps = np.asarray(self.model.gaps())
+        margin = float(self.model.memory.scalars["margin_of_list"][0])
         for number in np.flatnonzero(np.isinf(gaps)).tolist():
             one, two = frames_of(self.model, number)
             apart = float(np.linalg.norm(one[:3] - two[:3])) - sum(self.contacts[number].extents)
-            gaps[number] = max(apart, 0.0)
+            gaps[number] = max(apart, margin)
         return gaps
 
     def rates(self, u: Vector) -> Vector:

@@ -105,15 +105,20 @@ class Stand(Body):
 class Rig:
     """Two free bodies, one shape each, that can be put anywhere; gives what the engine makes of their contacts."""
 
-    def __init__(self, shapes: tuple[Shape, Shape], laws: dict[str, Any]) -> None:
+    def __init__(self, shapes: tuple[Shape, Shape], laws: dict[str, Any], margin: float = 1e9) -> None:
         self._bodies = Carrier((shapes[0],)), Carrier((shapes[1],))
         self._system = ns.System(self._bodies)
         self.contacts = self._system.contact(*self._bodies, **laws)
         self._system.place(self._bodies[1], position=(0.0, 0.0, 50.0))
         self._model = assemble(self._system, Options())
         # polyhedra have so many contacts that only those of near bodies are listed
-        self._model.memory.scalars["margin_of_list"] = 1e9
-        call_room("list_contacts", self._model.memory)
+        self._model.memory.scalars["margin_of_list"] = self._model.memory.scalars["widest_margin"] = margin
+        self._model.list_contacts()
+
+    def listed(self) -> float:
+        """List the contacts near each other; return how far others are at least [m]."""
+        self._model.list_contacts()
+        return float(self._model.memory.scalars["margin_of_list"][0])
 
     def put(self, poses: Any, u: Any) -> None:
         """Put the bodies at (position, quaternion) each, with velocities u [12]."""
@@ -122,7 +127,7 @@ class Rig:
         call_room("evaluate_at", self._model.memory)
 
     def _rows(self, name: str, width: int) -> Array:
-        n = len(self.contacts)
+        n = int(self._model.memory.scalars["n_contacts"][0])
         return self._model.memory.array(name, width * n).reshape(n, width).copy()
 
     @property

@@ -24,9 +24,9 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from bodies.contacts import mesh_mesh
 from bodies.contacts.apex_mesh import ApexMesh
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
+from bodies.contacts.mesh_swept import MeshSwept
 from nonsmooth import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import Table
@@ -149,7 +149,7 @@ def test_a_block_in_an_inner_corner_stands_on_both_walls(build: Any) -> None:
 
 def test_too_many_features_are_refused_with_their_numbers() -> None:
     with pytest.raises(InvalidInput, match=r"at most 4000 pairs.*convex edges.*decomposition"):
-        mesh_mesh.MeshMesh.between(TORUS, TORUS)
+        MeshSwept.between(TriangleMesh(Triangles(*torus())), Box(4e-3, 3e-3, 5e-3, rounding=1e-3))
 
 
 @pytest.mark.parametrize("kind", ["ellipsoid", "superellipsoid", "boxy"])

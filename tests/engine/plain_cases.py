@@ -17,7 +17,21 @@ from typing import Any, TypeAlias
 import numpy as np
 
 import nonsmooth as ns
-from bodies import Ball, BallJoint, BoxBody, Dumbbell, Harmonic, PlanarBody, Plate, Point, Spring
+from bodies import (
+    Ball,
+    BallJoint,
+    BoxBody,
+    DrivenBody,
+    Dumbbell,
+    Harmonic,
+    PlanarBody,
+    Plate,
+    Point,
+    Spring,
+    TriangleMesh,
+    Triangles,
+)
+from bodies.contacts.surface_pairs import MOST_NEAR
 from laws import (
     Anisotropic,
     Bristle,
@@ -32,6 +46,7 @@ from laws import (
 )
 from nonsmooth.engine.modes import POLICIES
 from nonsmooth.model.solvers import SOLVERS
+from tests.bodies.meshes.parts import hills
 from tests.physics.test_own_guards import Level
 
 Numbers: TypeAlias = dict[str, Any]
@@ -172,6 +187,16 @@ def _cloud(n: int) -> Numbers:
     return _numbers(system, 0.05)
 
 
+def _hills() -> Numbers:
+    """Let a box fall on hills, whose features are searched for."""
+    ground, body = DrivenBody(carried=(TriangleMesh(Triangles(*hills(4))),)), BoxBody(0.1, 0.07, 0.05, mass=1.0)
+    system = ns.System([ground, body])
+    assert len(system.contact(ground, body, **_rigid())) == MOST_NEAR
+    turn = np.array([0.7, 0.3, -0.2, 0.4])
+    system.place(body, position=(0.1, 0.1, 0.13), orientation=turn / np.linalg.norm(turn), velocity=(0.1, 0.0, -1.0))
+    return _numbers(system, 0.012)
+
+
 def _contact_problem(seed: int, n: int, n_u: int, solver: str, sliding: bool) -> Numbers:
     """Solve for random contacts, more of them than the velocities need where n_u is small."""
     rng = np.random.default_rng(seed)
@@ -240,6 +265,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "row on a plate": lambda: _balls(4, True, _rigid(EnergeticImpact(0.5), Coulomb(0.3)), 1e-3),
     "long row": lambda: _balls(18, False, _rigid(EnergeticImpact(0.9), Frictionless()), 2e-4, impact_tolerance=1e-5),
     "cloud": lambda: _cloud(13),
+    "hills": _hills,
     **{
         f"contact problem, {solver}, {n} contacts, {n_u} velocities, sliding {sliding}": (
             lambda solver=solver, n=n, n_u=n_u, sliding=sliding: _contact_problem(n, n, n_u, solver, sliding)  # type: ignore[misc]

@@ -1,0 +1,73 @@
+"""Pools of contacts whose features are searched for, laid into the engine's memory."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from nonsmooth.interfaces import CandidateSearch
+from nonsmooth.model.layout import CANDIDATE
+from nonsmooth.model.memory import Heap, Memory
+from nonsmooth.parameters import Table
+from nonsmooth.plugins.compile import bind, parameter_place
+from nonsmooth.system.contact import Contact
+
+
+@dataclass(frozen=True)
+class Pool:
+    """Contacts of two frames that one search fills.
+
+    Attributes
+    ----------
+    search : CandidateSearch
+        The search.
+    contacts : range
+        Their numbers.
+    sides : tuple
+        (id of body, frame) of either.
+    owner : str
+        What messages call it.
+    """
+
+    search: CandidateSearch
+    contacts: range
+    sides: tuple[tuple[int, int], tuple[int, int]]
+    owner: str
+
+
+def find_pools(contacts: Sequence[Contact]) -> list[Pool]:
+    """Return the pools, in order."""
+    found = []
+    for _, group in itertools.groupby(enumerate(contacts), lambda item: id(item[1].kinematics.candidates)):
+        rows = list(group)
+        number, one = rows[0]
+        search = one.kinematics.candidates
+        if search is not None:
+            sides = (id(one.first), one.frames[0]), (id(one.second), one.frames[1])
+            name = f"{type(one.kinematics).__name__} ({one.name})"
+            found.append(Pool(search, range(number, number + len(rows)), sides, name))
+    return found
+
+
+def lay_pools(memory: Memory, heap: Heap, pools: Sequence[Pool], units: Mapping[tuple[int, int], int]) -> None:
+    """Lay the pools; ``units`` says which unit each frame is.  The units of a pool move as their farthest points."""
+    for number, pool in enumerate(pools):
+        function, values = pool.search.function, pool.search.values
+        tables = {name: value for name, value in values.items() if isinstance(value, Table)}
+        address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, pool.owner)
+        places = {parameter_place(function, "pair", name): table for name, table in tables.items()}
+        row = {
+            "function": address,
+            "parameters": heap.store_with_tables(numbers, places),
+            "out": heap.output(1 + CANDIDATE * (len(pool.contacts) + 1)),
+            "first": pool.contacts.start,
+            "contacts": len(pool.contacts),
+            "unit_a": units[pool.sides[0]],
+            "unit_b": units[pool.sides[1]],
+        }
+        for name, value in row.items():
+            memory.array(f"pool_{name}", number + 1)[number] = value
+        for side in pool.sides:
+            unit = units[side]
+            memory.array("unit_lever", unit + 1)[unit] = memory.array("unit_radius", unit + 1)[unit]

@@ -1,0 +1,130 @@
+"""Features of two surfaces that are found near each other: none is left out, and runs are those of all features."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import nonsmooth as ns
+from bodies import Box, BoxBody, DrivenBody, MeshBody, TriangleMesh, Triangles
+from bodies.contacts import mesh_mesh, surface_pairs
+from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.modes import IMPACT
+from nonsmooth.interfaces import Shape
+from tests.bodies.carriers import Rig
+from tests.bodies.meshes.parts import box, channel, hills, torus
+
+pytestmark = pytest.mark.skipif(PLAIN, reason="compiled runs take seconds, plain ones minutes")
+
+UNIT = np.array([1.0, 0.0, 0.0, 0.0])
+HILLS = TriangleMesh(Triangles(*hills(6)))
+TORUS = TriangleMesh(Triangles(*torus(10, 6)))
+WIDE = TriangleMesh(Triangles(*box(0.9, 0.7, 0.5)))
+HALVES = np.array([0.45, 0.35, 0.25])
+PAIRS: dict[str, tuple[Shape, Shape, float]] = {
+    "box and hills": (HILLS, Box(*HALVES), 0.16),
+    "mesh and hills": (HILLS, WIDE, 0.16),
+    "rings": (TORUS, TORUS, 0.01),
+}
+"""Two shapes, and how far ahead they are looked for [m]."""
+
+
+def _turned(angle: Any) -> Any:
+    return np.roll(Rotation.from_rotvec(angle).as_quat(), 1)
+
+
+def _near(name: str, turn: Any, rng: np.random.Generator) -> Any:
+    """Return a place of the second body next to the first."""
+    if name == "rings":
+        way = rng.normal(size=3)
+        return rng.uniform(0.03, 0.06) * way / np.linalg.norm(way)
+    reach = np.abs(Rotation.from_rotvec(turn).as_matrix()[2]) @ HALVES
+    return np.array([*rng.uniform(-0.5, 0.5, 2), reach + rng.uniform(-0.03, 0.06)])
+
+
+def _least(rig: Rig, poses: Any) -> float:
+    """Return the least gap of features that face each other."""
+    rig.put(poses, np.zeros(12))
+    block = rig.geometry
+    return float(np.min(block[block[:, 30] <= 0.0, 0], initial=np.inf))
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_what_is_near_is_found_until_it_is_looked_for_again(
+    name: str, build: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bodies are listed at random poses, and moved and turned as far as a list may stand: the gap is that of all."""
+    first, second, ahead = PAIRS[name]
+    rig = Rig((first, second), build.laws(), ahead)
+    assert len(rig.contacts) == surface_pairs.MOST_NEAR
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 1_000_000)
+    every = Rig((first, second), build.laws())
+    assert len(every.contacts) > 1000
+    rng, compared = np.random.default_rng(3), 0
+    for _ in range(40):
+        turn = rng.normal(size=3)
+        place = _near(name, turn, rng)
+        rig.put([(np.zeros(3), UNIT), (place, _turned(turn))], np.zeros(12))
+        margin = rig.listed()
+        # half the way by turning, half along a line, of each body
+        angles = rng.normal(size=(2, 3))
+        sizes = np.linalg.norm(angles, axis=1) * [first.extent, second.extent]
+        angles *= (0.25 * margin / sizes)[:, None]
+        ways = rng.normal(size=(2, 3))
+        ways *= 0.25 * margin / np.linalg.norm(ways, axis=1)[:, None]
+        moved = Rotation.from_rotvec(angles[1]) * Rotation.from_rotvec(turn)
+        poses = [(ways[0], _turned(angles[0])), (place + ways[1], _turned(moved.as_rotvec()))]
+        least = _least(every, poses)
+        if -0.1 * ahead < least < 0.4 * margin:
+            compared += 1
+            assert _least(rig, poses) == pytest.approx(least, abs=1e-15)
+    assert compared >= 8
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("kind", ["box", "channel"])
+def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A body falls, tumbles and slides on hills: the same events, whether all pairs of features stand or those near."""
+    runs = []
+    for most in (0, 1_000_000):
+        monkeypatch.setattr(mesh_mesh, "MOST_EACH", most)
+        rng = np.random.default_rng(seed)
+        ground = DrivenBody(carried=(HILLS,))
+        body = BoxBody(0.1, 0.07, 0.05, mass=1.0) if kind == "box" else MeshBody(Triangles(*channel()), mass=1.0)
+        system = ns.System([ground, body])
+        contacts = system.contact(ground, body, **build.laws(0.4, 0.3))
+        assert (len(contacts) == surface_pairs.MOST_NEAR) == (most == 0)
+        turn = rng.normal(size=4)
+        system.place(
+            body,
+            position=(0.1, 0.1, 0.3),
+            orientation=turn / np.linalg.norm(turn),
+            velocity=rng.normal(size=3),
+            angular_velocity=rng.normal(size=3),
+        )
+        runs.append(ns.simulate(system, 0.4))
+    one, two = runs
+    assert one.status == two.status == "done"
+    assert np.sum(one.events.cause == IMPACT) >= 3
+    assert one.events.cause.tolist() == two.events.cause.tolist()
+    np.testing.assert_allclose(one.events.time, two.events.time, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(one.q[-1], two.q[-1], rtol=0, atol=1e-7)
+    assert one.energy.residual < 1e-8
+
+
+def test_with_little_room_less_is_looked_at_ahead(build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The margin of the list is halved until what is nearer has room; where nothing helps the system is refused."""
+    found = []
+    for most in (surface_pairs.MOST_NEAR, 24):
+        monkeypatch.setattr(surface_pairs, "MOST_NEAR", most)
+        rig = Rig((HILLS, Box(*HALVES)), build.laws(), 0.3)
+        rig.put([(np.zeros(3), UNIT), (np.array([0.0, 0.0, 0.5]), _turned([0.4, 0.3, 0.2]))], np.zeros(12))
+        found.append(rig.listed())
+    assert found[0] > found[1] > 0.0
+    rig = Rig((TORUS, TORUS), build.laws(), 0.3)
+    rig.put([(np.zeros(3), UNIT), (np.zeros(3), UNIT)], np.zeros(12))
+    with pytest.raises(ns.InvalidInput, match=r"room for 24.*coarser meshes"):
+        rig.listed()
