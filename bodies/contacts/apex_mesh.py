@@ -12,7 +12,7 @@ from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
 from bodies.contacts.frames import vector_in_body
 from bodies.contacts.frustum import axis_in_world, center_in_world
 from bodies.contacts.surface_feature import out_of_surface, write_feature
-from bodies.contacts.surface_search import ON_CORNER, ON_EDGE, Found, nearest_in_patch
+from bodies.contacts.surface_search import FAR, ON_CORNER, ON_EDGE, Found, nearest_in_patch
 from bodies.contacts.surface_tables import EDGE, EDGES, N_PATCHES, Numbers, surface_numbers
 from bodies.contacts.swept_vertex import END, NEAR, OPEN
 from bodies.contacts.tangents import write_tangent
@@ -45,7 +45,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats,
     px, py, pz = center_in_world(a, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
     x, y, z = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
-    found = nearest_in_patch(surface, patch, x, y, z)
+    found = nearest_in_patch(surface, patch, x, y, z, FAR)
     # the patch of a surface that has one only does not end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
     nx, ny, nz = out_of_surface(b, surface, found, past, x, y, z)

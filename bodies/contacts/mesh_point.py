@@ -9,6 +9,7 @@ from typing import ClassVar, final
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import gap_at_distance
+from bodies.contacts.surface_search import FAR
 from bodies.contacts.surface_tables import FACE, FACES, Numbers, star_of, surface_numbers
 from bodies.contacts.surface_vertex import face_under
 from bodies.contacts.tangents import write_tangent
@@ -37,7 +38,7 @@ def _evaluate(
     n_star: float,
     star: Floats,
 ) -> None:
-    write_over_first(a, b, out, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, 0)
+    write_over_first(a, b, out, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, 0, FAR)
 
 
 @compiled
@@ -53,12 +54,13 @@ def write_over_first(
     n_star: float,
     star: Floats,
     begin: int,
+    reach: float,
 ) -> None:
     """Write the geometry block of a vertex of the second body over a patch of the first.
 
     Arguments as of :func:`bodies.contacts.surface_vertex.face_under`.
     """
-    face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin)
+    face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
     f = int(surface[FACES]) + FACE * face
     out[0], out[29], out[30] = gap, float(face), past
     out[1], out[2], out[3] = vector_in_world(a, surface[f], surface[f + 1], surface[f + 2])
@@ -83,7 +85,7 @@ def _evaluate_reversed(
     star: Floats,
     radius: float,
 ) -> None:
-    write_over_second(a, b, out, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, 0, radius)
+    write_over_second(a, b, out, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, 0, FAR, radius)
 
 
 @compiled
@@ -99,10 +101,11 @@ def write_over_second(
     n_star: float,
     star: Floats,
     begin: int,
+    reach: float,
     radius: float,
 ) -> None:
     """Write the same of a vertex of the first body, with a radius about it [m], over a patch of the second."""
-    face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin)
+    face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
     f = int(surface[FACES]) + FACE * face
     gap = gap_at_distance(gap, past, radius)
     out[0], out[29], out[30] = gap, float(face), past

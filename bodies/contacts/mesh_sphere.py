@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
-from bodies.contacts.frames import point_in_world, vector_in_body
-from bodies.contacts.offset import place_sphere
-from bodies.contacts.surface_feature import out_of_surface, write_feature
-from bodies.contacts.surface_search import nearest_in_patch
-from bodies.contacts.surface_tables import N_PATCHES, Numbers, surface_numbers
-from bodies.contacts.swept_vertex import END, NEAR, past_star
+from bodies.contacts.mesh_sphere_near import MeshSphereNear
+from bodies.contacts.surface_ball import write_ball
+from bodies.contacts.surface_search import FAR
+from bodies.contacts.surface_tables import BITS, Numbers, surface_numbers
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.sphere import Sphere
@@ -21,6 +17,9 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
+
+MOST_EACH = 8
+"""Patches up to which each of them is a contact of its own."""
 
 
 def _evaluate(
@@ -37,24 +36,7 @@ def _evaluate(
     star: Floats,
     size: float,
 ) -> None:
-    center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
-    x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
-    found = nearest_in_patch(surface, patch, x, y, z)
-    distance, kind, number = found[0], found[2], found[3]
-    # the patch of a surface that has one only does not end
-    past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
-    nx, ny, nz = out_of_surface(a, surface, found, past, x, y, z)
-    if n_star > 0.0:
-        beyond = past_star(b, star, n_star, distance, nx, ny, nz, size)
-        past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
-    out[1], out[2], out[3] = nx, ny, nz
-    if past > 0.0:
-        apart = max(distance - radius, 0.0)
-        distance = math.sqrt(apart * apart + past * past) + radius
-    place_sphere(a, out, center_x, center_y, center_z, distance, radius)
-    out[30] = past
-    write_feature(a, out, SIDE_A, surface, kind, number)
-    write_round(out, SIDE_B, radius)
+    write_ball(a, b, out, surface, patch, radius, x_b, y_b, z_b, n_star, star, size, FAR)
 
 
 @final
@@ -96,11 +78,13 @@ class MeshSphere(ContactKinematics):
     name: str
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[MeshSphere, ...]:
-        """Return one contact for each patch."""
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return one contact for each patch; of many patches for those near the sphere."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, Sphere)
         own = first.features
+        if MOST_EACH < patches_for_ball(own, second.radius).count <= BITS:
+            return MeshSphereNear.of_ball(own, (second.x, second.y, second.z), second.radius)
         return cls.of_balls(own, [((second.x, second.y, second.z), (), "sphere")], second.radius, own.size)
 
     @classmethod

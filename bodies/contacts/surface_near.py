@@ -59,6 +59,21 @@ def _is_near(surface: Floats, x: float, y: float, z: float, reach: float) -> boo
 
 
 @compiled
+def patches_of_leaves(surface: Floats, x: float, y: float, z: float, reach: float) -> int:
+    """Return the patches, as bits, of the leaves no farther from a point than a reach [m]; of no more than 52."""
+    bits, node = 0, 0
+    while node < int(surface[N_NODES]):
+        at = int(surface[NODES]) + NODE * node
+        if box_square(surface, at, x, y, z) > reach * reach:
+            node = int(surface[at + 6])
+            continue
+        if surface[at + 8] > 0.0:
+            bits |= int(surface[at + 9])
+        node += 1
+    return bits
+
+
+@compiled
 def _is_node_near(frame: Floats, other: Floats, surface: Floats, parts: Floats, at: int, reach: float) -> bool:
     """Return whether something in a node of the other body may be nearer to a surface than a reach [m]."""
     dx, dy, dz = parts[at + 3] - parts[at], parts[at + 4] - parts[at + 1], parts[at + 5] - parts[at + 2]

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.contacts.apart import NO_CANDIDATE, write_apart
 from bodies.contacts.mesh_point import write_over_first, write_over_second
 from bodies.contacts.surface_edges import write_edges
 from bodies.contacts.surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near, edges_near
@@ -20,8 +21,6 @@ from nonsmooth.types import Floats
 
 MOST_NEAR = 256
 """Pairs of features of two bodies that may be near each other at once."""
-_APART = 1e3
-"""Gap of a contact without features, in sizes of the larger body."""
 
 
 def _find(a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Floats, most: float, turning: float) -> None:
@@ -42,24 +41,17 @@ def _evaluate(
         c = int(surface_b[CORNERS]) + CORNER * j
         x, y, z, length = surface_b[c], surface_b[c + 1], surface_b[c + 2], surface_b[c + 5]
         star = int(surface_b[STARS]) + int(surface_b[c + 4])
-        write_over_first(a, b, out, surface_a, float(i), x, y, z, length, surface_b, star)
+        write_over_first(a, b, out, surface_a, float(i), x, y, z, length, surface_b, star, candidate[3])
     elif kind == OVER_SECOND:
         c = int(surface_a[CORNERS]) + CORNER * j
         x, y, z, length = surface_a[c], surface_a[c + 1], surface_a[c + 2], surface_a[c + 5]
         star = int(surface_a[STARS]) + int(surface_a[c + 4])
-        write_over_second(a, b, out, surface_b, float(i), x, y, z, length, surface_a, star, 0.0)
+        write_over_second(a, b, out, surface_b, float(i), x, y, z, length, surface_a, star, candidate[3], 0.0)
     elif kind == EDGE_ACROSS:
         one, two = int(surface_a[EDGES]) + EDGE * i, int(surface_b[EDGES]) + EDGE * j
         write_edges(a, b, out, surface_a, one, surface_b, two, surface_a, surface_b, 0.0, size)
     else:
-        for m in range(31):
-            out[m] = 0.0
-        out[0] = out[30] = _APART * size
-        out[3], out[4] = 1.0, 1.0
-        for m in range(3):
-            out[7 + m] = a[m]
-            out[10 + m] = a[m] + out[0] * out[1 + m]
-        out[17] = out[20] = out[21] = out[24] = 1.0
+        write_apart(a, out, size)
 
 
 @final
@@ -133,7 +125,7 @@ class SurfacePairs(ContactKinematics):
     def parameters(self) -> dict[str, Value]:
         """Return the surfaces, the size, and no features."""
         first, second = self.surfaces
-        return {"candidate": (0.0, 0.0, 0.0), "surface_a": first, "surface_b": second, "size": self.size}
+        return {"candidate": NO_CANDIDATE, "surface_a": first, "surface_b": second, "size": self.size}
 
     @property
     def evaluator(self) -> Callable[..., None]:

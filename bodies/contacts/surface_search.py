@@ -28,6 +28,8 @@ from bodies.contacts.vertex_face import REACH
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+FAR = 1e150
+"""A reach without end [m]."""
 ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
 """Kinds of features."""
 
@@ -218,8 +220,10 @@ def past_corner(surface: Floats, corner: int, x: float, y: float, z: float) -> f
 
 
 @compiled
-def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float) -> Found:
+def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float, reach: float) -> Found:
     """Return the nearest feature of a patch that a ball about the point may touch.
+
+    Where none is nearer than a reach [m], that is the distance and the way past the end.
 
     A feature may be touched if no point of the surface next to it is nearer.  Where none may, it is the one with the
     least distance and way past its ends together: a feature that ends is held against those that may be touched, so
@@ -227,8 +231,8 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     """
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     margin, n_edges = REACH * surface[SIZE], int(surface[N_EDGES])
-    best, distance, past, kind, number = 1e300, 0.0, 0.0, ON_FACE, 0
-    qx, qy, qz = 0.0, 0.0, 0.0
+    best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
+    qx, qy, qz = x, y, z - reach
     under, under_past, under_face = 1e300, 0.0, -1
     first = first_leaf(surface, patch, x, y, z)
     node = -1

@@ -17,6 +17,7 @@ from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, ba
 from bodies.contacts.smooth_newton import widest_from, write_surface
 from bodies.contacts.surface_feature import write_feature
 from bodies.contacts.surface_search import (
+    FAR,
     ON_CORNER,
     ON_EDGE,
     ON_FACE,
@@ -231,7 +232,7 @@ def _nearest(
     distance, past, bx, by, bz = 1e300, 1e300, 0.0, 0.0, 1.0
     aim: Aim = (0.0, 0.0, 0.0, -1e300)
     # the feature nearest to the centre, then faces, which cost least: they rule out most of the others
-    _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z)
+    _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z, FAR)
     if kind != ON_FACE:
         found = number + n_triangles + (int(surface[N_EDGES]) if kind == ON_CORNER else 0)
         g, beyond, nx, ny, nz, _ = _look_at(surface, patch, found, core, point, turn, center, best, aim)

@@ -123,19 +123,21 @@ def face_under(
     n_star: float,
     star: Floats,
     begin: int,
+    reach: float,
 ) -> tuple[int, float, float]:
     """Return face, gap and way past the end of a vertex of the other body against a patch of the surface in ``frame``.
 
     A face may be touched that the vertex stands over with no edge pointing into it.  Under a face is what is inside of
     the body and has no other face nearer.  Past the end the gap is a positive number, unless the vertex is inside.
-    The unit vectors along the vertex's edges stand in ``star`` from ``begin`` on.
+    The unit vectors along the vertex's edges stand in ``star`` from ``begin`` on.  Where no face is nearer than a reach
+    [m], that is the distance and the way past the end.
     """
     px, py, pz = point_in_world(other, vertex_x, vertex_y, vertex_z)
     x, y, z = vector_in_body(frame, px - frame[0], py - frame[1], pz - frame[2])
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
     margin = REACH * size
-    best, height_best, apart, past, found = 1e300, 0.0, 0.0, 1e300, 0
+    best, height_best, apart, past, found = reach * reach, 0.0, reach, reach, 0
     under, under_past, under_face = 1e300, 0.0, -1
     first = first_leaf(surface, patch, x, y, z)
     node = -1

@@ -2,7 +2,8 @@
 
 A pool is a row of declared contacts of two units, each of which holds the numbers of a pair of features, or none.  When
 contacts are listed, a function of the pair finds the features that are nearer than the margin of the list.  Those that
-have a contact keep it, with its mode and slip; the others that are open make room.
+have a contact keep it, with its mode and slip; the others that are open make room.  Behind its features a contact has
+how far they may come from each other while the list stands.
 """
 
 from __future__ import annotations
@@ -82,4 +83,6 @@ def fill_pools(S: Scalars, w: Floats, k: Integers) -> int:
             candidate = k[S.catalogue + _WIDTH * declared + _CANDIDATE]
             for r in range(CANDIDATE):
                 w[candidate + r] = w[found + CANDIDATE * i + r]
+        for declared in range(first, first + contacts):
+            w[k[S.catalogue + _WIDTH * declared + _CANDIDATE] + CANDIDATE] = 2.0 * S.margin_of_list
     return 1

@@ -17,7 +17,8 @@ class CandidateSearch:
     """A search for the features of two shapes that may be near each other, where they are too many for a contact each.
 
     Its contacts are those of one ``between`` whose ``candidates`` it is, one after the other; their evaluators take
-    what was found as the vector ``candidate``.
+    what was found as the vector ``candidate``: three numbers, the first of them 0 where they hold no features, and how
+    far these may come from each other until they are looked for again [m].
 
     Attributes
     ----------
