@@ -227,10 +227,12 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
 
     A feature may be touched if no point of the surface next to it is nearer.  Where none may, it is the one with the
     least distance and way past its ends together: a feature that ends is held against those that may be touched, so
-    that the way past it grows from 0.
+    that the way past it grows from 0.  Where a face meets its edge, or an edge its corner, both may be touched over a
+    way of the margin, and their distances differ by less than round-off: there it is the face, then the edge.
     """
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     margin, n_edges = REACH * surface[SIZE], int(surface[N_EDGES])
+    same = 4.0 * margin * margin
     best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
     qx, qy, qz = x, y, z - reach
     under, under_past, under_face = 1e300, 0.0, -1
@@ -238,7 +240,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     node = -1
     while node < int(surface[N_NODES]):
         at = nodes + NODE * (first if node < 0 else node)
-        if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, x, y, z) > best):
+        if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, x, y, z) > best + same):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -249,7 +251,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
                 which = int(surface[t + 9])
                 f = int(surface[FACES]) + FACE * which
                 height = face_height(surface, f, x, y, z)
-                if surface[f + 4] != patch or height * height > best:
+                if surface[f + 4] != patch or height * height > best + same:
                     continue
                 over, ends = over_ends(surface, t, x, y, z)
                 if over <= margin and height < 0.0 and -height < under:
@@ -276,7 +278,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
             beyond -= margin
             square = (x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz)
             key = square + max(beyond, 0.0) * max(beyond, 0.0)
-            if key < best:
+            if key < best - same or (key < best + same and what < kind):
                 best, distance, past, kind, number = key, square**0.5, beyond, what, which
                 qx, qy, qz = px, py, pz
         node += 1
