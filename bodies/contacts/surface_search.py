@@ -278,7 +278,8 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
             beyond -= margin
             square = (x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz)
             key = square + max(beyond, 0.0) * max(beyond, 0.0)
-            if key < best - same or (key < best + same and what < kind):
+            alike = key < best + same and beyond <= 0.0
+            if key < best - same or (alike and (past > 0.0 or what < kind)):
                 best, distance, past, kind, number = key, square**0.5, beyond, what, which
                 qx, qy, qz = px, py, pz
         node += 1

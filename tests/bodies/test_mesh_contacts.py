@@ -24,12 +24,16 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
+from bodies.contacts import mesh_sphere
 from bodies.contacts.apex_mesh import ApexMesh
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from bodies.contacts.mesh_swept import MeshSwept
 from nonsmooth import InvalidInput
+from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import Shape
+from nonsmooth.model.layout import FRAME, GEOMETRY
 from nonsmooth.parameters import Table
+from nonsmooth.plugins.call import pair_caller
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, bracket, hills, torus
@@ -313,3 +317,37 @@ def test_a_ball_over_many_triangles_has_the_gap_of_the_nearest(build: Any) -> No
         blocks = rig.geometry
         gap = np.min(blocks[blocks[:, 30] <= 0.0, 0])
         assert gap == pytest.approx(float(np.min(distances(center[None], points[triangles]))) - radius, abs=1e-14)
+
+
+@pytest.mark.skipif(PLAIN, reason="thousands of searches")
+def test_a_ball_changes_from_face_to_edge_and_on_once_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Over the border both hold for a margin, with distances that are the same but for round-off: no flicker."""
+    rng, seen = np.random.default_rng(5), 0
+    monkeypatch.setattr(mesh_sphere, "MOST_EACH", 1000)
+    ground = TriangleMesh(Triangles(*hills(6)))
+    features, radius = ground.features, 0.03
+    contacts = MeshSphere.between(ground, Sphere(radius))
+    calls = [pair_caller(one.evaluator, one.parameters(), "MeshSphere") for one in contacts]
+    a, b, out = np.zeros(FRAME), np.zeros(FRAME), np.zeros(GEOMETRY)
+    a[3:12] = b[3:12] = np.eye(3).ravel()
+    for number in rng.permutation(len(features.edges))[:40]:
+        one, two, left, right = features.edges[number]
+        middle = 0.5 * (features.vertices[one] + features.vertices[two])
+        normals = features.planes[[left, right], :3]
+        if middle[2] < -0.1 or np.min(normals[:, 2]) < 0.5:
+            continue
+        # from above the face to above the edge, and a little about the border between them, with the edge's point kept
+        along = np.cross(normals[0], features.vertices[two] - features.vertices[one])
+        along /= np.linalg.norm(along)
+        for call in calls:
+            last, changes, closed = -1.0, 0, False
+            for way in np.linspace(-2e-8, 2e-8, 400) + 1e-12 * rng.normal(size=400):
+                b[:3] = middle + radius * normals[0] + way * along
+                out[:] = 0.0
+                call(a, b, out)
+                changes += out[29] != last and last >= 0.0
+                last, closed = out[29], closed or bool(out[30] <= 0.0)
+            if closed:
+                seen += 1
+                assert changes <= 1
+    assert seen >= 5
