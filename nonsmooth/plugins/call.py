@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.kernel import PLAIN, call_body, call_pair
 from nonsmooth.parameters import Value
-from nonsmooth.plugins.compile import bind
+from nonsmooth.plugins.compile import bind, vector_place
 
 Vector = NDArray[np.float64]
 
@@ -52,14 +52,38 @@ def pair_caller(
     UnknownName
         If the function asks for a parameter that nobody gives.
     """
+    return _pair_caller(function, values, owner)[0]
+
+
+def candidate_caller(
+    function: Callable[..., None], values: Mapping[str, Value], owner: str
+) -> Callable[[Vector, Vector, Vector, Vector], None]:
+    """Return ``call(a, b, out, candidate)`` for the evaluator of contacts whose features are searched for.
+
+    As :func:`pair_caller`; the candidate is what :class:`nonsmooth.interfaces.CandidateSearch` says, shape [4].
+    """
+    call, numbers = _pair_caller(function, values, owner)
+    place = vector_place(function, "pair", numbers.tolist(), "candidate")
+
+    def call_with(a: Vector, b: Vector, out: Vector, candidate: Vector) -> None:
+        numbers[place : place + len(candidate)] = candidate
+        call(a, b, out)
+
+    return call_with
+
+
+def _pair_caller(
+    function: Callable[..., None], values: Mapping[str, Value], owner: str
+) -> tuple[Callable[[Vector, Vector, Vector], None], Vector]:
+    """Return the call, and the numbers of its parameters."""
     address, heap = bind(function, "pair", values, owner)
     numbers = np.array([*heap, 0.0])
     if PLAIN:
-        return lambda a, b, out: call_pair(address, a, b, numbers, out)
+        return lambda a, b, out: call_pair(address, a, b, numbers, out), numbers
     native: Any = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address)
     heap_address = numbers.ctypes.data
 
     def call(a: Vector, b: Vector, out: Vector, _kept: Vector = numbers) -> None:
         native(a.ctypes.data, b.ctypes.data, heap_address, out.ctypes.data)
 
-    return call
+    return call, numbers

@@ -2,18 +2,61 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import final
 
 import numpy as np
 
-from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
-from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
+from nonsmooth.model.layout import CANDIDATE, FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
-from nonsmooth.plugins.call import pair_caller
+from nonsmooth.plugins.call import candidate_caller, pair_caller
 from nonsmooth.queries.result import EXACT, DistanceResult
 from nonsmooth.system.pairing import nearest_pair
+
+_HALVINGS = 40
+"""How often less is looked for, where too many features are near each other."""
+
+
+class _Given:
+    """Contacts of given features."""
+
+    def __init__(self, contacts: Sequence[ContactKinematics]) -> None:
+        self._calls = [pair_caller(one.evaluator, one.parameters(), type(one).__name__) for one in contacts]
+
+    def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
+        """Yield geometry blocks, and up to which gap there is no other one [m]."""
+        for call in self._calls:
+            out = np.zeros(GEOMETRY)
+            call(a, b, out)
+            yield out, np.inf
+
+
+class _Searched:
+    """Contacts whose features are searched for."""
+
+    def __init__(self, contacts: Sequence[ContactKinematics], search: CandidateSearch) -> None:
+        one, name = contacts[0], type(contacts[0]).__name__
+        self._find = pair_caller(search.function, search.values, name)
+        self._call = candidate_caller(one.evaluator, one.parameters(), name)
+        self._most = len(contacts)
+
+    def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
+        """Yield geometry blocks of features no farther than a reach [m], or a part of it if these are too many."""
+        found, n = np.zeros(1 + CANDIDATE * (self._most + 1)), 0
+        for _ in range(_HALVINGS):
+            found[0] = reach
+            self._find(a, b, found)
+            n = int(found[0])
+            if n <= self._most:
+                break
+            reach *= 0.5
+        for candidate in found[1 : 1 + CANDIDATE * min(n, self._most)].reshape(-1, CANDIDATE):
+            out = np.zeros(GEOMETRY)
+            self._call(a, b, out, np.append(candidate, 2.0 * reach))
+            yield out, reach
 
 
 @final
@@ -39,20 +82,21 @@ class Contacts:
             raise LookupError(f"{type(first).__name__}-{type(second).__name__}")
         kinematics, self._in_order = found
         contacts = kinematics.between(*((first, second) if self._in_order else (second, first)))
-        self._calls = [pair_caller(one.evaluator, one.parameters(), type(one).__name__) for one in contacts]
+        search = contacts[0].candidates
+        self._contacts = _Given(contacts) if search is None else _Searched(contacts, search)
+        self._extent = first.extent + second.extent
 
     def least(self, one: Place, two: Place) -> DistanceResult | None:
         """Return the least gap that faces, None if none does; bounds are its own value, as nobody has proved it."""
-        a, b, out = np.zeros(FRAME), np.zeros(FRAME), np.zeros(GEOMETRY)
+        a, b = np.zeros(FRAME), np.zeros(FRAME)
         for block, (position, axes) in zip((a, b), (one, two) if self._in_order else (two, one), strict=True):
             block[:3], block[3:12] = position, axes.ravel()
         best: Vector | None = None
-        for call in self._calls:
-            out[:] = 0.0
-            call(a, b, out)
+        reach = float(np.linalg.norm(a[:3] - b[:3])) + self._extent
+        for out, known in self._contacts.blocks(a, b, reach):
             # a gap that is no number is none
-            if out[PAST_END] <= 0.0 and (out[0] < best[0] if best is not None else out[0] == out[0]):
-                best = out.copy()
+            if out[PAST_END] <= 0.0 and (out[0] < best[0] if best is not None else out[0] <= known):
+                best = out
         if best is None:
             return None
         gap = float(best[0])

@@ -9,11 +9,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Box, BoxBody, DrivenBody, MeshBody, TriangleMesh, Triangles
-from bodies.contacts import mesh_mesh, surface_pairs
+from bodies import Box, BoxBody, DrivenBody, MeshBody, Sphere, TriangleMesh, Triangles
+from bodies.contacts import mesh_mesh, mesh_sphere, surface_pairs
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.interfaces import Shape
+from nonsmooth.queries.exact import Contacts
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, channel, hills, torus
 
@@ -128,3 +129,24 @@ def test_with_little_room_less_is_looked_at_ahead(build: Any, monkeypatch: pytes
     rig.put([(np.zeros(3), UNIT), (np.zeros(3), UNIT)], np.zeros(12))
     with pytest.raises(ns.InvalidInput, match=r"room for 24.*coarser meshes"):
         rig.listed()
+
+
+def test_a_query_is_that_of_all_features(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also from afar, where so many features are within reach that less must be looked for."""
+    pairs = [(HILLS, Box(*HALVES)), (HILLS, Sphere(0.03))]
+    near = [Contacts(*pair) for pair in pairs]
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 1_000_000)
+    monkeypatch.setattr(mesh_sphere, "MOST_EACH", 1_000)
+    every = [Contacts(*pair) for pair in pairs]
+    rng, compared = np.random.default_rng(8), 0
+    for _ in range(60):
+        turn = rng.normal(size=3)
+        place = _near("box and hills", turn, rng)
+        other = place, Rotation.from_rotvec(turn).as_matrix()
+        for one, two in zip(near, every, strict=True):
+            found, expected = (contacts.least((np.zeros(3), np.eye(3)), other) for contacts in (one, two))
+            if found is not None and found.gap > -1e-3:
+                assert expected is not None
+                assert found.gap == pytest.approx(expected.gap, abs=1e-15)
+                compared += 1
+    assert compared > 30
