@@ -59,7 +59,7 @@ class MovedShape(SmoothShape):
 
     def support(self, direction: Vector) -> Vector:
         """Return the farthest point of the shape where it stands [m]."""
-        return self._placed(self.shape.support(np.asarray(direction) @ self._axes))
+        return self._placed(self.shape.farthest(np.asarray(direction) @ self._axes))
 
     @property
     def volume(self) -> float:

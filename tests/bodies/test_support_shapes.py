@@ -23,6 +23,7 @@ from bodies import (
     DrivenBody,
     Ellipsoid,
     EllipsoidBody,
+    HalfSpace,
     MovedShape,
     Plane,
     Sphere,
@@ -34,7 +35,7 @@ from bodies import (
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.drawing import solid_of
 from bodies.shapes.support_integrals import spiral
-from laws import EnergeticImpact, Frictionless, Unilateral
+from laws import EnergeticImpact, Frictionless, HertzCompliant, Unilateral
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.interfaces.body import Vector
@@ -295,12 +296,61 @@ class Wrong(SupportShape):
         (Wrong("two numbers"), "three finite numbers"),
         (Wrong("not convex"), "farthest of the points"),
         (Wrong("by length"), "length of the direction"),
+        (Wrong("no idea"), r"three finite numbers.*RuntimeError\('no idea'\).*asked along \[.*\(line \d+\)"),
         (RoundedLens(rounding=0.0), "sharp: roll a ball over it"),
     ],
 )
 def test_what_is_wrong_is_refused_by_name(shape: SupportShape, message: str) -> None:
     with pytest.raises(ns.InvalidInput, match=rf"(?s){type(shape).__name__}\.support.*{message}"):
         SupportBody(shape)
+
+
+@final
+@dataclass(frozen=True)
+class Blind(SupportShape):
+    """A ball that is wrong within a milliradian of one direction, which no look round meets."""
+
+    number: float = parameter(0.0, doc="in which way")
+
+    def support(self, direction: Vector) -> Vector:
+        """Return what is wrong, or the point of a ball of 1 cm [m]."""
+        n = direction / math.sqrt(np.sum(direction * direction))
+        if 0.48 * n[0] - 0.6 * n[1] + 0.64 * n[2] > 1.0 - 1e-6:
+            if self.number == 0.0:
+                raise ValueError("no such direction")
+            return np.full(3, math.nan) if self.number == 1.0 else n[:2]
+        return np.asarray(0.01 * n)
+
+
+SOFT: dict[str, Any] = {"normal": HertzCompliant(1e6), "friction": Frictionless()}
+
+
+@pytest.mark.parametrize("number", [0.0, 1.0, 2.0], ids=["raises", "not a number", "two numbers"])
+@pytest.mark.parametrize(
+    ("other", "laws"),
+    [
+        (Plane(), {}),
+        (Plane(), SOFT),
+        (HalfSpace(), {}),
+        (Sphere(0.02), {}),
+        (Sphere(0.02), SOFT),
+        (Box(0.05, 0.05, 0.01), {}),
+        (KNOWN[0], {}),
+    ],
+)
+def test_what_is_wrong_along_one_direction_is_refused_at_the_start(
+    build: Any, other: Any, laws: dict[str, Any], number: float
+) -> None:
+    """With the direction, and what was raised as its cause, whatever the engine makes of it."""
+    turn = np.roll(Rotation.align_vectors([[0.0, 0.0, -1.0]], [[0.48, -0.6, 0.64]])[0].as_quat(), 1)
+    ground, body = DrivenBody(carried=(other,)), SupportBody(Blind(number))
+    system = ns.System([ground, body])
+    system.contact(ground, body, **(laws or build.laws()))
+    system.place(body, position=(0.0, 0.0, 0.05), orientation=turn)
+    says = r"(?s)Blind\.support .*three finite numbers.*but it is (ValueError|\[nan|\[0\.).*asked along \[0\.4"
+    with pytest.raises(ns.InvalidInput, match=says) as refused:
+        ns.simulate(system, 0.01)
+    assert isinstance(refused.value.__cause__, ValueError) is (number == 0.0)
 
 
 def test_a_pair_that_cannot_be_found_is_refused(build: Any) -> None:
