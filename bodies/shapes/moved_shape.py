@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, final
 
 import numpy as np
 
+from bodies.shapes.egg import Egg
 from bodies.shapes.placement import with_axes
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_shape import SupportShape
@@ -34,6 +36,11 @@ class MovedShape(SmoothShape):
     orientation_x: float = parameter(0.0, doc="quaternion, first component", **UNIT_PART)
     orientation_y: float = parameter(0.0, doc="quaternion, second component", **UNIT_PART)
     orientation_z: float = parameter(0.0, doc="quaternion, third component", **UNIT_PART)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return an egg."""
+        return {"shape": Egg()}
 
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
