@@ -71,6 +71,7 @@ from bodies.shapes.capsule import Capsule
 from bodies.shapes.cone import Cone
 from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.disc import Disc
+from bodies.shapes.egg import Egg
 from bodies.shapes.ellipsoid import Ellipsoid
 from bodies.shapes.frustum import Frustum
 from bodies.shapes.ground import Ground
@@ -114,6 +115,7 @@ __all__ = [
     "Distance",
     "DrivenBody",
     "Dumbbell",
+    "Egg",
     "Ellipsoid",
     "EllipsoidBody",
     "Fixed",

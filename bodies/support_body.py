@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import final
+from typing import Any, final
 
 from bodies.free import FreeBody
 from bodies.inertia import check_mass, mass_of
+from bodies.shapes.egg import Egg
 from bodies.shapes.moved_shape import MovedShape
 from bodies.shapes.support_shape import SupportShape
 from nonsmooth.errors import InvalidInput
@@ -32,7 +34,7 @@ class SupportBody(FreeBody):
     Raises
     ------
     InvalidInput
-        If the shape is none of a user's, or both mass and density are given.
+        If the shape is no SupportShape, or both mass and density are given.
     """
 
     shape: SupportShape = field()
@@ -40,6 +42,11 @@ class SupportBody(FreeBody):
         None, doc="density; 7800 without a mass", unit="kg/m^3", above=0.0, usual=(10.0, 3e4)
     )
     mass: float | None = parameter(None, doc="mass, instead of the density", unit="kg", above=0.0)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return an egg."""
+        return {"shape": Egg()}
 
     def _check(self) -> None:
         if not isinstance(self.shape, SupportShape):

@@ -66,7 +66,7 @@ class FlankMesh(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """That of a side and an edge."""
+        """The closed form of a side and an edge."""
         return _evaluate
 
     @property

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, final
+from typing import ClassVar, TypeAlias, final
 
 from bodies.contacts.boxy_newton import Answer
 from bodies.contacts.curvature import SIDE_A, SIDE_B, write_sweep
@@ -40,6 +40,9 @@ from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, float, float, float, float]
+"""The frustum, its rims, a point, the core, its axes and its centre in those of the frustum, the size of both."""
 
 _SHALLOW, _SLIGHT = 1e-6, 1e-8
 """Overlap, in units of the size, up to which the first stop is taken without a look at the others; of sharp bodies."""
@@ -162,6 +165,7 @@ def _nearest(
     The gap is nan where none was found.  One below 0 is told only with a point that both bodies have.
     """
     size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + frustum[0] + frustum[HIGH] - frustum[LOW]
+    bodies = frustum, low, high, point, core, turn, x, y, z, size
     near = ON_BORDER * size
     away = math.sqrt(x * x + y * y)
     sx, sy = (x, y) if away > _CLOSE * size else (1.0, 0.0)
@@ -214,15 +218,15 @@ def _nearest(
             rim = where == LOW_RIM or where == HIGH_RIM
             if rim and (is_deep or _is_deep(frustum, core, turn, x, y, z)):
                 return best, where
-            best, where = _higher(frustum, low, high, point, core, turn, x, y, z, size, best, where)
+            best, where = _higher(bodies, best, where)
             return best, where
     if is_sharp and not is_deep and best[0] < 0.0:
         # the way out to another side, where the short one was missed
-        best, where = _higher(frustum, low, high, point, core, turn, x, y, z, size, best, where)
+        best, where = _higher(bodies, best, where)
     if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
-        best, where = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
+        best, where = _on_hills(bodies)
         if is_sharp and best[0] != best[0] and frustum[SIDE] > 0.0:
-            best, where = _beside_apex(frustum, high, core, turn, x, y, z, size), FLANK
+            best, where = _beside_apex(bodies), FLANK
     return best, where
 
 
@@ -235,37 +239,24 @@ def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: f
 
 
 @compiled
-def _higher(
-    frustum: Floats,
-    low: Floats,
-    high: Floats,
-    point: Floats,
-    core: Floats,
-    turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    size: float,
-    best: Answer,
-    where: int,
-) -> tuple[Answer, int]:
+def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
     """Return an answer and its part, or those with a larger gap, unless a ball in the smooth body proves it."""
+    frustum, _, _, point, core, turn, x, y, z, size = bodies
     if not no_shorter_way(point, core, turn, x, y, z, best):
-        found, part = _on_hills(frustum, low, high, point, core, turn, x, y, z, size)
+        found, part = _on_hills(bodies)
         if found[0] > best[0] + _HIGHER * size:
             best, where = found, part
         if frustum[SIDE] > 0.0:
-            found = _beside_apex(frustum, high, core, turn, x, y, z, size)
+            found = _beside_apex(bodies)
             if found[0] > best[0] + _HIGHER * size:
                 best, where = found, FLANK
     return best, where
 
 
 @compiled
-def _beside_apex(
-    frustum: Floats, high: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, size: float
-) -> Answer:
+def _beside_apex(bodies: Bodies) -> Answer:
     """Return the stop of the side next to where tops over the apex alone lean too far for it, nan if there is none."""
+    frustum, _, high, _, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
         _, nx, ny, _ = uphill(high, core, turn, x, y, z - frustum[HIGH], start, _NEARBY)
@@ -277,19 +268,9 @@ def _beside_apex(
 
 
 @compiled
-def _on_hills(
-    frustum: Floats,
-    low: Floats,
-    high: Floats,
-    point: Floats,
-    core: Floats,
-    turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    size: float,
-) -> tuple[Answer, int]:
+def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
     """Return the same by steps, of a rim or the apex."""
+    frustum, low, high, point, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     where = LOW_RIM
     for part in (LOW_RIM, HIGH_RIM):

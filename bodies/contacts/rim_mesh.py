@@ -76,7 +76,7 @@ class RimMesh(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """That of a rim and an edge."""
+        """Newton's method for one angle, that of a rim and an edge."""
         return _evaluate
 
     @property

@@ -10,14 +10,23 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from bodies.meshes.features import Features
+from bodies.meshes.features import Bools, Features
 from bodies.meshes.topology import Integers
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.notices import say
 
 _AT_ONCE, MOST_PAIRS = 1_000_000, 200_000_000
 """Pairs of near faces that are looked at together, and more of which are refused."""
+_SAMPLE = 1000
+"""Faces by which pairs are counted beforehand; surfaces with fewer have not enough of them."""
+_COSTS = np.array([[3500.0, 6.5e-5], [0.0, 2.9e-7], [90.0, 0.0], [170.0, 3e-6]])
+"""Memory [B] and time [s] of triangles, edges and corners; of near faces, all and at once; of those in conflict."""
+_MUCH, _LONG = 1.2e8, 2.0
+"""Memory [B] and time [s] from which contacts are announced."""
 Reach: TypeAlias = Callable[[Integers, Integers], Vector]
+Search: TypeAlias = Callable[[int], Iterator[tuple[Integers, Integers, Bools]]]
+"""Yields the numbers of two near faces, of one pair in so many, and whether they are in conflict."""
 _ABOVE = 1e-9
 """Height over a plane, in sizes of the surface, from which a face counts as standing out of it."""
 _AROUND = 1.1
@@ -69,7 +78,14 @@ def _patches(features: Features, most: float, reach: Reach) -> Patches:
     rolls from one patch to another changes its contact.
     """
     n_faces = len(features.planes)
-    excludes = _conflicts(features, most, reach)
+    search = _search(features, most, reach)
+    memory, seconds = _cost(features, search)
+    if memory >= _MUCH or seconds >= _LONG:
+        say(
+            f"making contacts with a mesh of {len(features.triangles)} triangles (some {1e-6 * memory:.0f} MB of "
+            f"memory, the mesh included, and {seconds:.0f} s, longer where the machine is busy) ..."
+        )
+    excludes = _conflicts(n_faces, search)
     if not any(excludes):
         return Patches((0,) * n_faces, (0,) * len(features.edges), (0,) * len(features.corners))
     colours = _Colours(excludes)
@@ -118,25 +134,51 @@ def _areas(features: Features) -> Vector:
     return np.asarray(np.bincount(features.face_of, areas, len(features.planes)), dtype=float)
 
 
-def _conflicts(features: Features, most: float, reach: Reach) -> list[set[int]]:
-    """Return for every face those of which a body may touch both, where ``most`` is as far as it reaches [m]."""
-    found: list[set[int]] = [set() for _ in features.planes]
+def _cost(features: Features, search: Search) -> tuple[float, float]:
+    """Return the memory [B], that of the mesh included, and the time [s] that contacts will take, before a run.
+
+    Pairs of faces are counted for one face in so many.  What each part takes is a fit to rows of
+    ``python -m tests.benchmarks.large_mesh`` with 60, 100, 140 and 220 edges, balls of 2, 10 and 20 cm, and an
+    ellipsoid of 10 cm, on two cores of a server: memory is off by a factor of 1.3 at most, time by 1.3 while nothing
+    else runs, by 1.8 on a busy machine.
+    """
+    stride = len(features.planes) // _SAMPLE
+    parts = len(features.triangles) + len(features.edges) + len(features.corners)
+    counts = [(len(one), int(np.sum(close))) for one, _, close in (search(stride) if stride else ())]
+    pairs, conflicts = stride * np.sum([(0, 0), *counts], axis=0)
+    memory, seconds = (np.array([parts, pairs, min(pairs, _AT_ONCE), conflicts]) @ _COSTS).tolist()
+    return memory, seconds
+
+
+def _conflicts(n_faces: int, search: Search) -> list[set[int]]:
+    """Return for every face those of which a body may touch both."""
+    found: list[set[int]] = [set() for _ in range(n_faces)]
+    for one, two, close in search(1):
+        for a, b in zip(one[close].tolist(), two[close].tolist(), strict=True):
+            found[a].add(b)
+            found[b].add(a)
+    return found
+
+
+def _search(features: Features, most: float, reach: Reach) -> Search:
+    """Return what finds near faces, and whether a body, which reaches ``most`` at most [m], may touch both."""
     points, starts = _points(features)
     low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
     least = _ABOVE * features.size
     rising = np.flatnonzero(_highest(features) > least)
     middles, radii = 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
-    for pair in _near(middles[rising], radii[rising], _AROUND * most + least):
-        one, two = rising[pair[0]], rising[pair[1]]
-        apart = np.linalg.norm(np.maximum(np.maximum(low[two] - high[one], low[one] - high[two]), 0.0), axis=1)
-        close = apart <= _AROUND * reach(one, two) + least
-        for a, b in ((one, two), (two, one)):
-            own = np.flatnonzero(close)
-            close[own] = _height(points, starts, features.planes[a[own]], b[own]) > least
-        for a, b in zip(one[close].tolist(), two[close].tolist(), strict=True):
-            found[a].add(b)
-            found[b].add(a)
-    return found
+
+    def search(stride: int) -> Iterator[tuple[Integers, Integers, Bools]]:
+        for pair in _near(middles[rising], radii[rising], _AROUND * most + least, stride):
+            one, two = rising[pair[0]], rising[pair[1]]
+            apart = np.linalg.norm(np.maximum(np.maximum(low[two] - high[one], low[one] - high[two]), 0.0), axis=1)
+            close = apart <= _AROUND * reach(one, two) + least
+            for a, b in ((one, two), (two, one)):
+                own = np.flatnonzero(close)
+                close[own] = _height(points, starts, features.planes[a[own]], b[own]) > least
+            yield one, two, close
+
+    return search
 
 
 def _highest(features: Features) -> Vector:
@@ -167,8 +209,10 @@ def _height(points: Vector, starts: Integers, planes: Vector, faces: Integers) -
     return np.asarray(np.maximum.reduceat(heights, begins) - planes[:, 3])
 
 
-def _near(middles: Vector, radii: Vector, reach: float) -> Iterator[tuple[Integers, Integers]]:
+def _near(middles: Vector, radii: Vector, reach: float, stride: int) -> Iterator[tuple[Integers, Integers]]:
     """Yield arrays of the numbers of balls that are no farther than a reach [m] from each other, each pair once.
+
+    With a stride above 1 only a part of the pairs, one in so many.
 
     Raises
     ------
@@ -186,7 +230,7 @@ def _near(middles: Vector, radii: Vector, reach: float) -> Iterator[tuple[Intege
         group = order[begin:end]
         if len(group) == 0:
             continue
-        tree, others = cKDTree(middles[group]), order[:end]
+        tree, others = cKDTree(middles[group]), order[:end:stride]
         far = reach + radii[others] + radii[group[-1]]
         counts = np.cumsum(tree.query_ball_point(middles[others], far, return_length=True))
         total += int(counts[-1])

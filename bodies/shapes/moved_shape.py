@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, final
 
 import numpy as np
 
+from bodies.shapes.egg import Egg
 from bodies.shapes.placement import with_axes
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_shape import SupportShape
@@ -35,6 +37,11 @@ class MovedShape(SmoothShape):
     orientation_y: float = parameter(0.0, doc="quaternion, second component", **UNIT_PART)
     orientation_z: float = parameter(0.0, doc="quaternion, third component", **UNIT_PART)
 
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return an egg."""
+        return {"shape": Egg()}
+
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
         unit_vector("MovedShape orientation", orientation, 4)
@@ -59,7 +66,7 @@ class MovedShape(SmoothShape):
 
     def support(self, direction: Vector) -> Vector:
         """Return the farthest point of the shape where it stands [m]."""
-        return self._placed(self.shape.support(np.asarray(direction) @ self._axes))
+        return self._placed(self.shape.farthest(np.asarray(direction) @ self._axes))
 
     @property
     def volume(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from abc import abstractmethod
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from bodies.shapes.support_integrals import integrals_over, largest_radius, leas
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.plugins.methods import bind_support
+from nonsmooth.plugins.source import described, line_of
 
 _SHARPEST, _FLATTEST = 1e-3, 1e3
 """Radii of curvature that a shape may have, in units of its size."""
@@ -40,13 +41,33 @@ class SupportShape(SmoothShape):
     Raises
     ------
     InvalidInput
-        When it is first used: where points are not finite or not farthest, or a radius of curvature is below a
-        thousandth of the size or above a thousand times it.
+        When it is first used: where points are not farthest, or a radius of curvature is below a thousandth of the
+        size or above a thousand times it.  Whenever it is asked before a run: where ``support`` raises, or returns
+        anything but three finite numbers.
     """
 
     @abstractmethod
     def support(self, direction: Vector) -> Vector:
         """Return the farthest point along ``direction`` (shape [3], not zero) [m], shape [3]."""
+
+    @final
+    def farthest(self, direction: Vector) -> Vector:
+        """Return the point of ``support`` [m], shape [3], or say what is wrong with it."""
+        found: object
+        where, cause = "", None
+        try:
+            point = np.asarray(self.support(direction), dtype=float)
+            if point.shape == (3,) and np.all(np.isfinite(point)):
+                return point
+            found = point.tolist()
+        except Exception as error:
+            found, where, cause = error, line_of(self.support, error), error
+        raise InvalidInput(
+            f"{type(self).__name__}: {described(self.support)},",
+            "must return three finite numbers",
+            found,
+            f"It is asked along {direction.tolist()}{where}: a direction of any length has a farthest point.",
+        ) from cause
 
     @functools.cached_property
     def core(self) -> tuple[float, ...]:
@@ -62,7 +83,7 @@ class SupportShape(SmoothShape):
     def length(self) -> float:
         """Distance of the farthest point [m], a bound: no direction is far from one that is looked at."""
         directions, reach = spiral(_LOOKS)
-        return max(float(np.linalg.norm(self.support(n))) for n in directions) / math.cos(reach)
+        return max(float(np.linalg.norm(self.farthest(n))) for n in directions) / math.cos(reach)
 
     @functools.cached_property
     def _integrals(self) -> tuple[float, Vector, Vector]:
@@ -96,18 +117,15 @@ class SupportShape(SmoothShape):
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
         """Return the points along the meridians and parallels of directions."""
         sphere, triangles = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
-        return np.array([self.support(n) for n in sphere]), triangles
+        return np.array([self.farthest(n) for n in sphere]), triangles
 
 
 def _check(shape: SupportShape) -> None:
     """Look at a shape along directions all round."""
     name = f"{type(shape).__name__}.support"
     directions, _ = spiral(_LOOKS)
-    points = [np.asarray(shape.support(n), dtype=float) for n in directions]
-    for n, point in zip(directions, points, strict=True):
-        if point.shape != (3,) or not np.all(np.isfinite(point)):
-            raise InvalidInput(name, "must return three finite numbers", point.tolist(), f"It is asked along {n}.")
-    reach, heights = directions @ np.array(points).T, np.sum(directions * points, axis=1)
+    points = np.array([shape.farthest(n) for n in directions])
+    reach, heights = directions @ points.T, np.sum(directions * points, axis=1)
     size = float(np.max(heights + np.max(reach, axis=1)))
     beyond = np.max(reach, axis=1) - heights
     worst = int(np.argmax(beyond))
@@ -118,13 +136,15 @@ def _check(shape: SupportShape) -> None:
             points[worst].tolist(),
             f"Along {directions[worst].tolist()} another one is {beyond[worst]:.3g} m farther. Is the shape convex?",
         )
-    twice = max(float(np.max(np.abs(shape.support(2.0 * n) - p))) for n, p in zip(directions[:9], points, strict=False))
+    twice = max(
+        float(np.max(np.abs(shape.farthest(2.0 * n) - p))) for n, p in zip(directions[:9], points, strict=False)
+    )
     if twice > _ROUND_OFF * size:
         raise InvalidInput(
             name, "must not depend on the length of the direction", twice, "Divide by np.linalg.norm(direction)."
         )
-    least = least_radius(shape.support, directions) / size
-    most = largest_radius(shape.support, directions, np.array(points)) / size
+    least = least_radius(shape.farthest, directions) / size
+    most = largest_radius(shape.farthest, directions, points) / size
     if not least >= _SHARPEST:
         raise InvalidInput(
             name,

@@ -20,10 +20,11 @@ from numba.core import cgutils
 from numba.extending import intrinsic, typeof_impl
 
 from nonsmooth.engine.native_build import CFunction, EnginePasses, numbered, raw, raw_inside, typed_once, uncollected
-from nonsmooth.engine.native_cache import Store, folders, say
+from nonsmooth.engine.native_cache import Store, folders
 from nonsmooth.engine.native_types import FLOATS, INTEGERS, TABLE
 from nonsmooth.model.memory import Memory
 from nonsmooth.model.rooms import ROOMS
+from nonsmooth.notices import say
 
 _OPTIONS: dict[str, Any] = {
     "nopython": True,

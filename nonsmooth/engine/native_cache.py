@@ -26,17 +26,12 @@ from llvmlite.binding import get_host_cpu_name
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
+from nonsmooth.notices import say
 from nonsmooth.user_cache import user_cache
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _CHECKSUM = hashlib.sha256().digest_size
-
-
-@functools.cache
-def say(text: str) -> None:
-    """Print a line to standard error, once."""
-    print(text, file=sys.stderr, flush=True)
 
 
 @functools.cache

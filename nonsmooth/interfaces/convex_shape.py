@@ -31,6 +31,10 @@ class ConvexShape(Shape):
     def support(self, direction: Vector) -> Vector:
         """Return a farthest point along ``direction`` (shape [3], not zero) [m], shape [3]."""
 
+    def farthest(self, direction: Vector) -> Vector:
+        """Return what ``support`` returns; a shape whose ``support`` may be wrong looks at it first."""
+        return self.support(direction)
+
     @property
     @abstractmethod
     def volume(self) -> float:
@@ -68,7 +72,7 @@ class ConvexShape(Shape):
     @final
     def solid(self) -> ConvexSolid:
         """What it encloses."""
-        return ConvexSolid(self.support, self.set_back)
+        return ConvexSolid(self.farthest, self.set_back)
 
     @property
     @final
@@ -76,6 +80,6 @@ class ConvexShape(Shape):
         """Lowest and highest coordinates in the body frame [m], shape [3] each."""
         axes = np.eye(3)
         return (
-            np.array([self.support(-axis)[i] for i, axis in enumerate(axes)]),
-            np.array([self.support(axis)[i] for i, axis in enumerate(axes)]),
+            np.array([self.farthest(-axis)[i] for i, axis in enumerate(axes)]),
+            np.array([self.farthest(axis)[i] for i, axis in enumerate(axes)]),
         )

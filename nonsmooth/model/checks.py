@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from nonsmooth.errors import InvalidInput, PluginError
@@ -9,7 +11,7 @@ from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.model import Model
 from nonsmooth.plugins.blocks import written_past
-from nonsmooth.solids.start import check_overlaps, overlap_allowed
+from nonsmooth.solids.start import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
 
 _OPEN = 1e-9
@@ -21,7 +23,7 @@ def check_start(model: Model) -> None:
     Raises
     ------
     InvalidInput
-        If bodies overlap, or a joint is open or opening.
+        If bodies overlap, a shape has no farthest point, or a joint is open or opening.
     PluginError
         If a function writes past its block.
     """
@@ -29,19 +31,30 @@ def check_start(model: Model) -> None:
     past = written_past(model)
     if past:
         raise PluginError(past[0].upper() + past[1:])
-    for contact, gap in zip(model.system.contacts, gaps, strict=True):
-        if isinstance(contact.normal, CompliantNormalLaw):
-            continue
-        if not gap >= -overlap_allowed(contact):
+    for number, (contact, gap) in enumerate(zip(model.system.contacts, gaps.tolist(), strict=True)):
+        compliant = isinstance(contact.normal, CompliantNormalLaw)
+        if not gap >= (-math.inf if compliant else -overlap_allowed(contact)):
+            _ask_shapes(model, number)
             raise InvalidInput(
                 f"start of the {contact.name}",
                 "must not overlap",
-                float(gap),
+                gap,
                 "Place the bodies apart or touching (gap >= 0 [m]).",
             )
     # gaps tell of features that face each other, and bodies right through one another may have none
     check_overlaps(model)
     _check_joints(model)
+
+
+def _ask_shapes(model: Model, number: int) -> None:
+    """Ask the shapes of a contact for points along each other's axes: one whose function is wrong there says so."""
+    (p, a), (q, b) = ((frame[:3], frame[3:].reshape(3, 3)) for frame in frames_of(model, number))
+    ways = np.array([*a.T, *b.T, q - p])
+    ways = ways[np.any(ways, axis=1)]
+    for shape, axes in zip(model.system.contacts[number].shapes, (a, b), strict=True):
+        if shape.solid is not None:
+            for way in (*ways, *-ways):
+                shape.solid.support(way @ axes)
 
 
 def _check_joints(model: Model) -> None:

@@ -15,7 +15,8 @@ from nonsmooth.plugins.compile import bind, bind_in_python, refused
 
 _BY_NUMBERS = """def support(direction, out, middle_x, middle_y, middle_z{names}):
  point = method(Numbers({values}), array((direction[0], direction[1], direction[2])))
- out[0], out[1], out[2] = point[0] - middle_x, point[1] - middle_y, point[2] - middle_z
+ x, y, z = (point[0], point[1], point[2]) if len(point) == 3 else (nan, nan, nan)
+ out[0], out[1], out[2] = x - middle_x, y - middle_y, z - middle_z
 """
 
 
@@ -61,6 +62,7 @@ def _by_numbers(owner: type[ConvexShape], names: tuple[str, ...]) -> Callable[..
     scope: dict[str, Any] = {
         "__name__": __name__,
         "array": np.array,
+        "nan": np.nan,
         "method": jit(owner.support),
         "Numbers": namedtuple("Numbers", names),
     }

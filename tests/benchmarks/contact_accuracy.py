@@ -3,7 +3,8 @@
 Every pose is made from a point on the first body with a normal there, and the point of the second that lies farthest
 against it, put the gap apart: gap, normal and witness points are known to round-off.  Bodies are of 1 cm, half-sizes of
 4 to 10 mm, and anywhere within 0.1 m of the origin.  The rates are those of the engine, against differences of the gap
-itself over seven places along a motion with constant velocity and spin.
+itself over seven places along a motion with constant velocity and spin.  How a gap is found is what the kinematics say
+of their evaluator; beside it stands the error that FCL states where a question for a distance goes to it.
 
 A pair of shapes is one line of :data:`PAIRS`, or, where features are chosen on both sides, of
 :data:`tests.benchmarks.swept_pairs.SWEPT`, :data:`tests.benchmarks.round_pairs.ROUND_PAIRS` and
@@ -12,6 +13,7 @@ A pair of shapes is one line of :data:`PAIRS`, or, where features are chosen on 
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import math
 import time
@@ -22,6 +24,8 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
+import nonsmooth as ns
+from nonsmooth.errors import InvalidInput, NoDistance
 from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
 from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
@@ -251,6 +255,21 @@ def _drawn(pair: str, draws: int, rng: Generator) -> list[Pose]:
     return [pose(pair, gap, rng) for gap in GAPS for _ in range(draws)]
 
 
+def _way(pose: Pose) -> str:
+    """Return how a gap is found, as the kinematics say it of their evaluator."""
+    owner = type(kinematics_of(pose.shapes)[pose.contact])
+    return (owner.evaluator.__doc__ or "").rstrip(".").removeprefix("The ").removeprefix("A ")
+
+
+def _library(poses: list[Pose]) -> str:
+    """Return the largest error that FCL states at poses apart [m]; nothing if it does not know the shapes."""
+    errors = []
+    for one in poses:
+        with contextlib.suppress(InvalidInput, NoDistance):
+            errors.append(ns.distance(*one.shapes, at=one.poses, by="fcl").error)
+    return f"{max(errors):.0e}" if errors else ""
+
+
 def measure(pair: str, draws: int, seed: int = 0) -> Errors:
     """Return the errors of a pair over ``draws`` poses at each of :data:`GAPS`."""
     rng = np.random.default_rng(seed)
@@ -271,13 +290,14 @@ def measure(pair: str, draws: int, seed: int = 0) -> Errors:
 
 def table(draws: int = 40) -> Iterator[str]:
     """Yield the lines of the table of all pairs in Markdown, each as soon as it is measured."""
-    titles = "pair", "gap [m]", "normal [rad]", "witness [m]", "$g'$", "$g''$", "query [µs]"
+    titles = "pair", "found by", "gap [m]", "normal [rad]", "witness [m]", "$g'$", "$g''$", "query [µs]", "FCL [m]"
     yield "| " + " | ".join(titles) + " |"
     yield "|---" * len(titles) + "|"
     for name in NAMES:
-        e, cost = measure(name, draws), _cost(_drawn(name, draws, np.random.default_rng(0)))
+        poses = _drawn(name, draws, np.random.default_rng(0))
+        e, cost = measure(name, draws), _cost(poses)
         numbers = [f"{x:.0e}" for x in (e.gap, e.normal, e.witness, e.rate, e.acceleration)]
-        yield "| " + " | ".join([name, *numbers, f"{cost:.1f}"]) + " |"
+        yield "| " + " | ".join([name, _way(poses[0]), *numbers, f"{cost:.1f}", _library(poses[::9])]) + " |"
 
 
 if __name__ == "__main__":

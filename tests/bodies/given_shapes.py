@@ -57,23 +57,6 @@ class RoundedLens(SupportShape):
 
 @final
 @dataclass(frozen=True)
-class Egg(SupportShape):
-    """A ball that is longer along one axis, and more pointed at one end of it."""
-
-    radius: float = parameter(0.01, doc="radius of the ball", unit="m", above=0.0)
-    longer: float = parameter(0.1, doc="how much longer, in units of the radius", unit="1")
-    pointed: float = parameter(0.05, doc="how much more pointed, in units of the radius", unit="1")
-
-    def support(self, direction: Vector) -> Vector:
-        """Return the gradient of the support function r |d| (1 + a n_z^2 + b n_z^3), n = d / |d| [m]."""
-        n = direction / math.sqrt(np.sum(direction * direction))
-        height = 1.0 + self.longer * n[2] ** 2 + self.pointed * n[2] ** 3
-        slope = 2.0 * self.longer * n[2] + 3.0 * self.pointed * n[2] ** 2
-        return np.asarray(self.radius * ((height - slope * n[2]) * n + slope * np.array([0.0, 0.0, 1.0])))
-
-
-@final
-@dataclass(frozen=True)
 class SameEllipsoid(SupportShape):
     """An ellipsoid that nobody knows to be one."""
 

@@ -6,6 +6,7 @@ import copy
 import math
 import pickle
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, final
 
 import numpy as np
@@ -21,10 +22,13 @@ from bodies import (
     Cylinder,
     Disc,
     DrivenBody,
+    Egg,
     Ellipsoid,
     EllipsoidBody,
+    HalfSpace,
     MovedShape,
     Plane,
+    RigidBody,
     Sphere,
     Superellipsoid,
     SupportBody,
@@ -34,7 +38,7 @@ from bodies import (
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.drawing import solid_of
 from bodies.shapes.support_integrals import spiral
-from laws import EnergeticImpact, Frictionless, Unilateral
+from laws import EnergeticImpact, Frictionless, HertzCompliant, Unilateral
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.interfaces.body import Vector
@@ -42,7 +46,7 @@ from nonsmooth.parameters import parameter
 from nonsmooth.rotations import rotation
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
-from tests.bodies.given_shapes import Egg, EllipsoidSum, RoundedLens, SameEllipsoid, Sum
+from tests.bodies.given_shapes import EllipsoidSum, RoundedLens, SameEllipsoid, Sum
 from tests.bodies.polytopes import random_hull
 
 HULL = random_hull(np.random.default_rng(4), 9, 8e-3)
@@ -199,6 +203,8 @@ def test_mass_properties() -> None:
     bend = 4.0 * math.pi * height + math.pi * rim * (math.pi - 2.0 * math.asin(rim / big))
     assert lens.volume == pytest.approx(volume + area * r + bend * r**2 + 4.0 / 3.0 * math.pi * r**3, rel=1e-4)
     egg, moved = Egg(), GIVEN["egg"]
+    for one in (egg, Egg(0.03, -0.3, 0.0), Egg(0.02, 0.3, -0.15)):
+        assert one.volume == pytest.approx(one._integrals[0], rel=1e-8)
     turn = rotation([0.8, 0.36, -0.48, 0.0])
     np.testing.assert_allclose(moved.centroid, turn @ egg.centroid + [1e-3, -2e-3, 5e-4], rtol=0, atol=1e-15)
     np.testing.assert_allclose(moved.inertia, turn @ egg.inertia @ turn.T, rtol=0, atol=1e-20)
@@ -295,12 +301,87 @@ class Wrong(SupportShape):
         (Wrong("two numbers"), "three finite numbers"),
         (Wrong("not convex"), "farthest of the points"),
         (Wrong("by length"), "length of the direction"),
+        (Wrong("no idea"), r"three finite numbers.*RuntimeError\('no idea'\).*asked along \[.*\(line \d+\)"),
         (RoundedLens(rounding=0.0), "sharp: roll a ball over it"),
     ],
 )
 def test_what_is_wrong_is_refused_by_name(shape: SupportShape, message: str) -> None:
     with pytest.raises(ns.InvalidInput, match=rf"(?s){type(shape).__name__}\.support.*{message}"):
         SupportBody(shape)
+
+
+@final
+@dataclass(frozen=True)
+class Blind(SupportShape):
+    """A ball that is wrong within a milliradian of one direction, which no look round meets."""
+
+    number: float = parameter(0.0, doc="in which way")
+
+    def support(self, direction: Vector) -> Vector:
+        """Return what is wrong, or the point of a ball of 1 cm [m]."""
+        n = direction / math.sqrt(np.sum(direction * direction))
+        if 0.48 * n[0] - 0.6 * n[1] + 0.64 * n[2] > 1.0 - 1e-6:
+            if self.number == 0.0:
+                raise ValueError("no such direction")
+            return np.full(3, math.nan) if self.number == 1.0 else n[:2]
+        return np.asarray(0.01 * n)
+
+
+SOFT: dict[str, Any] = {"normal": HertzCompliant(1e6), "friction": Frictionless()}
+
+
+@pytest.mark.parametrize("number", [0.0, 1.0, 2.0], ids=["raises", "not a number", "two numbers"])
+@pytest.mark.parametrize(
+    ("other", "laws"),
+    [
+        (Plane(), {}),
+        (Plane(), SOFT),
+        (HalfSpace(), {}),
+        (Sphere(0.02), {}),
+        (Sphere(0.02), SOFT),
+        (Box(0.05, 0.05, 0.01), {}),
+        (KNOWN[0], {}),
+    ],
+)
+def test_what_is_wrong_along_one_direction_is_refused_at_the_start(
+    build: Any, other: Any, laws: dict[str, Any], number: float
+) -> None:
+    """With the direction, and what was raised as its cause, whatever the engine makes of it."""
+    turn = np.roll(Rotation.align_vectors([[0.0, 0.0, -1.0]], [[0.48, -0.6, 0.64]])[0].as_quat(), 1)
+    ground, body = DrivenBody(carried=(other,)), SupportBody(Blind(number))
+    system = ns.System([ground, body])
+    system.contact(ground, body, **(laws or build.laws()))
+    system.place(body, position=(0.0, 0.0, 0.05), orientation=turn)
+    says = r"(?s)Blind\.support .*three finite numbers.*but it is (ValueError|\[nan|\[0\.).*asked along \[0\.4"
+    with pytest.raises(ns.InvalidInput, match=says) as refused:
+        ns.simulate(system, 0.01)
+    assert isinstance(refused.value.__cause__, ValueError) is (number == 0.0)
+
+
+@pytest.mark.parametrize(("longer", "pointed"), [(1.0, 0.0), (-0.5, 0.0), (0.2, 0.45), (0.2, -0.45)])
+def test_eggs_that_are_not_convex_are_refused(longer: float, pointed: float) -> None:
+    """Just beyond the bound of the radii of curvature, all of which those within it have."""
+    with pytest.raises(ns.InvalidInput, match=r"Egg must have radii of curvature.*less long or flat"):
+        Egg(0.01, longer, pointed)
+    assert SupportBody(Egg(0.01, 0.85 * longer, 0.85 * pointed)).total_mass > 0.0
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        SupportBody(Egg(0.012, 0.2, 0.1), density=1100.0),
+        RigidBody(0.01, np.diag([1e-6, 1e-6, 1e-6]).tolist(), (MovedShape(Egg(0.012, 0.2, 0.1), z=2e-3),)),
+    ],
+    ids=["support body", "rigid body"],
+)
+def test_a_body_of_farthest_points_is_saved(build: Any, tmp_path: Path, body: Any) -> None:
+    """And read again: the same run to the last bit."""
+    system, path = build.over(body), tmp_path / "egg.toml"
+    system.place(body, position=(0.0, 0.0, 0.03), orientation=(0.5, 0.5, -0.5, 0.5), velocity=(0.3, 0.0, 0.0))
+    ns.save_system(system, path)
+    one, two = (ns.simulate(known, 0.1) for known in (system, ns.load_system(path).system))
+    assert len(one.events) > 0
+    np.testing.assert_array_equal(one.q_end, two.q_end)
 
 
 def test_a_pair_that_cannot_be_found_is_refused(build: Any) -> None:

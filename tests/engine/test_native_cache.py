@@ -18,8 +18,8 @@ from nonsmooth.engine.kernel import PLAIN
 if PLAIN:
     pytest.skip("nothing is compiled", allow_module_level=True)
 
-from nonsmooth.engine import native_cache
 from nonsmooth.engine.native_cache import Store, build_name, folders
+from nonsmooth.notices import say
 
 needs_users = pytest.mark.skipif(sys.platform == "win32", reason="a status does not say whose a file is")
 
@@ -27,7 +27,7 @@ needs_users = pytest.mark.skipif(sys.platform == "win32", reason="a status does 
 @pytest.fixture
 def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the folder of compiled code in a cache of the test's own."""
-    native_cache.say.cache_clear()
+    say.cache_clear()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
     (tmp_path / "temporary").mkdir()
@@ -204,7 +204,7 @@ def test_the_temporary_folder_of_somebody_else_is_not_used(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Its name can be computed; then nothing is kept, which is said."""
-    native_cache.say.cache_clear()
+    say.cache_clear()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file" / "cache"))
     (tmp_path / "file").write_text("")
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))

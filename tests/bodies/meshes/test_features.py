@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from bodies.meshes import patches as patches_module
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import patches_for_ball, patches_for_body
 from nonsmooth import InvalidInput
-from tests.bodies.meshes.parts import box, bracket, hills, torus
+from tests.bodies.meshes.parts import box, bracket, hills, together, torus, turned
 
 Array = NDArray[Any]
 
@@ -114,3 +115,34 @@ def test_surfaces_too_fine_for_a_body_are_refused_with_their_number(monkeypatch:
     with pytest.raises(InvalidInput, match=r"at most 20 pairs of faces.*decomposition"):
         patches_for_ball(features_of(*torus()), 0.5)
     assert patches_for_ball(features_of(*box()), 0.5).count == 1
+
+
+def test_much_memory_and_time_are_told_beforehand(capfd: pytest.CaptureFixture[str]) -> None:
+    """From some 20 000 triangles on for a small ball, from fewer for a body that touches more at once."""
+    fewer, more = (features_of(*hills(n)) for n in (55, 75))
+    patches_for_ball(fewer, 0.02)
+    assert capfd.readouterr().err == ""
+    patches_for_body(fewer, 0.12)
+    assert re.fullmatch(r"making contacts with a mesh of 12540 triangles .*\n", capfd.readouterr().err)
+    for _ in range(2):
+        patches_for_ball(more, 0.02)
+    told = re.fullmatch(
+        r"making contacts with a mesh of 23100 triangles \(some (\d+) MB of memory, .* (\d) s, .*\n",
+        capfd.readouterr().err,
+    )
+    assert told is not None
+    # the benchmark measures 170 MB, and 2 s where nothing else runs
+    assert 85 <= int(told[1]) <= 340
+    assert told[2] in "1234"
+
+
+@pytest.mark.parametrize("diameter", [0.05, 0.3])
+def test_pairs_are_told_by_a_part_of_the_faces(monkeypatch: pytest.MonkeyPatch, diameter: float) -> None:
+    """Of surfaces whose parts differ in size."""
+    surface = features_of(*together(hills(25), turned(torus(40, 20), shift=(0.0, 0.0, 1.0))))
+    monkeypatch.setattr(patches_module, "_COSTS", np.eye(4)[:, [1, 3]])
+    search, told = patches_module._search(surface, diameter, lambda i, _: np.full(len(i), diameter)), []
+    for sample in (len(surface.planes), len(surface.planes) // 8):
+        monkeypatch.setattr(patches_module, "_SAMPLE", sample)
+        told.append(patches_module._cost(surface, search))
+    np.testing.assert_allclose(told[1], told[0], rtol=0.15)

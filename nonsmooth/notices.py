@@ -1,0 +1,12 @@
+"""What a user is told on standard error while something takes its time."""
+
+from __future__ import annotations
+
+import functools
+import sys
+
+
+@functools.cache
+def say(text: str) -> None:
+    """Print a line to standard error, once."""
+    print(text, file=sys.stderr, flush=True)
