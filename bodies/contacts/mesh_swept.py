@@ -6,16 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-import numpy as np
-
 from bodies.contacts.mesh_mesh import DEPARTURES, MeshEdges, check_contacts, check_crossings, sharp_contacts
 from bodies.contacts.mesh_sphere import MeshSphere
 from bodies.contacts.polytope_tables import edge_rows
 from bodies.contacts.polytope_tables import star_of as star_of_vertex
 from bodies.contacts.surface_edges import evaluate_edges
+from bodies.contacts.surface_pairs import features_of_core
 from bodies.contacts.surface_tables import NOTHING, star_of, surface_numbers
 from bodies.contacts.swept_vertex import SweptVertex
-from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.polytope import Polytope
 from bodies.shapes.swept import SweptPolytope
@@ -49,7 +47,7 @@ class MeshSwept(ContactKinematics):
         assert isinstance(second, SweptPolytope)
         own, core = first.features, second.core
         if second.sweep == 0.0:
-            return sharp_contacts(cls, own, _features(core), (first.extent, second.extent))
+            return sharp_contacts(cls, own, features_of_core(core), (first.extent, second.extent))
         check_crossings(len(own.edges), len(core.edges))
         size = max(own.size, core.size + 2.0 * second.sweep)
         own_star = [(place, star_of_vertex(core, i), f"vertex {i}") for i, place in enumerate(core.vertices)]
@@ -77,13 +75,9 @@ class MeshSwept(ContactKinematics):
         return self.edges.features
 
 
-def _features(core: Polytope) -> Features:
-    return features_of(np.array(core.vertices), np.array(core.triangles))
-
-
 def _surface(core: Polytope) -> Table:
     """Return the surface of a core; a segment has none."""
     if not core.faces:
         return NOTHING
-    features = _features(core)
+    features = features_of_core(core)
     return surface_numbers(features, patches_for_body(features, 0.0))

@@ -12,12 +12,12 @@ from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polyhedron_point import PointPolyhedron, PolyhedronPoint
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
+from bodies.contacts.surface_pairs import SurfacePairs, features_of_core
 from bodies.contacts.swept_swept import MOST_CONTACTS, SweptSwept
 from bodies.contacts.tangents import tangent_of
 from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -172,7 +172,8 @@ class PolyhedronPolyhedron(ContactKinematics):
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
         """Return the pairs of edges, then the vertices of the second, then those of the first.
 
-        Where one of the two is rounded, they are those of :class:`bodies.SweptSwept`.
+        Where one of the two is rounded, they are those of :class:`bodies.SweptSwept`; where they are thousands, those
+        near each other (:class:`bodies.contacts.surface_pairs.SurfacePairs`).
         """
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Polyhedron)
@@ -182,12 +183,7 @@ class PolyhedronPolyhedron(ContactKinematics):
         size = max(one.size, two.size)
         n = len(one.edges) * len(two.edges) + len(one.vertices) + len(two.vertices)
         if n > MOST_CONTACTS:
-            raise InvalidInput(
-                "contact of two polyhedra",
-                f"must have at most {MOST_CONTACTS} pairs of features",
-                f"{len(one.edges)} edges against {len(two.edges)} make {n}",
-                "Take polyhedra with fewer edges, or a smooth shape.",
-            )
+            return SurfacePairs.of_surfaces(features_of_core(one), features_of_core(two), (first.extent, second.extent))
         faces = face_table(one), face_table(two)
         crossings = (
             cls(row_a, row_b, *faces, i, j, size)

@@ -6,13 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+import numpy as np
+
 from bodies.contacts.apart import NO_CANDIDATE, write_apart
 from bodies.contacts.mesh_point import write_over_first, write_over_second
 from bodies.contacts.surface_edges import write_edges
 from bodies.contacts.surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near, edges_near
 from bodies.contacts.surface_tables import BITS, CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
-from bodies.meshes.features import Features
+from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import patches_for_ball
+from bodies.shapes.polytope import Polytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
@@ -136,3 +139,8 @@ class SurfacePairs(ContactKinematics):
     def features(self) -> tuple[str, ...]:
         """A face under a corner, by its number in either surface, or two edges."""
         return tuple(f"face {i}" for i in range(self.n_faces))
+
+
+def features_of_core(core: Polytope) -> Features:
+    """Return the surface of a polyhedron."""
+    return features_of(np.array(core.vertices), np.array(core.triangles))
