@@ -6,7 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.surface_smooth import evaluate_surface_smooth
+from bodies.contacts.apart import write_apart
+from bodies.contacts.patch_near import PatchNear
+from bodies.contacts.surface_smooth import write_surface_smooth
 from bodies.contacts.surface_tables import surface_numbers
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.smooth import extent
@@ -14,9 +16,30 @@ from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
+from nonsmooth.types import Floats
 
 _POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 """The core of a point (:func:`bodies.shapes.smooth.core_numbers`)."""
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, point: Floats) -> None:
+    write_surface_smooth(a, b, out, surface, patch, second, point)
+
+
+def _evaluate_near(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    candidate: Floats,
+    surface: Floats,
+    second: Floats,
+    point: Floats,
+    size: float,
+) -> None:
+    if candidate[0] == 0.0:
+        write_apart(a, out, size)
+    else:
+        write_surface_smooth(a, b, out, surface, candidate[1], second, point)
 
 
 @final
@@ -43,12 +66,17 @@ class MeshSmooth(ContactKinematics):
     counts: tuple[int, int, int]
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[MeshSmooth, ...]:
-        """Return one contact for each patch."""
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return one contact for each patch; of many patches for those near the body."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, SmoothShape)
         own = first.features
         patches = patches_for_body(own, 2.0 * extent(second.core))
+        core = second.core
+        ball = core[6], core[7], core[8], extent(core)
+        near = PatchNear.of_body(own, patches, ball, _evaluate_near, {"second": core, "point": _POINT})
+        if near:
+            return near
         surface = surface_numbers(own, patches)
         counts = len(own.planes), len(own.edges), len(own.corners)
         return tuple(cls(surface, patch, second, counts) for patch in range(patches.count))
@@ -60,7 +88,7 @@ class MeshSmooth(ContactKinematics):
     @property
     def evaluator(self) -> Callable[..., None]:
         """A search over the features, with Newton's method on the support function."""
-        return evaluate_surface_smooth
+        return _evaluate
 
     @property
     def features(self) -> tuple[str, ...]:

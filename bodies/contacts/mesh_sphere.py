@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.mesh_sphere_near import MeshSphereNear
+from bodies.contacts.apart import write_apart
+from bodies.contacts.patch_near import PatchNear
 from bodies.contacts.surface_ball import write_ball
 from bodies.contacts.surface_search import FAR
-from bodies.contacts.surface_tables import BITS, Numbers, surface_numbers
+from bodies.contacts.surface_tables import Numbers, surface_numbers
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.sphere import Sphere
@@ -17,9 +18,6 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
-
-MOST_EACH = 8
-"""Patches up to which each of them is a contact of its own."""
 
 
 def _evaluate(
@@ -37,6 +35,25 @@ def _evaluate(
     size: float,
 ) -> None:
     write_ball(a, b, out, surface, patch, radius, x_b, y_b, z_b, n_star, star, size, FAR)
+
+
+def _evaluate_near(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    candidate: Floats,
+    surface: Floats,
+    radius: float,
+    x_b: float,
+    y_b: float,
+    z_b: float,
+    size: float,
+) -> None:
+    if candidate[0] == 0.0:
+        write_apart(a, out, size)
+    else:
+        reach = radius + candidate[3]
+        write_ball(a, b, out, surface, candidate[1], radius, x_b, y_b, z_b, 0.0, surface, size, reach)
 
 
 @final
@@ -83,8 +100,11 @@ class MeshSphere(ContactKinematics):
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, Sphere)
         own = first.features
-        if MOST_EACH < patches_for_ball(own, second.radius).count <= BITS:
-            return MeshSphereNear.of_ball(own, (second.x, second.y, second.z), second.radius)
+        ball = second.x, second.y, second.z, second.radius
+        values = dict(zip(("x_b", "y_b", "z_b", "radius"), ball, strict=True))
+        near = PatchNear.of_body(own, patches_for_ball(own, second.radius), ball, _evaluate_near, values)
+        if near:
+            return near
         return cls.of_balls(own, [((second.x, second.y, second.z), (), "sphere")], second.radius, own.size)
 
     @classmethod

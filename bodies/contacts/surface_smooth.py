@@ -228,6 +228,7 @@ def _nearest(
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     x, y, z = center
     size = _extent(core)
+    same = _SAME * (size + surface[SIZE])
     best, missed, found = 1e300, 1e300, 0
     distance, past, bx, by, bz = 1e300, 1e300, 0.0, 0.0, 1.0
     aim: Aim = (0.0, 0.0, 0.0, -1e300)
@@ -259,7 +260,9 @@ def _nearest(
                     continue
                 gap = g - core[RADIUS]
                 key = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
-                if key < best:
+                # where a face meets its edge their distances are the same to round-off: there it is the face
+                alike = key < best + same and beyond <= 0.0
+                if key < best - same or (alike and (past > 0.0 or member < found)):
                     best, distance, past, found, bx, by, bz = key, g, beyond, member, nx, ny, nz
                     aim = _aim(surface, core, turn, center, (nx, ny, nz))
             node += 1
@@ -273,7 +276,8 @@ def _nearest(
     return distance, past, ON_CORNER, found - int(surface[N_EDGES]), bx, by, bz
 
 
-def evaluate_surface_smooth(
+@compiled
+def write_surface_smooth(
     a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, point: Floats
 ) -> None:
     """Write the geometry block of a patch of a surface and a core; the gap is nan where none was found."""

@@ -24,7 +24,7 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from bodies.contacts import mesh_sphere
+from bodies.contacts import patch_near
 from bodies.contacts.apex_mesh import ApexMesh
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from bodies.contacts.mesh_swept import MeshSwept
@@ -323,7 +323,7 @@ def test_a_ball_over_many_triangles_has_the_gap_of_the_nearest(build: Any) -> No
 def test_a_ball_changes_from_face_to_edge_and_on_once_each(monkeypatch: pytest.MonkeyPatch) -> None:
     """Over the border both hold for a margin, with distances that are the same but for round-off: no flicker."""
     rng, seen = np.random.default_rng(5), 0
-    monkeypatch.setattr(mesh_sphere, "MOST_EACH", 1000)
+    monkeypatch.setattr(patch_near, "MOST_EACH", 1000)
     ground = TriangleMesh(Triangles(*hills(6)))
     features, radius = ground.features, 0.03
     contacts = MeshSphere.between(ground, Sphere(radius))

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import Box, BoxBody, DrivenBody, MeshBody, Sphere, TriangleMesh, Triangles
-from bodies.contacts import mesh_mesh, mesh_sphere, surface_pairs
+from bodies.contacts import mesh_mesh, patch_near, surface_pairs
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import IMPACT
 from nonsmooth.interfaces import Shape
@@ -136,7 +136,7 @@ def test_a_query_is_that_of_all_features(monkeypatch: pytest.MonkeyPatch) -> Non
     pairs = [(HILLS, Box(*HALVES)), (HILLS, Sphere(0.03))]
     near = [Contacts(*pair) for pair in pairs]
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 1_000_000)
-    monkeypatch.setattr(mesh_sphere, "MOST_EACH", 1_000)
+    monkeypatch.setattr(patch_near, "MOST_EACH", 1_000)
     every = [Contacts(*pair) for pair in pairs]
     rng, compared = np.random.default_rng(8), 0
     for _ in range(60):

@@ -1,0 +1,118 @@
+"""A round body against a surface of many patches, of which those near it are contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.apart import NO_CANDIDATE
+from bodies.contacts.frames import point_in_world, vector_in_body
+from bodies.contacts.surface_near import patches_of_leaves
+from bodies.contacts.surface_tables import BITS, surface_numbers
+from bodies.meshes.features import Features
+from bodies.meshes.patches import Patches
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+MOST_EACH = 8
+"""Patches up to which each of them is a contact of its own."""
+
+
+def _find(
+    a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, x_b: float, y_b: float, z_b: float
+) -> None:
+    """Find the patches with a feature near the ball that holds the second body."""
+    x, y, z = point_in_world(b, x_b, y_b, z_b)
+    x, y, z = vector_in_body(a, x - a[0], y - a[1], z - a[2])
+    bits = patches_of_leaves(surface, x, y, z, extent + out[0])
+    patch, n = 0, 0
+    while bits:
+        if bits & 1:
+            out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = 1.0, float(patch), 0.0
+            n += 1
+        bits >>= 1
+        patch += 1
+    out[0] = float(n)
+
+
+@final
+@dataclass(frozen=True)
+class PatchNear(ContactKinematics):
+    """The contact of a round body with one of the patches of a surface that are near it.
+
+    Attributes
+    ----------
+    search : CandidateSearch
+        What finds them.
+    function : callable
+        The evaluator, for the patch that the second number of the candidate says.
+    values : mapping
+        Its parameters but for the candidate.
+    n_features : int
+        How many features the surface has.
+    number : int
+        Which of the contacts of both bodies it is.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Shape)
+    search: CandidateSearch
+    function: Callable[..., None]
+    values: Mapping[str, Value]
+    n_features: int
+    number: int
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return none: those of spheres and smooth bodies are made by :class:`bodies.MeshSphere` and its like."""
+        return ()
+
+    @classmethod
+    def of_body(
+        cls,
+        own: Features,
+        patches: Patches,
+        ball: tuple[float, float, float, float],
+        function: Callable[..., None],
+        values: Mapping[str, Value],
+    ) -> tuple[ContactKinematics, ...]:
+        """Return as many contacts as a surface has patches, none if these are few, or too many to be told apart.
+
+        Parameters
+        ----------
+        own, patches : Features, Patches
+            The surface, and how it is divided.
+        ball : tuple of float
+            Centre, in its body frame, and radius of a ball that holds the second body [m].
+        function, values : callable, mapping
+            The evaluator, and its parameters but for candidate, surface and size.
+        """
+        if not MOST_EACH < patches.count <= BITS:
+            return ()
+        surface = surface_numbers(own, patches)
+        x, y, z, extent = ball
+        search = CandidateSearch(_find, {"surface": surface, "extent": extent, "x_b": x, "y_b": y, "z_b": z})
+        offered = {**values, "surface": surface, "size": own.size}
+        n = len(own.planes) + len(own.edges) + len(own.corners)
+        return tuple(cls(search, function, offered, n, number) for number in range(patches.count))
+
+    @property
+    def candidates(self) -> CandidateSearch:
+        """What finds the patches."""
+        return self.search
+
+    def parameters(self) -> dict[str, Value]:
+        """Return those of the evaluator, and no patch."""
+        return {**self.values, "candidate": NO_CANDIDATE}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """That of the pair."""
+        return self.function
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The features of the surface, by number."""
+        return tuple(f"feature {i}" for i in range(self.n_features))
