@@ -8,6 +8,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.apart import write_apart
 from bodies.contacts.patch_near import PatchNear
+from bodies.contacts.surface_search import FAR
 from bodies.contacts.surface_smooth import write_surface_smooth
 from bodies.contacts.surface_tables import surface_numbers
 from bodies.meshes.patches import patches_for_body
@@ -23,7 +24,7 @@ _POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, point: Floats) -> None:
-    write_surface_smooth(a, b, out, surface, patch, second, point)
+    write_surface_smooth(a, b, out, surface, patch, second, point, FAR)
 
 
 def _evaluate_near(
@@ -39,7 +40,7 @@ def _evaluate_near(
     if candidate[0] == 0.0:
         write_apart(a, out, size)
     else:
-        write_surface_smooth(a, b, out, surface, candidate[1], second, point)
+        write_surface_smooth(a, b, out, surface, candidate[1], second, point, candidate[3])
 
 
 @final

@@ -8,8 +8,8 @@ from typing import ClassVar, final
 
 from bodies.contacts.apart import NO_CANDIDATE
 from bodies.contacts.frames import point_in_world, vector_in_body
-from bodies.contacts.surface_near import patches_of_leaves
-from bodies.contacts.surface_tables import BITS, surface_numbers
+from bodies.contacts.surface_near import patches_near
+from bodies.contacts.surface_tables import surface_numbers
 from bodies.meshes.features import Features
 from bodies.meshes.patches import Patches
 from bodies.shapes.triangle_mesh import TriangleMesh
@@ -27,15 +27,7 @@ def _find(
     """Find the patches with a feature near the ball that holds the second body."""
     x, y, z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, x - a[0], y - a[1], z - a[2])
-    bits = patches_of_leaves(surface, x, y, z, extent + out[0])
-    patch, n = 0, 0
-    while bits:
-        if bits & 1:
-            out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = 1.0, float(patch), 0.0
-            n += 1
-        bits >>= 1
-        patch += 1
-    out[0] = float(n)
+    out[0] = float(patches_near(surface, x, y, z, extent + out[0], out))
 
 
 @final
@@ -78,7 +70,7 @@ class PatchNear(ContactKinematics):
         function: Callable[..., None],
         values: Mapping[str, Value],
     ) -> tuple[ContactKinematics, ...]:
-        """Return as many contacts as a surface has patches, none if these are few, or too many to be told apart.
+        """Return as many contacts as a surface has patches, none if these are few.
 
         Parameters
         ----------
@@ -89,7 +81,7 @@ class PatchNear(ContactKinematics):
         function, values : callable, mapping
             The evaluator, and its parameters but for candidate, surface and size.
         """
-        if not MOST_EACH < patches.count <= BITS:
+        if patches.count <= MOST_EACH:
             return ()
         surface = surface_numbers(own, patches)
         x, y, z, extent = ball

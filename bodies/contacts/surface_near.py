@@ -59,18 +59,35 @@ def _is_near(surface: Floats, x: float, y: float, z: float, reach: float) -> boo
 
 
 @compiled
-def patches_of_leaves(surface: Floats, x: float, y: float, z: float, reach: float) -> int:
-    """Return the patches, as bits, of the leaves no farther from a point than a reach [m]; of no more than 52."""
-    bits, node = 0, 0
+def _patch_of(surface: Floats, member: int) -> float:
+    """Return the patch of a member of the tree."""
+    n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
+    if member < n_triangles:
+        t = int(surface[TRIANGLES]) + TRIANGLE * member
+        return float(surface[int(surface[FACES]) + FACE * int(surface[t + 9]) + 4])
+    if member < n_triangles + n_edges:
+        return float(surface[int(surface[EDGES]) + EDGE * (member - n_triangles) + 13])
+    return float(surface[int(surface[CORNERS]) + CORNER * (member - n_triangles - n_edges) + 3])
+
+
+@compiled
+def patches_near(surface: Floats, x: float, y: float, z: float, reach: float, out: Floats) -> int:
+    """Write the patches with a leaf no farther from a point than a reach [m] as candidates; return their number."""
+    members, n, node = int(surface[MEMBERS]), 0, 0
     while node < int(surface[N_NODES]):
         at = int(surface[NODES]) + NODE * node
         if box_square(surface, at, x, y, z) > reach * reach:
             node = int(surface[at + 6])
             continue
-        if surface[at + 8] > 0.0:
-            bits |= int(surface[at + 9])
+        for i in range(int(surface[at + 8])):
+            patch, known = _patch_of(surface, int(surface[members + int(surface[at + 7]) + i])), 0
+            while known < n and out[2 + 3 * known] != patch:
+                known += 1
+            if known == n:
+                out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = 1.0, patch, 0.0
+                n += 1
         node += 1
-    return bits
+    return n
 
 
 @compiled

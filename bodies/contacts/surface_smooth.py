@@ -17,7 +17,6 @@ from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, ba
 from bodies.contacts.smooth_newton import widest_from, write_surface
 from bodies.contacts.surface_feature import write_feature
 from bodies.contacts.surface_search import (
-    FAR,
     ON_CORNER,
     ON_EDGE,
     ON_FACE,
@@ -218,29 +217,30 @@ def _aim(surface: Floats, core: Floats, turn: Axes, center: Point, normal: Point
 
 @compiled
 def _nearest(
-    surface: Floats, patch: float, core: Floats, point: Floats, turn: Axes, center: Point
+    surface: Floats, patch: float, core: Floats, point: Floats, turn: Axes, center: Point, reach: float
 ) -> tuple[float, float, int, int, float, float, float]:
     """Return distance of the core, way past the end, kind and number of the feature of a patch, and the normal.
 
     Of the features that may be touched it is the nearest; without one, that with the least distance and way past its
-    end together.  The distance is nan where a feature that may be nearer was not found.
+    end together; where none is nearer than a reach [m], that is the gap and the way past the end.  The distance is nan
+    where a feature that may be nearer was not found.
     """
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     x, y, z = center
     size = _extent(core)
     same = _SAME * (size + surface[SIZE])
-    best, missed, found = 1e300, 1e300, 0
-    distance, past, bx, by, bz = 1e300, 1e300, 0.0, 0.0, 1.0
+    best, missed, found = reach, 1e300, 0
+    distance, past, bx, by, bz = reach + core[RADIUS], reach, 0.0, 0.0, 1.0
     aim: Aim = (0.0, 0.0, 0.0, -1e300)
     # the feature nearest to the centre, then faces, which cost least: they rule out most of the others
-    _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z, FAR)
+    _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z, reach + size)
     if kind != ON_FACE:
         found = number + n_triangles + (int(surface[N_EDGES]) if kind == ON_CORNER else 0)
         g, beyond, nx, ny, nz, _ = _look_at(surface, patch, found, core, point, turn, center, best, aim)
-        if g == g:
-            gap = g - core[RADIUS]
-            best = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
-            distance, past, bx, by, bz = g, beyond, nx, ny, nz
+        gap = g - core[RADIUS]
+        key = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
+        if key < best:
+            best, distance, past, bx, by, bz = key, g, beyond, nx, ny, nz
             aim = _aim(surface, core, turn, center, (nx, ny, nz))
     for stage in range(2):
         node = 0
@@ -278,14 +278,17 @@ def _nearest(
 
 @compiled
 def write_surface_smooth(
-    a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, point: Floats
+    a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, point: Floats, reach: float
 ) -> None:
-    """Write the geometry block of a patch of a surface and a core; the gap is nan where none was found."""
+    """Write the geometry block of a patch of a surface and a core; the gap is nan where none was found.
+
+    Features are looked for up to a reach [m].
+    """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
     x, y, z = vector_in_body(a, bx - a[0], by - a[1], bz - a[2])
     turn = between_axes(axes_a, axes_b)
-    g, past, kind, number, nx, ny, nz = _nearest(surface, patch, second, point, turn, (x, y, z))
+    g, past, kind, number, nx, ny, nz = _nearest(surface, patch, second, point, turn, (x, y, z), reach)
     gap, depth = g - second[RADIUS], 0.0
     if past > 0.0:
         gap = math.sqrt(gap * gap + past * past)
