@@ -194,7 +194,7 @@ def _hills() -> Numbers:
     assert len(system.contact(ground, body, **_rigid())) == MOST_NEAR
     turn = np.array([0.7, 0.3, -0.2, 0.4])
     system.place(body, position=(0.1, 0.1, 0.13), orientation=turn / np.linalg.norm(turn), velocity=(0.1, 0.0, -1.0))
-    return _numbers(system, 0.012)
+    return _numbers(system, 0.03)
 
 
 def _contact_problem(seed: int, n: int, n_u: int, solver: str, sliding: bool) -> Numbers:

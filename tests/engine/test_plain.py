@@ -38,10 +38,19 @@ COMPILING = {"kernel", "modes", "native", "native_build", "native_cache", "nativ
 pytestmark = pytest.mark.skipif(PLAIN, reason="nothing is compiled")
 
 
-@pytest.fixture(scope="module")
-def plain(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], set[str]]:
+def test_compiled_and_plain_agree(tmp_path: Path) -> None:
+    """Events and words alike, numbers to 1e-12 of the largest of their kind; and the cases enter the whole engine.
+
+    One test, as the plain cases take an interpreter of their own and long.
+    """
+    plain, entered = _plain(tmp_path / "numbers")
+    for name, case in CASES.items():
+        _compare(name, plain[name], case())
+    assert _missed(entered) == {}, "add a case to tests/engine/plain_cases.py"
+
+
+def _plain(file: Path) -> tuple[dict[str, Any], set[str]]:
     """Run all cases as plain Python, in an interpreter of their own: their numbers, and what they entered."""
-    file = tmp_path_factory.mktemp("plain") / "numbers"
     root = Path(__file__).parents[2]
     environment = os.environ | {"NONSMOOTH_PLAIN": "1", "PYTHONPATH": str(root)}
     command = [sys.executable, "-m", "tests.engine.plain_cases", str(file)]
@@ -51,32 +60,28 @@ def plain(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], set
     return found
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_compiled_and_plain_agree(plain: tuple[dict[str, Any], set[str]], name: str) -> None:
-    """Events and words alike; numbers to 1e-12 of the largest of their kind."""
-    numbers = plain[0][name]
-    compiled = CASES[name]()
-    assert list(numbers) == list(compiled)
+def _compare(name: str, plain: dict[str, Any], compiled: dict[str, Any]) -> None:
+    assert list(plain) == list(compiled), name
     for key, value in compiled.items():
-        one, other = np.asarray(numbers[key]), np.asarray(value)
+        one, other = np.asarray(plain[key]), np.asarray(value)
         if one.dtype.kind != "f":
-            np.testing.assert_array_equal(one, other, err_msg=key)
+            np.testing.assert_array_equal(one, other, err_msg=f"{name}: {key}")
         else:
             size = float(np.max(np.abs(other[np.isfinite(other)]), initial=1e-300))
-            np.testing.assert_allclose(one, other, rtol=0, atol=1e-12 * max(size, 1.0), err_msg=key)
+            np.testing.assert_allclose(one, other, rtol=0, atol=1e-12 * max(size, 1.0), err_msg=f"{name}: {key}")
 
 
-def test_the_cases_enter_the_engine(plain: tuple[dict[str, Any], set[str]]) -> None:
-    """Every function of it, but for those listed: a new one needs a case."""
+def _missed(entered: set[str]) -> dict[str, set[str]]:
+    """Return the functions of the engine, by module, that no case enters, but for those listed."""
     missed: dict[str, set[str]] = {}
     for module in pkgutil.iter_modules(engine.__path__):
         if module.name not in COMPILING:
             path = Path(engine.__path__[0], f"{module.name}.py")
             names = {line[4 : line.index("(")] for line in path.read_text().splitlines() if line.startswith("def ")}
             names -= NOT_ENTERED.get(module.name, set())
-            if left := {name for name in names if f"{module.name}.{name}" not in plain[1]}:
+            if left := {name for name in names if f"{module.name}.{name}" not in entered}:
                 missed[module.name] = left
-    assert missed == {}, "add a case to tests/engine/plain_cases.py"
+    return missed
 
 
 def test_this_process_is_compiled_unless_asked() -> None:
