@@ -198,7 +198,7 @@ TETRAHEDRON = TriangleMesh(
 SHAPES: list[tuple[Shape, Shape]] = [
     *((a, b) for a, b, _ in PAIRS.values()),
     (Plane(0.1), Point(0.1, -0.05, 0.07)),
-    (Egg(0.2, 0.2, 0.1), Sphere(0.1)),
+    (Egg(0.2, 0.2, 0.1), Ellipsoid(0.1, 0.12, 0.15)),
     (Box(0.3, 0.4, 0.5), MovedShape(Egg(0.2, 0.2, 0.1), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)),
     (HalfSpace(0.1), Point(0.1, -0.05, 0.07)),
     (Box(0.3, 0.4, 0.5, rounding=0.1), Sphere(0.1)),
