@@ -18,7 +18,7 @@ from tests.benchmarks.outlines import outline_of
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="calls compiled functions by their addresses")
 
-FRAMES, ASIDE, PROVED = 48, 24, 12
+FRAMES, ASIDE, PROVED = 36, 24, 8
 POSES: dict[str, tuple[ConvexShape, ConvexShape, list[float], list[float]]] = {
     "a point farthest from the body": (
         Capsule(0.0025270732296618615, 0.01778856741208146),

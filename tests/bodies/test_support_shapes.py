@@ -330,17 +330,19 @@ class Blind(SupportShape):
 SOFT: dict[str, Any] = {"normal": HertzCompliant(1e6), "friction": Frictionless()}
 
 
-@pytest.mark.parametrize("number", [0.0, 1.0, 2.0], ids=["raises", "not a number", "two numbers"])
 @pytest.mark.parametrize(
-    ("other", "laws"),
+    ("other", "laws", "number"),
     [
-        (Plane(), {}),
-        (Plane(), SOFT),
-        (HalfSpace(), {}),
-        (Sphere(0.02), {}),
-        (Sphere(0.02), SOFT),
-        (Box(0.05, 0.05, 0.01), {}),
-        (KNOWN[0], {}),
+        (Plane(), {}, 0.0),
+        (Plane(), {}, 1.0),
+        (Plane(), {}, 2.0),
+        (Plane(), SOFT, 1.0),
+        (HalfSpace(), {}, 2.0),
+        (Sphere(0.02), {}, 0.0),
+        (Sphere(0.02), SOFT, 1.0),
+        (Box(0.05, 0.05, 0.01), {}, 2.0),
+        (KNOWN[0], {}, 0.0),
+        (KNOWN[0], {}, 1.0),
     ],
 )
 def test_what_is_wrong_along_one_direction_is_refused_at_the_start(
