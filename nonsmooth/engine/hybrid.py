@@ -260,7 +260,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if S.n_units > 0:
         S.h_listed = longest_step(S, w, k)
         if S.h_listed == 0.0:
-            return RUNNING if list_contacts(S, w, k) == 1 else NO_SLOT
+            return int(list_contacts(S, w, k))
     check_gaps(S, w, k)
     if S.failed != RUNNING:
         return int(S.failed)

@@ -12,6 +12,7 @@ import math
 
 from nonsmooth.engine.bodies import evaluate_bodies
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.modes import NO_SLOT, RUNNING
 from nonsmooth.engine.pools import fill_pools, is_empty
 from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, GEOMETRY, PAIR
 
@@ -118,14 +119,14 @@ def _widest_axis(S: Scalars, w: Floats, k: Integers) -> int:
 
 @room("i8(S, F, I)")
 def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
-    """Fill the slots for the present state; return 0 if they do not suffice."""
+    """Fill the slots for the present state; return the status."""
     _leave(S, w, k)
     S.fresh = 0
     S.listings += 1
     if S.n_units == 0:
         for declared in range(S.n_declared):
             _enter(S, w, k, declared)
-        return 1
+        return RUNNING
     evaluate_bodies(S, w, k, S.t, S.y)
     for unit in range(S.n_units):
         for i in range(3):
@@ -133,13 +134,15 @@ def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
         for i in range(9):
             w[S.unit_axes + 9 * unit + i] = w[k[S.unit_frame + unit] + 3 + i]
     S.margin_of_list = min(S.widest_margin, 2.0 * S.margin_of_list)
-    while fill_pools(S, w, k) == 0:
+    status = fill_pools(S, w, k)
+    while status == NO_SLOT and S.margin_of_list > _NARROWEST * S.widest_margin:
         S.margin_of_list *= 0.5
-        if S.margin_of_list < _NARROWEST * S.widest_margin:
-            return 0
+        status = fill_pools(S, w, k)
+    if status != RUNNING:
+        return status
     for i in range(k[S.partner_contact + S.n_partners], S.n_paired):
         if _enter(S, w, k, k[S.paired_contact + i]) == 0:
-            return 0
+            return NO_SLOT
     axis = _widest_axis(S, w, k)
     _sort_units(S, w, k, axis)
     for i in range(S.n_units):
@@ -154,8 +157,8 @@ def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
                 square += (w[S.unit_place + 3 * one + r] - w[S.unit_place + 3 * two + r]) ** 2
             near = w[S.unit_radius + one] + w[S.unit_radius + two] + S.margin_of_list
             if square <= near * near and _enter_pair(S, w, k, min(one, two), max(one, two)) == 0:
-                return 0
-    return 1
+                return NO_SLOT
+    return RUNNING
 
 
 @kernel("f8(S, F, I, i8)")

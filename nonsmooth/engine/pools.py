@@ -9,7 +9,7 @@ how far they may come from each other while the list stands.
 from __future__ import annotations
 
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, at, call_pair, kernel
-from nonsmooth.engine.modes import OPEN
+from nonsmooth.engine.modes import NO_SLOT, NOT_FINITE, OPEN, RUNNING
 from nonsmooth.model.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS
 
 _WIDTH = len(CATALOGUE)
@@ -52,7 +52,7 @@ def _keep(S: Scalars, w: Floats, k: Integers, declared: int, found: int, n: int)
 
 @kernel("i8(S, F, I)")
 def fill_pools(S: Scalars, w: Floats, k: Integers) -> int:
-    """Put the features nearer than the margin into the contacts of their pools; return 0 if these are too few."""
+    """Put the features nearer than the margin into the contacts of their pools; return the status."""
     for pool in range(S.n_pools):
         out = k[S.pool_out + pool]
         found, n = out + 1, 0
@@ -66,9 +66,11 @@ def fill_pools(S: Scalars, w: Floats, k: Integers) -> int:
                 at(w, k[S.pool_parameters + pool]),
                 at(w, out),
             )
+            if not w[out] >= 0.0:
+                return NOT_FINITE
             n = int(w[out])
             if n > contacts:
-                return 0
+                return NO_SLOT
         for declared in range(first, first + contacts):
             if is_empty(S, w, k, declared) == 0:
                 _keep(S, w, k, declared, found, n)
@@ -79,10 +81,10 @@ def fill_pools(S: Scalars, w: Floats, k: Integers) -> int:
             while declared < first + contacts and is_empty(S, w, k, declared) == 0:
                 declared += 1
             if declared == first + contacts:
-                return 0
+                return NO_SLOT
             candidate = k[S.catalogue + _WIDTH * declared + _CANDIDATE]
             for r in range(CANDIDATE):
                 w[candidate + r] = w[found + CANDIDATE * i + r]
         for declared in range(first, first + contacts):
             w[k[S.catalogue + _WIDTH * declared + _CANDIDATE] + CANDIDATE] = 2.0 * S.margin_of_list
-    return 1
+    return RUNNING

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.engine.kernel import call_room
-from nonsmooth.errors import InvalidInput
+from nonsmooth.engine.modes import NOT_FINITE, RUNNING
+from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.model.layout import GEOMETRY, N_ACCOUNTS
 from nonsmooth.model.memory import Memory
+from nonsmooth.model.pools import failed_search
 from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
@@ -48,8 +50,13 @@ class Model:
         ------
         InvalidInput
             If there is no room for so many.
+        PluginError
+            If a search for features fails.
         """
-        if call_room("list_contacts", self.memory) == 0:
+        status = call_room("list_contacts", self.memory)
+        if status == NOT_FINITE:
+            raise PluginError(failed_search(self.memory, self.system.contacts))
+        if status != RUNNING:
             raise InvalidInput(
                 "contacts of the system",
                 f"must not be so many near each other: there is room for {int(self.memory.scalars['n_slots'][0])}",

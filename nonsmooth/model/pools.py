@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch
 from nonsmooth.model.layout import CANDIDATE
 from nonsmooth.model.memory import Heap, Memory
 from nonsmooth.parameters import Table
+from nonsmooth.plugins import interpreted
+from nonsmooth.plugins.bounds import try_out
 from nonsmooth.plugins.compile import bind, parameter_place
+from nonsmooth.plugins.source import described
 from nonsmooth.system.contact import Contact
 
 
@@ -35,15 +40,34 @@ class Pool:
     sides: tuple[tuple[int, int], tuple[int, int]]
     owner: str
 
+    @property
+    def size(self) -> int:
+        """How many numbers the search may write."""
+        return 1 + CANDIDATE * (len(self.contacts) + 1)
+
 
 def find_pools(contacts: Sequence[Contact]) -> list[Pool]:
-    """Return the pools, in order."""
+    """Return the pools, in order.
+
+    Raises
+    ------
+    InvalidInput
+        If a shape is unbounded: nobody could say when its features have to be looked for again.
+    """
     found = []
     for _, group in itertools.groupby(enumerate(contacts), lambda item: id(item[1].kinematics.candidates)):
         rows = list(group)
         number, one = rows[0]
         search = one.kinematics.candidates
         if search is not None:
+            for shape, extent in zip(one.shapes, one.extents, strict=True):
+                if not math.isfinite(extent):
+                    raise InvalidInput(
+                        f"{type(shape).__name__} of the {one.name}",
+                        "must be bounded where its features are searched for (`candidates`)",
+                        extent,
+                        "Give the shape a finite `extent`, or return contacts of given features from `between`.",
+                    )
             sides = (id(one.first), one.frames[0]), (id(one.second), one.frames[1])
             name = f"{type(one.kinematics).__name__} ({one.name})"
             found.append(Pool(search, range(number, number + len(rows)), sides, name))
@@ -57,10 +81,12 @@ def lay_pools(memory: Memory, heap: Heap, pools: Sequence[Pool], units: Mapping[
         tables = {name: value for name, value in values.items() if isinstance(value, Table)}
         address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, pool.owner)
         places = {parameter_place(function, "pair", name): table for name, table in tables.items()}
+        whole = bind(function, "pair", values, pool.owner)[1] if tables else numbers
+        try_out(function, "pair", values, whole, pool.size, pool.owner)
         row = {
             "function": address,
             "parameters": heap.store_with_tables(numbers, places),
-            "out": heap.output(1 + CANDIDATE * (len(pool.contacts) + 1)),
+            "out": heap.output(pool.size),
             "first": pool.contacts.start,
             "contacts": len(pool.contacts),
             "unit_a": units[pool.sides[0]],
@@ -71,3 +97,14 @@ def lay_pools(memory: Memory, heap: Heap, pools: Sequence[Pool], units: Mapping[
         for side in pool.sides:
             unit = units[side]
             memory.array("unit_lever", unit + 1)[unit] = memory.array("unit_radius", unit + 1)[unit]
+
+
+def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
+    """Return a sentence that names the search that gave no number of features; nothing if all did."""
+    for number, pool in enumerate(find_pools(contacts)):
+        found = memory.floats[int(memory.array("pool_out", number + 1)[number])]
+        if not found >= 0.0:
+            function = pool.search.function
+            what = interpreted.noted(function) or f"raises or gives {found:g}"
+            return f"{pool.owner}: {described(function)}, {what} where it must give how many features it has found."
+    return ""

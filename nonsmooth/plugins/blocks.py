@@ -22,6 +22,7 @@ from nonsmooth.model.layout import (
 )
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.model import Model
+from nonsmooth.model.pools import find_pools
 from nonsmooth.plugins.source import described
 from nonsmooth.system.contact import Contact, Tie
 
@@ -92,8 +93,19 @@ def _blocks_of_joints_and_laws(model: Model) -> Iterator[Block]:
         yield Block(_label(contacts[i], function), function, start, size, size)
 
 
+def _blocks_of_searches(model: Model) -> Iterator[Block]:
+    for number, pool in enumerate(find_pools(model.system.contacts)):
+        function = pool.search.function
+        label = functools.partial(_words, pool.owner, function)
+        yield Block(label, function, _entry(model, "pool_out", number), pool.size, 1)
+
+
 def _label(owner: Tie | Contact, function: Callable[..., None]) -> Callable[[], str]:
-    return lambda: f"{owner.name}: {described(function)},"
+    return lambda: _words(owner.name, function)
+
+
+def _words(owner: str, function: Callable[..., None]) -> str:
+    return f"{owner}: {described(function)},"
 
 
 def _entry(model: Model, name: str, i: int) -> int:
@@ -107,7 +119,12 @@ def written_past(model: Model) -> str:
     behind = memory.array("geometry", GEOMETRY * slots).reshape(slots, GEOMETRY)[:, PAIR:]
     written = np.flatnonzero(np.any(behind != UNTOUCHED, axis=1))
     pairs = [_block_of_slot(model, int(slot)) for slot in written if slot < listed]
-    for block in (*_blocks_of_bodies(model), *pairs, *_blocks_of_joints_and_laws(model)):
+    for block in (
+        *_blocks_of_bodies(model),
+        *pairs,
+        *_blocks_of_searches(model),
+        *_blocks_of_joints_and_laws(model),
+    ):
         end = block.start + block.size
         touched = memory.floats[end : end + GUARD] != UNTOUCHED
         if np.any(touched):

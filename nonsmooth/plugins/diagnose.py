@@ -19,6 +19,7 @@ from nonsmooth.interfaces import ImpactMap
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.layout import CATALOGUE, N_ACCOUNTS
 from nonsmooth.model.model import Model
+from nonsmooth.model.pools import failed_search
 from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.blocks import blocks
 from nonsmooth.plugins.compile import parameter_names
@@ -41,7 +42,8 @@ def culprit(model: Model, status: int) -> str:
 def _culprit(model: Model, status: int) -> str:
     if status in (GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return unexplained(model, status)
-    found = (_in_the_map(model) if status == NOT_FINITE else "") or _in_the_blocks(model)
+    found = (_in_the_map(model) if status == NOT_FINITE else "") or failed_search(model.memory, model.system.contacts)
+    found = found or _in_the_blocks(model)
     if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
         return found
     found = first_without_value(_law_findings(model)) or _guard_without_value(model)

@@ -7,12 +7,14 @@ from typing import final
 
 import numpy as np
 
+from nonsmooth.errors import PluginError
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
 from nonsmooth.model.layout import CANDIDATE, FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
 from nonsmooth.plugins.call import candidate_caller, pair_caller
+from nonsmooth.plugins.source import described
 from nonsmooth.queries.result import EXACT, DistanceResult
 from nonsmooth.system.pairing import nearest_pair
 
@@ -39,6 +41,7 @@ class _Searched:
 
     def __init__(self, contacts: Sequence[ContactKinematics], search: CandidateSearch) -> None:
         one, name = contacts[0], type(contacts[0]).__name__
+        self._name, self._function = name, search.function
         self._find = pair_caller(search.function, search.values, name)
         self._call = candidate_caller(one.evaluator, one.parameters(), name)
         self._most = len(contacts)
@@ -49,6 +52,8 @@ class _Searched:
         for _ in range(_HALVINGS):
             found[0] = reach
             self._find(a, b, found)
+            if not found[0] >= 0.0:
+                raise PluginError(f"{self._name}: {described(self._function)}, gives {found[0]:g} features.")
             n = int(found[0])
             if n <= self._most:
                 break
@@ -74,6 +79,8 @@ class Contacts:
         If no kinematics is known for them.
     InvalidInput
         If the kinematics refuses them, as meshes with too many features.
+    PluginError
+        In a query, if its search for features fails.
     """
 
     def __init__(self, first: Shape, second: Shape) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.model.layout import FRAME, PAIR, PAST_END
 from nonsmooth.rotations import rotation, turned
@@ -45,7 +46,19 @@ def check_contact_kinematics(
         The shapes that it was made for.
     reach : float, optional
         Largest distance of the bodies that is tried [m]; by default what holds both shapes.
+
+    Raises
+    ------
+    InvalidInput
+        If features of the contact are searched for: then it holds none.
     """
+    if kinematics.candidates is not None:
+        raise InvalidInput(
+            type(kinematics).__name__,
+            "must be a contact of given features (`candidates` None)",
+            kinematics.candidates,
+            "Check the contacts of small shapes, whose features are given, and compare runs of both.",
+        )
     lengths = [shape.extent for shape in (first, second) if math.isfinite(shape.extent)]
     pair = _Pair(kinematics, (first, second), reach or sum(lengths) or 1.0)
     functions = Functions(lambda: [_geometry(kinematics, pair)])
