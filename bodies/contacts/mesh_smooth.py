@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.apart import write_apart
-from bodies.contacts.patch_near import PatchNear
+from bodies.contacts.mesh_smooth_near import POINT, MeshSmoothNear
+from bodies.contacts.patch_near import are_many
 from bodies.contacts.surface_search import FAR
 from bodies.contacts.surface_smooth import write_surface_smooth
 from bodies.contacts.surface_tables import surface_numbers
@@ -19,28 +19,9 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
 
-_POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
-"""The core of a point (:func:`bodies.shapes.smooth.core_numbers`)."""
-
 
 def _evaluate(a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, point: Floats) -> None:
     write_surface_smooth(a, b, out, surface, patch, second, point, FAR)
-
-
-def _evaluate_near(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    candidate: Floats,
-    surface: Floats,
-    second: Floats,
-    point: Floats,
-    size: float,
-) -> None:
-    if candidate[0] == 0.0:
-        write_apart(a, out, size)
-    else:
-        write_surface_smooth(a, b, out, surface, candidate[1], second, point, candidate[3])
 
 
 @final
@@ -73,18 +54,15 @@ class MeshSmooth(ContactKinematics):
         assert isinstance(second, SmoothShape)
         own = first.features
         patches = patches_for_body(own, 2.0 * extent(second.core))
-        core = second.core
-        ball = core[6], core[7], core[8], extent(core)
-        near = PatchNear.of_body(own, patches, ball, _evaluate_near, {"second": core, "point": _POINT})
-        if near:
-            return near
+        if are_many(patches):
+            return MeshSmoothNear.between(first, second)
         surface = surface_numbers(own, patches)
         counts = len(own.planes), len(own.edges), len(own.corners)
         return tuple(cls(surface, patch, second, counts) for patch in range(patches.count))
 
     def parameters(self) -> dict[str, Value]:
         """Return the surface, the patch and the numbers of the support function."""
-        return {"surface": self.surface, "patch": float(self.patch), "second": self.second.core, "point": _POINT}
+        return {"surface": self.surface, "patch": float(self.patch), "second": self.second.core, "point": POINT}
 
     @property
     def evaluator(self) -> Callable[..., None]:

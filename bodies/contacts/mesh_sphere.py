@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.apart import write_apart
-from bodies.contacts.patch_near import PatchNear
+from bodies.contacts.mesh_sphere_near import MeshSphereNear
+from bodies.contacts.patch_near import are_many
 from bodies.contacts.surface_ball import write_ball
 from bodies.contacts.surface_search import FAR
 from bodies.contacts.surface_tables import Numbers, surface_numbers
@@ -35,25 +35,6 @@ def _evaluate(
     size: float,
 ) -> None:
     write_ball(a, b, out, surface, patch, radius, x_b, y_b, z_b, n_star, star, size, FAR)
-
-
-def _evaluate_near(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    candidate: Floats,
-    surface: Floats,
-    radius: float,
-    x_b: float,
-    y_b: float,
-    z_b: float,
-    size: float,
-) -> None:
-    if candidate[0] == 0.0:
-        write_apart(a, out, size)
-    else:
-        reach = radius + candidate[3]
-        write_ball(a, b, out, surface, candidate[1], radius, x_b, y_b, z_b, 0.0, surface, size, reach)
 
 
 @final
@@ -100,11 +81,8 @@ class MeshSphere(ContactKinematics):
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, Sphere)
         own = first.features
-        ball = second.x, second.y, second.z, second.radius
-        values = dict(zip(("x_b", "y_b", "z_b", "radius"), ball, strict=True))
-        near = PatchNear.of_body(own, patches_for_ball(own, second.radius), ball, _evaluate_near, values)
-        if near:
-            return near
+        if are_many(patches_for_ball(own, second.radius)):
+            return MeshSphereNear.between(first, second)
         return cls.of_balls(own, [((second.x, second.y, second.z), (), "sphere")], second.radius, own.size)
 
     @classmethod

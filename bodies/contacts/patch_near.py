@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from abc import ABC
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, final
+from typing import Self
 
 from bodies.contacts.apart import NO_CANDIDATE
 from bodies.contacts.frames import point_in_world, vector_in_body
@@ -12,8 +13,7 @@ from bodies.contacts.surface_near import patches_near
 from bodies.contacts.surface_tables import surface_numbers
 from bodies.meshes.features import Features
 from bodies.meshes.patches import Patches
-from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
@@ -30,47 +30,43 @@ def _find(
     out[0] = float(patches_near(surface, x, y, z, extent + out[0], out))
 
 
-@final
+def are_many(patches: Patches) -> bool:
+    """Return whether so many patches are searched for, rather than each a contact."""
+    return patches.count > MOST_EACH
+
+
 @dataclass(frozen=True)
-class PatchNear(ContactKinematics):
+class PatchNear(ContactKinematics, ABC):
     """The contact of a round body with one of the patches of a surface that are near it.
+
+    The evaluator takes the patch from the second number of the candidate.
 
     Attributes
     ----------
     search : CandidateSearch
         What finds them.
-    function : callable
-        The evaluator, for the patch that the second number of the candidate says.
     values : mapping
-        Its parameters but for the candidate.
+        The parameters of the evaluator but for the candidate.
     n_features : int
         How many features the surface has.
     number : int
         Which of the contacts of both bodies it is.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Shape)
     search: CandidateSearch
-    function: Callable[..., None]
     values: Mapping[str, Value]
     n_features: int
     number: int
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return none: those of spheres and smooth bodies are made by :class:`bodies.MeshSphere` and its like."""
-        return ()
-
-    @classmethod
-    def of_body(
+    def _of_patches(
         cls,
         own: Features,
         patches: Patches,
         ball: tuple[float, float, float, float],
-        function: Callable[..., None],
         values: Mapping[str, Value],
-    ) -> tuple[ContactKinematics, ...]:
-        """Return as many contacts as a surface has patches, none if these are few.
+    ) -> tuple[Self, ...]:
+        """Return as many contacts as a surface has patches.
 
         Parameters
         ----------
@@ -78,17 +74,15 @@ class PatchNear(ContactKinematics):
             The surface, and how it is divided.
         ball : tuple of float
             Centre, in its body frame, and radius of a ball that holds the second body [m].
-        function, values : callable, mapping
-            The evaluator, and its parameters but for candidate, surface and size.
+        values : mapping
+            The parameters of the evaluator but for candidate, surface and size.
         """
-        if patches.count <= MOST_EACH:
-            return ()
         surface = surface_numbers(own, patches)
         x, y, z, extent = ball
         search = CandidateSearch(_find, {"surface": surface, "extent": extent, "x_b": x, "y_b": y, "z_b": z})
         offered = {**values, "surface": surface, "size": own.size}
         n = len(own.planes) + len(own.edges) + len(own.corners)
-        return tuple(cls(search, function, offered, n, number) for number in range(patches.count))
+        return tuple(cls(search, offered, n, number) for number in range(patches.count))
 
     @property
     def candidates(self) -> CandidateSearch:
@@ -98,11 +92,6 @@ class PatchNear(ContactKinematics):
     def parameters(self) -> dict[str, Value]:
         """Return those of the evaluator, and no patch."""
         return {**self.values, "candidate": NO_CANDIDATE}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """That of the pair."""
-        return self.function
 
     @property
     def features(self) -> tuple[str, ...]:
