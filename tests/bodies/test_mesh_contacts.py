@@ -17,6 +17,7 @@ from bodies import (
     Cone,
     ConvexHull,
     Ellipsoid,
+    MeshSmooth,
     MeshSphere,
     Point,
     Sphere,
@@ -320,17 +321,18 @@ def test_a_ball_over_many_triangles_has_the_gap_of_the_nearest(build: Any) -> No
 
 
 @pytest.mark.skipif(PLAIN, reason="thousands of searches")
-def test_a_ball_changes_from_face_to_edge_and_on_once_each(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("body", [Sphere(0.03), Ellipsoid(0.03, 0.025, 0.02)], ids=["ball", "ellipsoid"])
+def test_a_body_changes_from_face_to_edge_and_on_once_each(body: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Over the border both hold for a margin, with distances that are the same but for round-off: no flicker."""
     rng, seen = np.random.default_rng(5), 0
     monkeypatch.setattr(patch_near, "MOST_EACH", 1000)
     ground = TriangleMesh(Triangles(*hills(6)))
-    features, radius = ground.features, 0.03
-    contacts = MeshSphere.between(ground, Sphere(radius))
-    calls = [pair_caller(one.evaluator, one.parameters(), "MeshSphere") for one in contacts]
+    features = ground.features
+    contacts = (MeshSphere if isinstance(body, Sphere) else MeshSmooth).between(ground, body)
+    calls = [pair_caller(one.evaluator, one.parameters(), "contact") for one in contacts]
     a, b, out = np.zeros(FRAME), np.zeros(FRAME), np.zeros(GEOMETRY)
-    a[3:12] = b[3:12] = np.eye(3).ravel()
-    for number in rng.permutation(len(features.edges))[:40]:
+    a[3:12] = np.eye(3).ravel()
+    for number in rng.permutation(len(features.edges)):
         one, two, left, right = features.edges[number]
         middle = 0.5 * (features.vertices[one] + features.vertices[two])
         normals = features.planes[[left, right], :3]
@@ -339,10 +341,12 @@ def test_a_ball_changes_from_face_to_edge_and_on_once_each(monkeypatch: pytest.M
         # from above the face to above the edge, and a little about the border between them, with the edge's point kept
         along = np.cross(normals[0], features.vertices[two] - features.vertices[one])
         along /= np.linalg.norm(along)
+        turn = Rotation.random(random_state=rng).as_matrix()
+        b[3:12], lowest = turn.ravel(), turn @ body.solid.support(-turn.T @ normals[0])
         for call in calls:
             last, changes, closed = -1.0, 0, False
             for way in np.linspace(-2e-8, 2e-8, 400) + 1e-12 * rng.normal(size=400):
-                b[:3] = middle + radius * normals[0] + way * along
+                b[:3] = middle - lowest + way * along
                 out[:] = 0.0
                 call(a, b, out)
                 changes += out[29] != last and last >= 0.0
