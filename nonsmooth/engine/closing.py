@@ -6,10 +6,11 @@ from nonsmooth.engine.compliance import begin_contact
 from nonsmooth.engine.islands import activate_group, group_members
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.kinematics import row
-from nonsmooth.engine.modes import CLOSING, OPEN, SLIDE, STICK
+from nonsmooth.engine.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
 from nonsmooth.engine.projection import project_rates
 from nonsmooth.engine.record import record_event, remember
 from nonsmooth.engine.touching import slip_speed, touch
+from nonsmooth.engine.twins import closed_twin, take_over
 
 
 @kernel("i8(S, F, I)")
@@ -26,7 +27,7 @@ def _choose(S: Scalars, w: Floats, k: Integers) -> int:
         if approach > 0.0:
             # the next step shall not fly over the touch-down that is due after 2 rate / approach
             S.h_first = min(S.h_first, 3.0 * rate / approach)
-        if approach > 0.0 and rate <= approach * w[S.contact_time + c]:
+        if approach > 0.0 and rate <= approach * w[S.contact_time + c] and closed_twin(S, w, k, c) < 0:
             closing += 1
             k[S.closes + c] = 1
     return closing
@@ -42,21 +43,28 @@ def _join(S: Scalars, w: Floats, k: Integers) -> int:
         if rigid and k[S.touching + c] == 1 and k[S.member + c] == 0 and w[S.rate + 3 * c] < -S.velocity_tolerance:
             joining += 1
             k[S.member + c] = 1
-            begin_contact(S, w, k, c)
-            k[S.mode + c] = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
+            if take_over(S, w, k, c) == 0:
+                begin_contact(S, w, k, c)
+                k[S.mode + c] = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
     return joining
+
+
+@kernel("void(S, F, I)")
+def _begin_modes(S: Scalars, w: Floats, k: Integers) -> None:
+    """Give the marked contacts modes, by their slips."""
+    for c in range(S.n_contacts):
+        if k[S.closes + c] == 1:
+            k[S.mode + c] = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
 
 
 @kernel("f8(S, F, I)")
 def _shut(S: Scalars, w: Floats, k: Integers) -> float:
-    """Bring the marked contacts to rest together with those that rest; return the energy that it takes [J].
+    """Bring the touching contacts that are closed to rest; return the energy that it takes [J].
 
     Others are left alone, unless they are drawn in.
     """
     loss = 0.0
     for c in range(S.n_contacts):
-        if k[S.closes + c] == 1:
-            k[S.mode + c] = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
         k[S.member + c] = 1 if k[S.touching + c] == 1 and k[S.mode + c] != OPEN else 0
     for _round in range(S.n_contacts):
         group_members(S, w, k)
@@ -77,6 +85,7 @@ def _left_over(S: Scalars, w: Floats, k: Integers) -> int:
     for i in range(S.n_u):
         w[S.y_stage + S.n_q + i] = w[S.y + S.n_q + i]
     work = S.driven_work
+    _begin_modes(S, w, k)
     _shut(S, w, k)
     contact, worst = -1, S.velocity_tolerance
     for c in range(S.n_contacts):
@@ -107,6 +116,14 @@ def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
     if closing == 0:
         return 0
     remember(S, w, k)
+    _begin_modes(S, w, k)
+    _close(S, w, k, CLOSING)
+    return closing
+
+
+@kernel("void(S, F, I, i8)")
+def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
+    """Shut the marked contacts, book what it takes, and record it."""
     before = S.driven_work
     w[S.event_head + 4] = _shut(S, w, k)
     w[S.event_head + 1] = S.driven_work - before
@@ -115,5 +132,22 @@ def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         if k[S.closes + c] == 1:
             contact = c
-    record_event(S, w, k, CLOSING, contact, 0)
-    return closing
+    record_event(S, w, k, cause, contact, 0)
+
+
+@kernel("i8(S, F, I)")
+def hand_over(S: Scalars, w: Floats, k: Integers) -> int:
+    """Let contacts that approach take the place of closed ones where they are; return 1, or 0 where others collide."""
+    for c in range(S.n_contacts):
+        rigid = k[S.normal_function + c] == 0
+        approaches = rigid and k[S.touching + c] == 1 and w[S.rate + 3 * c] < -S.velocity_tolerance
+        k[S.closes + c] = 1 if approaches else 0
+        if approaches and closed_twin(S, w, k, c) < 0:
+            return 0
+    remember(S, w, k)
+    for c in range(S.n_contacts):
+        if k[S.closes + c] == 1 and take_over(S, w, k, c) == 0:
+            # another one that approaches more has taken its twin's place
+            k[S.closes + c] = 0
+    _close(S, w, k, FEATURE_CHANGE)
+    return 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.anisotropy import turn_facing, unstretch_force
-from nonsmooth.engine.closing import close_contacts
+from nonsmooth.engine.closing import close_contacts, hand_over
 from nonsmooth.engine.compliance import (
     begin_contact,
     push_given,
@@ -292,6 +292,9 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     for _attempt in range(_ATTEMPTS):
         if interrupted(S, S.n_contacts) == 1:
             return SETTLE_ENDLESS
+        if approaching == 1 and hand_over(S, w, k) == 1:
+            approaching = touch(S, w, k)
+            continue
         if approaching == 1:
             status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k))
             if status != RUNNING:

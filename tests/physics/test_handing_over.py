@@ -5,11 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import ConeBody, Rod
-from laws import PoissonImpact, Unilateral, Viscous
+from bodies import ConeBody, DrivenBody, EllipsoidBody, Rod, TriangleMesh, Triangles
+from laws import Coulomb, EnergeticImpact, PoissonImpact, Unilateral, Viscous
+from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.modes import IMPACT
+from tests.bodies.meshes.parts import hills
 
 
 def _spin(bodies: tuple[Any, ...], q: Any, u: Any) -> Any:
@@ -40,3 +44,31 @@ def test_a_rod_that_slides_over_the_middle_of_a_flank_keeps_the_spin() -> None:
     size = cone.total_mass * 0.36 * 0.02
     assert "end of a feature" in solution.events.causes()
     assert float(np.max(np.abs(spins - spins[0]))) < 1e-9 * size
+
+
+@pytest.mark.skipif(PLAIN, reason="thousands of searches")
+@pytest.mark.parametrize(("seed", "end"), [(4, 0.75), (70, 0.6)])
+def test_a_body_that_rolls_from_an_edge_onto_a_face_does_not_collide_there(seed: int, end: float) -> None:
+    """Both hold for a moment and their rates differ by 1e-8 m/s: closing one and colliding on the other went on."""
+    rng = np.random.default_rng(seed)
+    ground, body = (
+        DrivenBody(carried=(TriangleMesh(Triangles(*hills(10))),)),
+        EllipsoidBody(0.03, 0.025, 0.04, mass=0.1),
+    )
+    system = ns.System([ground, body])
+    system.contact(ground, body, normal=Unilateral(), friction=Coulomb(0.5), impact=EnergeticImpact(0.2))
+    turn = rng.normal(size=4)
+    system.place(
+        body,
+        position=(*rng.uniform(-0.4, 0.4, 2), 0.12),
+        orientation=turn / np.linalg.norm(turn),
+        velocity=0.5 * rng.normal(size=3),
+        angular_velocity=5.0 * rng.normal(size=3),
+    )
+    solution = ns.simulate(system, end)
+    events = solution.events
+    slow = np.max(np.abs(events.u_after - events.u_before), axis=1) < 1e-4
+    assert solution.status == "done"
+    assert np.sum(events.cause == IMPACT) > 5
+    assert np.sum(slow & (events.cause == IMPACT)) <= 1
+    assert solution.energy.residual < 1e-8
