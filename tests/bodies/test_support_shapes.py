@@ -41,6 +41,7 @@ from bodies.shapes.support_integrals import spiral
 from laws import EnergeticImpact, Frictionless, HertzCompliant, Unilateral
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import IMPACT
+from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.rotations import rotation
@@ -178,11 +179,14 @@ def test_bouncing_keeps_the_energy(name: str, other: str) -> None:
     assert solution.energy.residual <= 1e-9
 
 
-def test_the_run_of_an_ellipsoid_that_is_not_known(build: Any) -> None:
+@pytest.mark.parametrize("ground", [Plane(), Box(0.05, 0.05, 0.02, z=-0.02)], ids=["plate", "box"])
+def test_the_run_of_an_ellipsoid_that_is_not_known(build: Any, ground: Shape) -> None:
     """Impacts, slip and stick at the times of the known one."""
     events = []
     for body in (SupportBody(KNOWN[0]), EllipsoidBody(8e-3, 14e-3, 11e-3)):
-        system = build.over(body, restitution=0.6, friction=0.3)
+        carrier = DrivenBody(carried=(ground,))
+        system = ns.System([carrier, body])
+        system.contact(carrier, body, **build.laws(0.6, 0.3))
         system.place(
             body, position=(0.0, 0.0, 0.03), orientation=(0.5, 0.5, 0.5, 0.5), angular_velocity=(3.0, 2.0, 1.0)
         )
