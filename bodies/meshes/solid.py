@@ -5,17 +5,17 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
 from bodies.meshes.integrals import areas_of, winding_number
-from bodies.meshes.topology import Integers
+from bodies.meshes.topology import Integers, shells
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.solid import Piece, Solid
 
 _LOOKED_AT = 32
-"""Triangles under which points inside are sought, the largest first."""
+"""Triangles under which points inside are sought: the largest of every shell, so many of all, but one of each."""
 
 
 @final
@@ -53,12 +53,21 @@ class MeshSolid(Solid):
         return np.min(self._corners, axis=1), np.max(self._corners, axis=1)
 
     @functools.cached_property
+    def _tree(self) -> tuple[Any, float]:
+        """Return the middles of the boxes in a tree, and half the widest box with what rounding may take of it [m]."""
+        from scipy.spatial import cKDTree
+
+        low, high = self._boxes
+        size = float(np.max(np.abs(self.vertices)))
+        return cKDTree(0.5 * (low + high)), 0.5 * float(np.max(high - low)) + 1e-12 * size
+
+    @functools.cached_property
     def _normals(self) -> Vector:
         a, b, c = self._corners[:, 0], self._corners[:, 1], self._corners[:, 2]
         across = np.cross(b - a, c - a)
         return np.asarray(across / np.linalg.norm(across, axis=1)[:, None])
 
-    @property
+    @functools.cached_property
     def bounds(self) -> tuple[Vector, Vector]:
         """Those of its corners [m]."""
         return np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)
@@ -69,8 +78,12 @@ class MeshSolid(Solid):
 
     def pieces(self, low: Vector, high: Vector) -> Sequence[Piece]:
         """Return the triangles whose boxes meet the box."""
-        meets = np.all((self._boxes[0] <= high) & (self._boxes[1] >= low), axis=1)
-        return [self._triangle(int(i)) for i in np.flatnonzero(meets)]
+        tree, widest = self._tree
+        low, high = np.maximum(low, self.bounds[0]), np.minimum(high, self.bounds[1])
+        around = tree.query_ball_point(0.5 * (low + high), 0.5 * np.max(high - low) + widest, p=np.inf)
+        near = np.sort(np.array(around, dtype=np.int64))
+        meets = np.all((self._boxes[0][near] <= high) & (self._boxes[1][near] >= low), axis=1)
+        return [self._triangle(int(i)) for i in near[meets]]
 
     def _triangle(self, number: int) -> Piece:
         corners = self._corners[number]
@@ -82,9 +95,12 @@ class MeshSolid(Solid):
 
     @functools.cached_property
     def inner(self) -> Vector:
-        """For the largest triangles the point half-way from its middle inwards to the next one [m]."""
-        largest = np.argsort(-areas_of(self.vertices, self.faces), kind="stable")[:_LOOKED_AT]
-        return np.array([self._under(int(i)) for i in largest])
+        """For the largest triangles of every shell the point half-way from its middle inwards to the next one [m]."""
+        shell = shells(self.faces)
+        order = np.lexsort((-areas_of(self.vertices, self.faces), shell))
+        _, first, which = np.unique(shell[order], return_index=True, return_inverse=True)
+        largest = np.arange(len(order)) - first[which] < max(1, _LOOKED_AT // len(first))
+        return np.array([self._under(int(i)) for i in order[largest]])
 
     def _under(self, number: int) -> Vector:
         """Return the point half-way along the ray inwards (T. Moeller, B. Trumbore, J. Graphics Tools 2 (1997) 21)."""

@@ -6,6 +6,7 @@ sets come as near as that at least, so that the first meeting is approached from
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 from typing import final
@@ -79,7 +80,7 @@ class Passage:
         """Where the first has all of the second ahead of it [m]."""
         return -2.0 * (self._size + self.height)
 
-    @property
+    @functools.cached_property
     def _near(self) -> list[tuple[Piece, Piece]]:
         """The pieces that are nearer than they may be."""
         pairs, least, still = near_pairs(self.one, self.two, self.height), self.tolerance, np.zeros(3)

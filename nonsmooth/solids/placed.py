@@ -91,13 +91,20 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
 
 
 def nested(one: Placed, two: Placed, tolerance: float) -> float:
-    """Return how deep at least a hollow solid holds points of the other one [m]; 0 if a tolerance covers it."""
-    deepest = 0.0
-    for outer, inner in ((one, two), (two, one)):
+    """Return how deep at least a hollow solid holds points of the other one [m]; 0 if a tolerance covers it.
+
+    No pieces of them may overlap by more than the tolerance.
+    """
+    if not (one.solid.hollow or two.solid.hollow):
+        return 0.0
+    deepest, pairs = 0.0, list(near_pairs(one, two, tolerance))
+    for outer, inner, near in ((one, two, [b for _, b in pairs]), (two, one, [a for a, _ in pairs])):
         if outer.solid.hollow:
-            # of boundaries that lie in one another without a crossing, points on one are inside of the other
-            places = [*inner.inner, *(piece.place for piece in inner.pieces(*outer.bounds))]
-            for place in places:
+            # what does not cross is inside as a whole, or outside; boundaries that lie in one another for a part and
+            # then go inside have pieces there that are next to one another
+            places = np.unique(np.array([*inner.inner, *(piece.place for piece in near)]), axis=0)
+            low, high = outer.bounds
+            for place in places[np.all((places > low) & (places < high), axis=1)]:
                 margin = max(deepest, tolerance)
                 while outer.holds(place, margin):
                     deepest, margin = margin, 2.0 * margin
