@@ -81,9 +81,10 @@ def _patches(features: Features, most: float, reach: Reach) -> Patches:
     search = _search(features, most, reach)
     memory, seconds = _cost(features, search)
     if memory >= _MUCH or seconds >= _LONG:
+        whose = f"bodies of {most:.3g} m" if most > 0.0 else "corners of bodies"
         say(
-            f"making contacts with a mesh of {len(features.triangles)} triangles (some {1e-6 * memory:.0f} MB of "
-            f"memory, the mesh included, and {seconds:.0f} s, longer where the machine is busy) ..."
+            f"making contacts of {whose} with a mesh of {len(features.triangles)} triangles (some "
+            f"{1e-6 * memory:.0f} MB of memory, the mesh included, and {seconds:.0f} s, longer where the machine is busy) ..."
         )
     excludes = _conflicts(n_faces, search)
     if not any(excludes):

@@ -123,11 +123,13 @@ def test_much_memory_and_time_are_told_beforehand(capfd: pytest.CaptureFixture[s
     patches_for_ball(fewer, 0.02)
     assert capfd.readouterr().err == ""
     patches_for_body(fewer, 0.12)
-    assert re.fullmatch(r"making contacts with a mesh of 12540 triangles .*\n", capfd.readouterr().err)
+    assert re.fullmatch(
+        r"making contacts of bodies of 0.12 m with a mesh of 12540 triangles .*\n", capfd.readouterr().err
+    )
     for _ in range(2):
         patches_for_ball(more, 0.02)
     told = re.fullmatch(
-        r"making contacts with a mesh of 23100 triangles \(some (\d+) MB of memory, .* (\d) s, .*\n",
+        r"making contacts of bodies of 0.04 m with a mesh of 23100 triangles \(some (\d+) MB of memory, .* (\d) s, .*\n",
         capfd.readouterr().err,
     )
     assert told is not None
