@@ -129,7 +129,7 @@ def test_much_memory_and_time_are_told_beforehand(capfd: pytest.CaptureFixture[s
     for _ in range(2):
         patches_for_ball(more, 0.02)
     told = re.fullmatch(
-        r"making contacts of bodies of 0.04 m with a mesh of 23100 triangles \(some (\d+) MB of memory, .* (\d) s, .*\n",
+        r"making contacts of bodies of 0.04 m with a mesh of 23100 triangles \(some (\d+) MB .*, and (\d) s, .*\n",
         capfd.readouterr().err,
     )
     assert told is not None
