@@ -84,8 +84,8 @@ def _patches(features: Features, most: float, reach: Reach) -> Patches:
         whose = f"bodies of {most:.3g} m" if most > 0.0 else "corners of bodies"
         say(
             f"making contacts of {whose} with a mesh of {len(features.triangles)} triangles (some "
-            f"{1e-6 * memory:.0f} MB of memory, the mesh included, and {seconds:.0f} s, longer where the machine is busy) "
-            "..."
+            f"{1e-6 * memory:.0f} MB of memory, the mesh included, and {seconds:.0f} s, longer where the machine is "
+            "busy) ..."
         )
     excludes = _conflicts(n_faces, search)
     if not any(excludes):
