@@ -121,7 +121,8 @@ class FrustumMesh(ContactKinematics):
         if radius > 0.0:
             patches = patches_for_body(second, 2.0 * (radius + numbers[SWEEP]))
             surface = surface_numbers(second, patches)
-            for patch in range(patches.count):
+            # others have edges or corners only
+            for patch in sorted(set(patches.of_faces)):
                 yield cls(numbers, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
 
     def parameters(self) -> dict[str, Value]:
