@@ -11,6 +11,9 @@ from nonsmooth.engine.projection import project_rates
 from nonsmooth.engine.record import record_event, remember
 from nonsmooth.engine.touching import slip_speed, touch
 
+_SAME = 1e-2
+"""Contacts that go on separating by this part of the velocity tolerance have not been brought to rest with others."""
+
 
 @kernel("i8(S, F, I)")
 def _choose(S: Scalars, w: Floats, k: Integers) -> int:
@@ -78,7 +81,7 @@ def _left_over(S: Scalars, w: Floats, k: Integers) -> int:
         w[S.y_stage + S.n_q + i] = w[S.y + S.n_q + i]
     work = S.driven_work
     _shut(S, w, k)
-    contact, worst = -1, S.velocity_tolerance
+    contact, worst = -1, _SAME * S.velocity_tolerance
     for c in range(S.n_contacts):
         if k[S.closes + c] == 1 and w[S.rate + 3 * c] > worst:
             contact, worst = c, w[S.rate + 3 * c]
