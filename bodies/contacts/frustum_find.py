@@ -13,7 +13,7 @@ from bodies.contacts.frustum_near import (
     frustum_in_surface,
     rim_is_near,
 )
-from bodies.contacts.surface_near import patches_near, patches_under
+from bodies.contacts.surface_near import patches_near, patches_under, room_ahead
 from bodies.contacts.surface_tables import (
     EDGE,
     EDGES,
@@ -112,13 +112,15 @@ def find_near_frustum(
     size: float,
     most: float,
     turning: float,
+    narrow: float,
 ) -> None:
-    """Find rims, points and apex over faces, corners, and edges across side and rims; ``turning`` as of two surfaces.
+    """Find rims, points and apex over faces, corners, and edges across side and rims.
 
     A rim has a face for candidate, not a patch: patches of surfaces with triangles that are small beside the rim would
-    be so many as the faces next to it.
+    be so many as the faces next to it.  ``turning`` is as of two surfaces, ``narrow`` of
+    :func:`bodies.contacts.surface_near.room_ahead`.
     """
-    reach, limit, n, node = out[0], int(most), 0, 0
+    reach, limit, n, node = out[0], room_ahead(out[0], narrow, int(most)), 0, 0
     turn, sweep = turning * reach, frustum[SWEEP]
     pose = frustum_in_surface(a, b, frustum)
     while node < int(surface[N_NODES]) and n <= limit:
@@ -144,4 +146,4 @@ def find_near_frustum(
         cx, cy, cz, ax, ay, az = pose
         x, y, z = cx + frustum[HIGH] * ax, cy + frustum[HIGH] * ay, cz + frustum[HIGH] * az
         n = patches_near(surface, x, y, z, sweep + reach, APEX, 0.0, out, n, limit)
-    out[0] = float(n)
+    out[0] = float(n) if n <= limit else most + 1.0

@@ -24,6 +24,7 @@ from bodies.contacts.frustum_find import (
 from bodies.contacts.frustum_swept import write_vertex_ball
 from bodies.contacts.mesh_point import Corner, write_over_second
 from bodies.contacts.rim_mesh import write_half_rim
+from bodies.contacts.surface_near import NARROW
 from bodies.contacts.surface_pairs import MOST_NEAR
 from bodies.contacts.surface_rim import rim_in_surface, rim_over, write_rim
 from bodies.contacts.surface_tables import (
@@ -156,6 +157,7 @@ class FrustumPairs(ContactKinematics):
             "size": size,
             "most": float(MOST_NEAR),
             "turning": 0.5 / extents[0] + 0.5 / extents[1],
+            "narrow": NARROW * min(extents),
         }
         search = CandidateSearch(find_near_frustum, values)
         rims = tuple(x for radius, center in first.standing_rims for x in (radius, *center))

@@ -30,6 +30,16 @@ from nonsmooth.types import Floats
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
 """A corner of the second body over a patch of the first, the other way round, and two edges: the first of the three
 numbers of a candidate.  Patch and corner, or the edges of the first and the second body, follow."""
+FEW = 64
+"""Candidates that are enough to look ahead for: all of them are evaluated at every step, so that less far is faster."""
+NARROW = 1e-2
+"""Part of the smaller extent from which it is not narrow any more to look ahead."""
+
+
+@compiled
+def room_ahead(reach: float, narrow: float, most: int) -> int:
+    """Return how many candidates are listed up to a reach: all that have room where it is narrow [m]."""
+    return most if reach <= narrow else min(most, FEW)
 
 
 @compiled

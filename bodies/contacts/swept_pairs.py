@@ -13,7 +13,7 @@ from bodies.contacts.polytope_tables import EDGE as CORE_EDGE
 from bodies.contacts.polytope_tables import edge_rows, end_table, face_table, star_of
 from bodies.contacts.surface_ball import write_ball
 from bodies.contacts.surface_edges import write_edges
-from bodies.contacts.surface_near import patches_near, seen_from
+from bodies.contacts.surface_near import NARROW, patches_near, room_ahead, seen_from
 from bodies.contacts.surface_pairs import MOST_NEAR
 from bodies.contacts.surface_tables import CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
 from bodies.contacts.swept_near import corners_over
@@ -50,9 +50,13 @@ def _find(
     sweep: float,
     most: float,
     turning: float,
+    narrow: float,
 ) -> None:
-    """Find patches under vertices, corners, and edges across edges; ``turning`` as of two surfaces."""
-    reach, limit, n = out[0], int(most), 0
+    """Find patches under vertices, corners, and edges across edges.
+
+    ``turning`` is as of two surfaces, ``narrow`` of :func:`bodies.contacts.surface_near.room_ahead`.
+    """
+    reach, limit, n = out[0], room_ahead(out[0], narrow, int(most)), 0
     turn = turning * reach
     for i in range(int(n_vertices)):
         v = _ROW * i
@@ -61,7 +65,7 @@ def _find(
     n = corners_over(a, b, surface, n_faces, faces, n_edges, edges, ends, sweep, reach, turn, UNDER, out, n, limit)
     for j in range(int(n_edges)):
         n = edges_across(a, b, surface, edges, CORE_EDGE * j, float(j), sweep + reach, turn, ACROSS, out, n, limit)
-    out[0] = float(n)
+    out[0] = float(n) if n <= limit else most + 1.0
 
 
 def _evaluate(
@@ -160,6 +164,7 @@ class SweptPairs(ContactKinematics):
             "sweep": sweep,
             "most": float(MOST_NEAR),
             "turning": 0.5 / extents[0] + 0.5 / extents[1],
+            "narrow": NARROW * min(extents),
         }
         counts = [len(own.planes) + len(own.edges) + len(own.corners)]
         counts.append(len(core.planes) + len(core.edges) + len(core.vertices))
