@@ -74,13 +74,13 @@ def main() -> None:
         if not isinstance(failure.solution, ns.Solution):
             raise
         solution = failure.solution
-    run = time.perf_counter() - made
+    run, memory = time.perf_counter() - made, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     print("| triangles | contacts | made | run | steps | impacts | end | residual | memory |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     print(
         f"| {4 * given.edges**2 + 8 * given.edges} | {len(system.contacts)} | {made - start:.0f} s | {run:.0f} s "
         f"| {solution.counters.steps} | {int((solution.events.cause == IMPACT).sum())} "
-        f"| {solution.t_end:.3f} s: {solution.message} | {solution.energy.residual:.0e} | {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6:.2f} GB |"
+        f"| {solution.t_end:.3f} s: {solution.message} | {solution.energy.residual:.0e} | {memory:.2f} GB |"
     )
 
 

@@ -47,7 +47,7 @@ PAIRS: dict[str, tuple[Shape, Shape, float]] = {
     "box and hills": (HILLS, Box(*HALVES), 0.16),
     "mesh and hills": (HILLS, WIDE, 0.16),
     "rings": (TORUS, TORUS, 0.01),
-    "rounded box and hills": (HILLS, Box(*HALVES, rounding=0.05), 0.16),
+    "rounded box and hills": (HILLS, Box(0.45, 0.35, 0.25, rounding=0.05), 0.16),
     "capsule and hills": (HILLS, Capsule(0.1, 0.4), 0.16),
     "cylinder and hills": (HILLS, Cylinder(0.2, 0.3), 0.16),
     "feet and hills": (HILLS, Cylinder(0.3, 0.1, foot_height=0.01), 0.08),
