@@ -29,9 +29,15 @@ from bodies import (
     Triangles,
 )
 from bodies.contacts import mesh_mesh, patch_near, surface_pairs
+from bodies.contacts.frustum_mesh import FrustumMesh
+from bodies.contacts.mesh_mesh import MeshMesh
+from bodies.contacts.mesh_swept import MeshSwept
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.engine.modes import FEATURE_CHANGE, FEATURE_END, IMPACT
 from nonsmooth.interfaces import Body, ConvexShape, Shape
+from nonsmooth.model.layout import CANDIDATE, FRAME, GEOMETRY
+from nonsmooth.plugins.call import candidate_caller, pair_caller
+from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.queries.exact import Contacts
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, channel, hills, torus
@@ -163,6 +169,38 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeyp
     np.testing.assert_allclose(times[0], times[1], rtol=0, atol=1e-8)
     np.testing.assert_allclose(one.q[-1], two.q[-1], rtol=0, atol=1e-7)
     assert one.energy.residual < 1e-8
+
+
+@pytest.mark.parametrize("name", [name for name in PAIRS if "hills" in name])
+def test_python_finds_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Searches and evaluators, called as they stand and compiled."""
+    first, second, ahead = PAIRS[name]
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
+    kind, shapes = (FrustumMesh, (second, first)) if isinstance(second, Frustum) else (MeshSwept, (first, second))
+    one = (MeshMesh if isinstance(second, TriangleMesh) else kind).between(*shapes)[0]
+    search, values, rng = one.candidates, one.parameters(), np.random.default_rng(4)
+    assert search is not None
+    find, call = pair_caller(search.function, search.values, name), candidate_caller(one.evaluator, values, name)
+    own = {key: values[key] for key in parameter_names(one.evaluator, "pair")}
+    frames, compared = np.zeros((2, FRAME)), 0
+    for _ in range(3):
+        turn = rng.normal(size=3)
+        for frame, shape in zip(frames, shapes, strict=True):
+            frame[:3] = 0.0 if shape is first else _near(name, turn, rng)
+            frame[3:12] = np.eye(3).ravel() if shape is first else Rotation.from_rotvec(turn).as_matrix().ravel()
+        founds = np.zeros((2, 1 + CANDIDATE * (surface_pairs.MOST_NEAR + 1)))
+        founds[:, 0] = 0.5 * ahead
+        find(*frames, founds[0])
+        search.function(*frames, founds[1], **search.values)
+        np.testing.assert_array_equal(founds[0], founds[1])
+        n = min(int(founds[0, 0]), surface_pairs.MOST_NEAR)
+        for row in founds[0, 1 : 1 + CANDIDATE * n].reshape(-1, CANDIDATE):
+            blocks, candidate = np.zeros((2, GEOMETRY)), np.append(row, ahead)
+            call(*frames, blocks[0], candidate)
+            one.evaluator(*frames, blocks[1], **{**own, "candidate": candidate})
+            np.testing.assert_allclose(blocks[0], blocks[1], rtol=1e-12, atol=1e-12)
+            compared += 1
+    assert compared > 0
 
 
 def test_with_little_room_less_is_looked_at_ahead(build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
