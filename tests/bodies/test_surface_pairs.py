@@ -190,13 +190,13 @@ def test_python_finds_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> No
             frame[3:12] = np.eye(3).ravel() if shape is first else Rotation.from_rotvec(turn).as_matrix().ravel()
         founds = np.zeros((2, 1 + CANDIDATE * (surface_pairs.MOST_NEAR + 1)))
         founds[:, 0] = 0.5 * ahead
-        find(*frames, founds[0])
+        find(frames[0], frames[1], founds[0])
         search.function(frames[0], frames[1], founds[1], **search.values)
         np.testing.assert_array_equal(founds[0], founds[1])
         n = min(int(founds[0, 0]), surface_pairs.MOST_NEAR)
         for row in founds[0, 1 : 1 + CANDIDATE * n].reshape(-1, CANDIDATE):
             blocks, candidate = np.zeros((2, GEOMETRY)), np.append(row, ahead)
-            call(*frames, blocks[0], candidate)
+            call(frames[0], frames[1], blocks[0], candidate)
             one.evaluator(frames[0], frames[1], blocks[1], **{**own, "candidate": candidate})
             np.testing.assert_allclose(blocks[0], blocks[1], rtol=1e-12, atol=1e-12)
             compared += 1
