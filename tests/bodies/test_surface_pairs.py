@@ -171,6 +171,29 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeyp
     assert one.energy.residual < 1e-8
 
 
+@pytest.mark.parametrize(("seed", "rounding"), [(1, 0.0), (2, 0.01)])
+def test_a_rim_rolls_over_borders_of_faces(
+    seed: int, rounding: float, build: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """There face and edge all but repeat one another, and neither opens the other by turns."""
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
+    rng, ground = np.random.default_rng(seed), DrivenBody(carried=(TriangleMesh(Triangles(*hills(10))),))
+    body = DiscBody(0.07, mass=1.0, rounding=rounding)
+    system = ns.System([ground, body])
+    system.contact(ground, body, **build.laws(0.4, 0.3))
+    turn = rng.normal(size=4)
+    system.place(
+        body,
+        position=(0.1, 0.1, 0.3),
+        orientation=turn / np.linalg.norm(turn),
+        velocity=rng.normal(size=3),
+        angular_velocity=rng.normal(size=3),
+    )
+    solution = ns.simulate(system, 0.5)
+    assert solution.status == "done"
+    assert solution.energy.residual < 1e-8
+
+
 @pytest.mark.parametrize("name", [name for name in PAIRS if "hills" in name])
 def test_python_finds_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Searches and evaluators, called as they stand and compiled."""
