@@ -1,8 +1,11 @@
-"""compiled: for the functions that evaluators share; call_support: for shapes that are known by a function."""
+"""compiled: for the functions that evaluators share; block_at: for rows of a table that they read.
+
+call_support is for shapes that are known by a function.
+"""
 
 from __future__ import annotations
 
-from nonsmooth.engine.kernel import call_support
+from nonsmooth.engine.kernel import block_at, call_support
 from nonsmooth.engine.kernel import shared as compiled
 
-__all__ = ["call_support", "compiled"]
+__all__ = ["block_at", "call_support", "compiled"]

@@ -41,11 +41,19 @@ def _within(surface: Floats, found: Found) -> float:
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats, patch: float, size: float) -> None:
+    write_apex(a, b, out, first, surface, patch, size, FAR)
+
+
+@compiled
+def write_apex(
+    a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats, patch: float, size: float, reach: float
+) -> None:
+    """Write the geometry block of an apex, a sphere, and a patch of the second body, looked for up to a reach [m]."""
     ax, ay, az = axis_in_world(a, first)
     px, py, pz = center_in_world(a, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
     x, y, z = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
-    found = nearest_in_patch(surface, patch, x, y, z, FAR)
+    found = nearest_in_patch(surface, patch, x, y, z, reach)
     # the patch of a surface that has one only does not end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
     nx, ny, nz = out_of_surface(b, surface, found, past, x, y, z)

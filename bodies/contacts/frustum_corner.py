@@ -37,7 +37,7 @@ from nonsmooth.types import Floats
 
 
 @compiled
-def _over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
+def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
     """Return height over the plane or cone of a part, way past its ends, and its normal across and along the axis."""
     if part == LOW_CAP:
         return frustum[LOW] - along, away - frustum[0], 0.0, -1.0
@@ -73,6 +73,25 @@ def _evaluate(
     surface: Floats,
     size: float,
 ) -> None:
+    write_corner(a, b, out, frustum, corner_x, corner_y, corner_z, n_star, star, lengths, surface, size)
+
+
+@compiled
+def write_corner(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    corner_x: float,
+    corner_y: float,
+    corner_z: float,
+    n_star: float,
+    star: Floats,
+    lengths: Floats,
+    surface: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of a corner; parameters as the attributes of :class:`FrustumCorner`."""
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     px, py, pz = point_in_world(b, corner_x, corner_y, corner_z)
@@ -80,14 +99,14 @@ def _evaluate(
     flat, margin = frustum[SIDE] == 0.0, REACH * size
     deepest, inner = -1e300, LOW_CAP
     for part in (LOW_CAP, FLANK, HIGH_CAP):
-        height, _, _, _ = _over_part(frustum, part, along, away)
+        height, _, _, _ = over_part(frustum, part, along, away)
         if not ((part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0)) and height > deepest:
             deepest, inner = height, part
     best, found, gap, past = 1e300, inner, deepest, 1e300
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
             continue
-        height, beyond, radial, axial = _over_part(frustum, part, along, away)
+        height, beyond, radial, axial = over_part(frustum, part, along, away)
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         if height < 0.0 and not flat:
             # behind a part only what lies inside of the body can touch it
@@ -111,7 +130,7 @@ def _evaluate(
             found, gap = inner, deepest
         else:
             gap = math.sqrt(gap * gap + past * past)
-    _, _, radial, axial = _over_part(frustum, found, along, away)
+    _, _, radial, axial = over_part(frustum, found, along, away)
     out[0], out[29], out[30] = gap, part_number(frustum, found), past
     out[1], out[2], out[3] = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
     out[10], out[11], out[12] = px, py, pz

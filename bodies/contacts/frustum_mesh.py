@@ -11,25 +11,20 @@ from typing import Any, ClassVar, final
 import numpy as np
 
 from bodies.contacts.apex_mesh import ApexMesh
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_sweep
 from bodies.contacts.flank_mesh import FlankMesh
-from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.frustum import axis_in_world
 from bodies.contacts.frustum_corner import FrustumCorner
+from bodies.contacts.frustum_pairs import FrustumPairs
 from bodies.contacts.frustum_swept import FrustumSwept
-from bodies.contacts.mesh_mesh import check_contacts
+from bodies.contacts.mesh_mesh import are_many
 from bodies.contacts.mesh_point import Corner, PointMesh
-from bodies.contacts.offset import gap_at_distance
-from bodies.contacts.plane_rim import FLATTEST
 from bodies.contacts.rim_mesh import RimMesh
-from bodies.contacts.surface_rim import lowest_on_rim, rim_under
-from bodies.contacts.surface_tables import FACE, FACES, Numbers, star_of, surface_numbers
-from bodies.contacts.tangents import write_tangent
+from bodies.contacts.surface_rim import rim_in_surface, rim_under, write_rim
+from bodies.contacts.surface_tables import Numbers, star_of, surface_numbers
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.cylinder import Cylinder
-from bodies.shapes.frustum import AXIS, CENTER, COS, SIN, SWEEP, Frustum, Point, frustum_numbers
+from bodies.shapes.frustum import AXIS, CENTER, COS, SIDE, SIN, SWEEP, Frustum, Point, frustum_numbers
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
@@ -52,29 +47,9 @@ def _evaluate(
     surface: Floats,
     patch: float,
 ) -> None:
-    ax, ay, az = axis_in_world(a, frustum)
-    fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
-    cx, cy, cz = point_in_world(a, x, y, z)
-    ux, uy, uz = vector_in_body(b, ax, ay, az)
-    vx, vy, vz = vector_in_body(b, fx, fy, fz)
-    kx, ky, kz = vector_in_body(b, cx - b[0], cy - b[1], cz - b[2])
-    face, gap, past = rim_under(surface, patch, frustum, radius, up, kx, ky, kz, ux, uy, uz, vx, vy, vz)
-    sweep = frustum[SWEEP]
-    gap = gap_at_distance(gap, past, sweep)
-    f = int(surface[FACES]) + FACE * face
-    nx, ny, nz = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
-    _, sine, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, fx, fy, fz)
-    out[0], out[29], out[30] = gap, float(face), past
-    out[1], out[2], out[3] = nx, ny, nz
-    out[7], out[8], out[9] = cx + radius * ex, cy + radius * ey, cz + radius * ez
-    for i in range(3):
-        out[7 + i] += sweep * out[1 + i]
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
-    write_tangent(a, out)
-    rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
-    write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
-    write_sweep(out, SIDE_A, sweep)
-    write_flat(out, SIDE_B)
+    pose = rim_in_surface(a, b, frustum, x, y, z)
+    face, gap, past = rim_under(surface, patch, frustum, radius, up, pose)
+    write_rim(a, b, out, frustum, radius, x, y, z, surface, face, gap, past)
 
 
 @final
@@ -86,6 +61,8 @@ class FrustumMesh(ContactKinematics):
     the side and the rims.  Which of them is a contact at present is told by what is next to the points alone, so that
     the mesh need not be convex.  A rounded body touches where its core is the radius away: with the apex as a sphere,
     and under the corners with its rims and its apex, too.
+
+    Where all these are hundreds, :class:`bodies.contacts.frustum_pairs.FrustumPairs` are those near each other.
 
     Attributes
     ----------
@@ -124,21 +101,17 @@ class FrustumMesh(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of rims, feet and apex over patches, of corners, and of edges with side and rims.
-
-        Raises
-        ------
-        InvalidInput
-            If there are too many.
-        """
+        """Return the contacts of rims, feet and apex over patches, of corners, and of edges with side and rims."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
         own, numbers = second.features, _set_back(first)
         sweep, size = first.frustum[SWEEP], max(own.size, 2.0 * first.extent)
+        if are_many(len(own.edges) * _crossings(numbers) + len(own.corners)):
+            points = [*_feet(first), *(_apex(first) if sweep == 0.0 else ())]
+            return FrustumPairs.of_points(first, numbers, points, own, size, (first.extent, second.extent))
         rims = tuple(itertools.chain(*(cls._of_rim(first, numbers, i, own) for i in range(len(first.standing_rims)))))
         feet = PointMesh.of_vertices(_feet(first), own, sweep)
         crossings = *FlankMesh.of_edges(numbers, own, size), *RimMesh.of_edges(numbers, own, size)
-        check_contacts(len(crossings), len(rims))
         vertices = _rounded_vertices if sweep > 0.0 else _sharp_vertices
         return *rims, *feet, *vertices(first, numbers, own, size), *crossings
 
@@ -148,7 +121,8 @@ class FrustumMesh(ContactKinematics):
         if radius > 0.0:
             patches = patches_for_body(second, 2.0 * (radius + numbers[SWEEP]))
             surface = surface_numbers(second, patches)
-            for patch in range(patches.count):
+            # others have edges or corners only
+            for patch in sorted(set(patches.of_faces)):
                 yield cls(numbers, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
 
     def parameters(self) -> dict[str, Value]:
@@ -209,6 +183,13 @@ def _set_back(first: Frustum) -> Numbers:
     return frustum_numbers(
         [radius for radius, _ in rims], heights, (x, y, z), (axis[0], axis[1], axis[2]), 0.0, own[SWEEP]
     )
+
+
+def _crossings(numbers: Numbers) -> int:
+    """Return how many contacts an edge has with the side and the halves of the rims."""
+    if numbers[SIDE] == 0.0:
+        return 2
+    return 5 if numbers[1] > 0.0 else 3
 
 
 def _apex(first: Frustum) -> Iterator[Corner]:

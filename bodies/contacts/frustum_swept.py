@@ -20,6 +20,7 @@ from bodies.contacts.swept_swept import MOST_CONTACTS
 from bodies.contacts.swept_vertex import ended_gap, past_star
 from bodies.shapes.frustum import Frustum, without_feet
 from bodies.shapes.swept import SweptPolytope
+from nonsmooth.compiled import compiled
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -39,6 +40,24 @@ def _evaluate(
     star: Floats,
     size: float,
 ) -> None:
+    write_vertex_ball(a, b, out, first, radius, x, y, z, n_star, star, size)
+
+
+@compiled
+def write_vertex_ball(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    first: Floats,
+    radius: float,
+    x: float,
+    y: float,
+    z: float,
+    n_star: float,
+    star: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of a vertex, with a radius; parameters as the attributes of :class:`FrustumSwept`."""
     x, y, z, distance = write_frustum_ball(a, b, out, first, radius, x, y, z)
     past = past_star(b, star, n_star, distance, out[1], out[2], out[3], size)
     gap, out[30] = ended_gap(out[0], past, size)

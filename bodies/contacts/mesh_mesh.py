@@ -11,11 +11,9 @@ from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from bodies.contacts.surface_edges import evaluate_edges
 from bodies.contacts.surface_pairs import SurfacePairs
 from bodies.contacts.surface_tables import Numbers, edge_row, surface_numbers
-from bodies.contacts.swept_swept import MOST_CONTACTS
 from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball, patches_for_body
 from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 
@@ -147,7 +145,7 @@ def sharp_contacts(
     crossings = len(one.edges) * len(two.edges)
     patches = (patches_for_ball(features, 0.0).count for features in (two, one))
     corners = sum(len(own.corners) * count for own, count in zip((one, two), patches, strict=True))
-    if crossings + corners > MOST_EACH:
+    if are_many(crossings + corners):
         return SurfacePairs.of_surfaces(one, two, extents)
     rows = [edge_row(two, j) for j in range(len(two.edges))]
     names = [f"edge {j}" for j in range(len(two.edges))]
@@ -156,22 +154,6 @@ def sharp_contacts(
     return *map(kind, edges), *MeshPoint.of_corners(one, two), *PointMesh.of_corners(one, two)
 
 
-def check_crossings(first: int, second: int) -> None:
-    """Raise InvalidInput if so many convex edges make too many pairs."""
-    if first * second > MOST_CONTACTS:
-        raise _too_many(f"{first} convex edges against {second}")
-
-
-def check_contacts(crossings: int, others: int) -> None:
-    """Raise InvalidInput if there are too many pairs of convex edges, and other contacts."""
-    if crossings + others > MOST_CONTACTS:
-        raise _too_many(f"{crossings} pairs of convex edges and {others} of corners and patches")
-
-
-def _too_many(figure: str) -> InvalidInput:
-    return InvalidInput(
-        "contact of a mesh that is not convex",
-        f"must have at most {MOST_CONTACTS} pairs of features",
-        figure,
-        "Take coarser meshes, or a smooth shape for a rounded body, or a decomposition of the body into convex pieces.",
-    )
+def are_many(contacts: int) -> bool:
+    """Return whether so many contacts of given features are those near each other instead."""
+    return contacts > MOST_EACH

@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.mesh_mesh import DEPARTURES, MeshEdges, check_contacts, check_crossings, sharp_contacts
+from bodies.contacts.mesh_mesh import DEPARTURES, MeshEdges, are_many, sharp_contacts
 from bodies.contacts.mesh_sphere import MeshSphere
 from bodies.contacts.polytope_tables import edge_rows
 from bodies.contacts.polytope_tables import star_of as star_of_vertex
 from bodies.contacts.surface_edges import evaluate_edges
 from bodies.contacts.surface_pairs import features_of_core
 from bodies.contacts.surface_tables import NOTHING, star_of, surface_numbers
+from bodies.contacts.swept_pairs import SweptPairs
 from bodies.contacts.swept_vertex import SweptVertex
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.polytope import Polytope
@@ -29,6 +30,7 @@ class MeshSwept(ContactKinematics):
 
     The others are the vertices of the second body, as spheres over each patch of the mesh, and the corners of the mesh
     over faces, edges and vertices of the second body; of a sharp one, as of two meshes (:class:`bodies.MeshMesh`).
+    Where they are hundreds, :class:`bodies.contacts.swept_pairs.SweptPairs` are those near each other.
 
     Attributes
     ----------
@@ -48,14 +50,14 @@ class MeshSwept(ContactKinematics):
         own, core = first.features, second.core
         if second.sweep == 0.0:
             return sharp_contacts(cls, own, features_of_core(core), (first.extent, second.extent))
-        check_crossings(len(own.edges), len(core.edges))
         size = max(own.size, core.size + 2.0 * second.sweep)
+        if are_many(len(own.edges) * len(core.edges) + len(own.corners)):
+            return SweptPairs.of_core(own, second, _surface(core), size, (first.extent, second.extent))
         own_star = [(place, star_of_vertex(core, i), f"vertex {i}") for i, place in enumerate(core.vertices)]
         balls = MeshSphere.of_balls(own, own_star, second.sweep, size)
         tips = own.vertices[list(own.corners)].tolist()
         stars = [((x, y, z), tuple(star_of(own, i)), f"corner {i}") for i, (x, y, z) in enumerate(tips)]
         corners = SweptVertex.over(second, stars, 0.0, size, True)
-        check_contacts(len(own.edges) * len(core.edges), len(balls) + len(corners))
         names = [f"edge {j}" for j in range(len(core.edges))] if core.faces else ["side"]
         crossings = MeshEdges.crossings(own, edge_rows(core), names, _surface(core), second.sweep, size)
         return *(cls(pair) for pair in crossings), *balls, *corners

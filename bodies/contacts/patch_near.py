@@ -10,7 +10,7 @@ from typing import Self
 from bodies.contacts.apart import NO_CANDIDATE
 from bodies.contacts.frames import point_in_world, vector_in_body
 from bodies.contacts.surface_near import patches_near
-from bodies.contacts.surface_tables import surface_numbers
+from bodies.contacts.surface_tables import N_PATCHES, surface_numbers
 from bodies.meshes.features import Features
 from bodies.meshes.patches import Patches
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics
@@ -27,7 +27,8 @@ def _find(
     """Find the patches with a feature near the ball that holds the second body."""
     x, y, z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, x - a[0], y - a[1], z - a[2])
-    out[0] = float(patches_near(surface, x, y, z, extent + out[0], out))
+    most = int(surface[N_PATCHES])
+    out[0] = float(patches_near(surface, x, y, z, extent + out[0], 1.0, 0.0, out, 0, most))
 
 
 def are_many(patches: Patches) -> bool:

@@ -9,15 +9,15 @@ from typing import ClassVar, final
 import numpy as np
 
 from bodies.contacts.apart import NO_CANDIDATE, write_apart
+from bodies.contacts.edges_near import edges_near
 from bodies.contacts.mesh_point import write_over_first, write_over_second
 from bodies.contacts.surface_edges import write_edges
-from bodies.contacts.surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near, edges_near
-from bodies.contacts.surface_tables import BITS, CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
+from bodies.contacts.surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near
+from bodies.contacts.surface_tables import CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.polytope import Polytope
 from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
@@ -32,7 +32,7 @@ def _find(a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Float
     turn = turning * reach
     n = corners_near(a, b, surface_a, surface_b, reach, turn, OVER_FIRST, out, n, limit)
     n = corners_near(b, a, surface_b, surface_a, reach, turn, OVER_SECOND, out, n, limit)
-    n = edges_near(a, b, surface_a, surface_b, reach, turn, out, n, limit)
+    n = edges_near(a, b, surface_a, surface_b, reach, turn, EDGE_ACROSS, out, n, limit)
     out[0] = float(n)
 
 
@@ -92,22 +92,8 @@ class SurfacePairs(ContactKinematics):
 
     @classmethod
     def of_surfaces(cls, one: Features, two: Features, extents: tuple[float, float]) -> tuple[SurfacePairs, ...]:
-        """Return the contacts of two surfaces, whose extents are radii about the bodies' frames [m].
-
-        Raises
-        ------
-        InvalidInput
-            If a corner may touch more patches of a surface at once than are told apart.
-        """
+        """Return the contacts of two surfaces, whose extents are radii about the bodies' frames [m]."""
         divided = [patches_for_ball(features, 0.0) for features in (one, two)]
-        for patches in divided:
-            if patches.count > BITS:
-                raise InvalidInput(
-                    "contact of a mesh that is not convex",
-                    f"must have at most {BITS} faces that a corner touches at once",
-                    patches.count,
-                    "Take out corners that go inward where so many faces meet.",
-                )
         surfaces = surface_numbers(one, divided[0]), surface_numbers(two, divided[1])
         turning = 0.5 / extents[0] + 0.5 / extents[1]
         values: dict[str, Value] = {

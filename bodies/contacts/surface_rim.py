@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
 
 from bodies.contacts.across import across
+from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_sweep
+from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.frustum import axis_in_world
 from bodies.contacts.frustum_writing import astray_of_rim
+from bodies.contacts.offset import gap_at_distance
+from bodies.contacts.plane_rim import FLATTEST
 from bodies.contacts.surface_search import box_square, face_height, has_patch, pierced
 from bodies.contacts.surface_tables import (
     FACE,
@@ -20,13 +26,16 @@ from bodies.contacts.surface_tables import (
     TRIANGLES,
 )
 from bodies.contacts.surface_vertex import ASTRAY, over_face, touched_face
+from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import REACH
-from bodies.shapes.frustum import HIGH, LOW, SIDE
+from bodies.shapes.frustum import AXIS, HIGH, LOW, SIDE, SWEEP
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 _FLAT = 1e-12
 """Sine of the angle between rim and face below which the lowest point of the rim is round-off."""
+RimPose: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
+"""Centre of a rim [m], its axis, and the direction across it that counts for a face along it."""
 
 
 @compiled
@@ -41,21 +50,39 @@ def lowest_on_rim(
 
 
 @compiled
+def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z: float) -> RimPose:
+    """Return where the rim about a point of the first body is, in the axes of the second."""
+    ax, ay, az = axis_in_world(a, frustum)
+    fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
+    cx, cy, cz = point_in_world(a, x, y, z)
+    ax, ay, az = vector_in_body(b, ax, ay, az)
+    fx, fy, fz = vector_in_body(b, fx, fy, fz)
+    cx, cy, cz = vector_in_body(b, cx - b[0], cy - b[1], cz - b[2])
+    return cx, cy, cz, ax, ay, az, fx, fy, fz
+
+
+@compiled
+def _gap_beyond(
+    surface: Floats, frustum: Floats, radius: float, up: float, pose: RimPose, gap: float, x: float, y: float, z: float
+) -> float:
+    """Return a gap, or a negative one where the body goes through the surface next to a point of its rim."""
+    cx, cy, cz, ax, ay, az, _, _, _ = pose
+    # to the other side of the core, or of the disc
+    onward, far = up * (frustum[LOW] - frustum[HIGH]), frustum[0] + frustum[1] - radius
+    ex, ey, ez = (cx - x) / radius, (cy - y) / radius, (cz - z) / radius
+    ex, ey, ez = cx + onward * ax + far * ex, cy + onward * ay + far * ey, cz + onward * az + far * ez
+    depth = pierced(surface, x, y, z, ex, ey, ez)
+    return -depth if depth > 0.0 else gap
+
+
+@compiled
 def rim_under(
     surface: Floats,
     patch: float,
     frustum: Floats,
     radius: float,
     up: float,
-    cx: float,
-    cy: float,
-    cz: float,
-    ax: float,
-    ay: float,
-    az: float,
-    fx: float,
-    fy: float,
-    fz: float,
+    pose: RimPose,
 ) -> tuple[int, float, float]:
     """Return face, gap and way past the end of a rim against a patch of a surface, as of a vertex.
 
@@ -72,10 +99,10 @@ def rim_under(
         Of the rim [m].
     up : float
         1 for the upper rim, else -1.
-    cx, cy, cz, ax, ay, az, fx, fy, fz : float
-        Centre of the rim [m], its axis, and the direction across it that counts for a face along it, in the axes of the
-        surface.
+    pose : tuple of float
+        Where the rim is (:func:`rim_in_surface`).
     """
+    cx, cy, cz, ax, ay, az, fx, fy, fz = pose
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
     margin = REACH * size
@@ -121,11 +148,83 @@ def rim_under(
         surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
     )
     if past > 0.0 and gap > 0.0:
-        # to the other side of the core, or of the disc
-        onward, far = up * (frustum[LOW] - frustum[HIGH]), frustum[0] + frustum[1] - radius
-        ex, ey, ez = (cx - x) / radius, (cy - y) / radius, (cz - z) / radius
-        ex, ey, ez = cx + onward * ax + far * ex, cy + onward * ay + far * ey, cz + onward * az + far * ez
-        depth = pierced(surface, x, y, z, ex, ey, ez)
-        if depth > 0.0:
-            gap = -depth
+        gap = _gap_beyond(surface, frustum, radius, up, pose, gap, x, y, z)
     return face, gap, past
+
+
+@compiled
+def rim_over(
+    surface: Floats, face: int, frustum: Floats, radius: float, up: float, pose: RimPose, reach: float
+) -> tuple[float, float]:
+    """Return gap and way past the end of a rim over one face, as of a patch that has no other.
+
+    Where no part of the face is nearer than a reach [m], that is the distance and the way past the end.
+    """
+    cx, cy, cz, ax, ay, az, fx, fy, fz = pose
+    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
+    size, f = surface[SIZE], int(surface[FACES]) + FACE * face
+    axial, radial, ex, ey, ez = lowest_on_rim(-surface[f], -surface[f + 1], -surface[f + 2], ax, ay, az, fx, fy, fz)
+    x, y, z = cx + radius * ex, cy + radius * ey, cz + radius * ez
+    height = face_height(surface, f, x, y, z)
+    lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
+    best, height_best, apart, past = reach * reach, 0.0, reach, reach
+    under, under_past, under_face = 1e300, 0.0, -1
+    node = 0
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * node
+        if box_square(surface, at, x, y, z) > best:
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            t = int(surface[TRIANGLES]) + TRIANGLE * member
+            if member >= n_triangles or int(surface[t + 9]) != face:
+                continue
+            over, inside, ends, square = over_face(surface, t, height, lean, REACH * size, x, y, z)
+            if over <= 0.0 and height < 0.0 and -height < under:
+                under, under_past, under_face = -height, inside, face
+            key = square + max(ends, 0.0) * max(ends, 0.0)
+            if key < best:
+                best, height_best, apart, past = key, height, math.sqrt(square), ends
+        node += 1
+    _, gap, past = touched_face(surface, face, best, height_best, apart, past, under_face, under, under_past, x, y, z)
+    if past > 0.0 and gap > 0.0:
+        gap = _gap_beyond(surface, frustum, radius, up, pose, gap, x, y, z)
+    return gap, past
+
+
+@compiled
+def write_rim(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    radius: float,
+    x: float,
+    y: float,
+    z: float,
+    surface: Floats,
+    face: int,
+    gap: float,
+    past: float,
+) -> None:
+    """Write the geometry block of a rim of the first body about a point, by gap and way past the end over a face."""
+    ax, ay, az = axis_in_world(a, frustum)
+    fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
+    cx, cy, cz = point_in_world(a, x, y, z)
+    sweep = frustum[SWEEP]
+    gap = gap_at_distance(gap, past, sweep)
+    f = int(surface[FACES]) + FACE * face
+    nx, ny, nz = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
+    _, sine, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, fx, fy, fz)
+    out[0], out[29], out[30] = gap, float(face), past
+    out[1], out[2], out[3] = nx, ny, nz
+    out[7], out[8], out[9] = cx + radius * ex, cy + radius * ey, cz + radius * ez
+    for i in range(3):
+        out[7 + i] += sweep * out[1 + i]
+        out[10 + i] = out[7 + i] + gap * out[1 + i]
+    write_tangent(a, out)
+    rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
+    write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
+    write_sweep(out, SIDE_A, sweep)
+    write_flat(out, SIDE_B)

@@ -115,6 +115,32 @@ def _evaluate(
     radius: float,
     size: float,
 ) -> None:
+    write_vertex(
+        a, b, out, swap, n_faces, faces, n_edges, edges, ends, sweep, x_v, y_v, z_v, n_star, star, radius, size
+    )
+
+
+@compiled
+def write_vertex(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
+    n_faces: float,
+    faces: Floats,
+    n_edges: float,
+    edges: Floats,
+    ends: Floats,
+    sweep: float,
+    x_v: float,
+    y_v: float,
+    z_v: float,
+    n_star: float,
+    star: Floats,
+    radius: float,
+    size: float,
+) -> None:
+    """Write the geometry block of a vertex over a core; parameters as the attributes of :class:`SweptVertex`."""
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
     x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])

@@ -68,6 +68,9 @@ call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.cal
 call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _half.call_support
 """Call ``support(direction, parameters, point)`` at the address at a place of a heap, the parameters behind it."""
 
+block_at: Callable[[Floats, int], Floats] = _half.block_at
+"""What stands in a block from a place on, for the functions of plug-ins."""
+
 jit: Callable[[Callable[..., Any]], Any] = _half.jit
 """Compile a plug-in's function on demand."""
 shared: Callable[[Callable[..., Any]], Any] = _half.shared
@@ -86,6 +89,7 @@ __all__ = [
     "Scalars",
     "address_of",
     "at",
+    "block_at",
     "call_body",
     "call_compliance",
     "call_guard",

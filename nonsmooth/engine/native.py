@@ -362,6 +362,18 @@ def _support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[float
 call_support = _Shared(_support, _compiled_support)
 
 
+def _compiled_block(block: Any, place: int) -> Any:
+    return at(block, place)
+
+
+def _block(block: Any, place: int) -> Any:
+    """Return what stands in a block from a place on."""
+    return block[place:]
+
+
+block_at = _Shared(_block, _compiled_block)
+
+
 def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
     """Compile ``shim`` to a C function of the given form, or find it in the cache by its key, and return its address.
 

@@ -107,6 +107,11 @@ def call_support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[f
     return found[0], found[1], found[2]
 
 
+def block_at(block: Any, place: int) -> Any:
+    """Return what stands in a block from a place on."""
+    return block[place:]
+
+
 def call_map(address: int, n: int, g: Any, z: Any, p: Any, out: Any) -> None:
     """Call ``void impact(n, delassus, rates, parameters, impulses)``."""
     _functions[address - 1](n, g, z, p, out)

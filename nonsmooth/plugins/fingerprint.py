@@ -12,9 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.engine.kernel import call_support, unshared
+from nonsmooth.engine.kernel import block_at, call_support, unshared
 
 _MODULES = (math, np)
+_OWN = (block_at, call_support)
 
 
 def fingerprint(function: Callable[..., Any], context: str) -> str:
@@ -49,9 +50,9 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
         parts.append(repr((one.__module__, one.__qualname__, *_shape(one.__code__), constants)))
         for name, value in sorted(inspect.getclosurevars(one).globals.items()):
             named = unshared(value)
-            if value is call_support:
+            if any(value is own for own in _OWN):
                 # the engine's, whose sources are part of where code is kept
-                parts.append(f"{name} = call_support")
+                parts.append(f"{name} = {value.__name__}")
             elif _is_constant(value) or any(value is module for module in _MODULES):
                 parts.append(f"{name} = {value!r}")
             elif inspect.isfunction(named):

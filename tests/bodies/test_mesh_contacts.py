@@ -28,8 +28,6 @@ from bodies import (
 from bodies.contacts import patch_near
 from bodies.contacts.apex_mesh import ApexMesh
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
-from bodies.contacts.mesh_swept import MeshSwept
-from nonsmooth import InvalidInput
 from nonsmooth.engine.kernel import PLAIN
 from nonsmooth.interfaces import Shape
 from nonsmooth.model.layout import FRAME, GEOMETRY
@@ -150,11 +148,6 @@ def test_a_block_in_an_inner_corner_stands_on_both_walls(build: Any) -> None:
     assert normals.count([1.0, 0.0, 0.0]) >= 4
     assert normals.count([0.0, 1.0, 0.0]) >= 4
     assert all(normal in ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]) for normal in normals)
-
-
-def test_too_many_features_are_refused_with_their_numbers() -> None:
-    with pytest.raises(InvalidInput, match=r"at most 4000 pairs.*convex edges.*decomposition"):
-        MeshSwept.between(TriangleMesh(Triangles(*torus())), Box(4e-3, 3e-3, 5e-3, rounding=1e-3))
 
 
 @pytest.mark.parametrize("kind", ["ellipsoid", "superellipsoid", "boxy"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,34 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Box, BoxBody, DrivenBody, MeshBody, Sphere, TriangleMesh, Triangles
+from bodies import (
+    Box,
+    BoxBody,
+    Capsule,
+    CapsuleBody,
+    Cone,
+    ConeBody,
+    Cylinder,
+    CylinderBody,
+    Disc,
+    DiscBody,
+    DrivenBody,
+    Frustum,
+    MeshBody,
+    Sphere,
+    TriangleMesh,
+    Triangles,
+)
 from bodies.contacts import mesh_mesh, patch_near, surface_pairs
+from bodies.contacts.frustum_mesh import FrustumMesh
+from bodies.contacts.mesh_mesh import MeshMesh
+from bodies.contacts.mesh_swept import MeshSwept
 from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.engine.modes import IMPACT
-from nonsmooth.interfaces import Shape
+from nonsmooth.engine.modes import FEATURE_CHANGE, FEATURE_END, IMPACT
+from nonsmooth.interfaces import Body, ConvexShape, Shape
+from nonsmooth.model.layout import CANDIDATE, FRAME, GEOMETRY
+from nonsmooth.plugins.call import candidate_caller, pair_caller
+from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.queries.exact import Contacts
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, channel, hills, torus
@@ -29,8 +53,26 @@ PAIRS: dict[str, tuple[Shape, Shape, float]] = {
     "box and hills": (HILLS, Box(*HALVES), 0.16),
     "mesh and hills": (HILLS, WIDE, 0.16),
     "rings": (TORUS, TORUS, 0.01),
+    "rounded box and hills": (HILLS, Box(0.45, 0.35, 0.25, rounding=0.05), 0.16),
+    "capsule and hills": (HILLS, Capsule(0.1, 0.4), 0.16),
+    "cylinder and hills": (HILLS, Cylinder(0.2, 0.3), 0.16),
+    "feet and hills": (HILLS, Cylinder(0.3, 0.1, foot_height=0.01), 0.08),
+    "cone and hills": (HILLS, Cone(0.2, 0.5), 0.08),
+    "disc and hills": (HILLS, Disc(0.3), 0.16),
+    "rounded cylinder and hills": (HILLS, Cylinder(0.2, 0.3, rounding=0.03), 0.16),
+    "rounded cone and hills": (HILLS, Cone(0.3, 0.2, rounding=0.05), 0.16),
+    "rounded disc and hills": (HILLS, Disc(0.4, rounding=0.02), 0.08),
 }
 """Two shapes, and how far ahead they are looked for [m]."""
+BODIES: dict[str, Callable[[], Body]] = {
+    "box": lambda: BoxBody(0.1, 0.07, 0.05, mass=1.0),
+    "channel": lambda: MeshBody(Triangles(*channel()), mass=1.0),
+    "capsule": lambda: CapsuleBody(0.04, 0.06, 1000.0),
+    "rounded box": lambda: BoxBody(0.1, 0.07, 0.05, mass=1.0, rounding=0.01),
+    "cylinder": lambda: CylinderBody(0.06, 0.05, 1000.0),
+    "cone": lambda: ConeBody(0.06, 0.1, 1000.0),
+    "disc": lambda: DiscBody(0.07, mass=1.0),
+}
 
 
 def _turned(angle: Any) -> Any:
@@ -42,7 +84,10 @@ def _near(name: str, turn: Any, rng: np.random.Generator) -> Any:
     if name == "rings":
         way = rng.normal(size=3)
         return rng.uniform(0.03, 0.06) * way / np.linalg.norm(way)
-    reach = np.abs(Rotation.from_rotvec(turn).as_matrix()[2]) @ HALVES
+    second, axes = PAIRS[name][1], Rotation.from_rotvec(turn).as_matrix()
+    reach = np.abs(axes[2]) @ HALVES
+    if isinstance(second, ConvexShape):
+        reach = -axes[2] @ second.support(-axes[2])
     return np.array([*rng.uniform(-0.5, 0.5, 2), reach + rng.uniform(-0.03, 0.06)])
 
 
@@ -59,11 +104,14 @@ def test_what_is_near_is_found_until_it_is_looked_for_again(
 ) -> None:
     """Bodies are listed at random poses, and moved and turned as far as a list may stand: the gap is that of all."""
     first, second, ahead = PAIRS[name]
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
     rig = Rig((first, second), build.laws(), ahead)
     assert len(rig.contacts) == surface_pairs.MOST_NEAR
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 1_000_000)
     every = Rig((first, second), build.laws())
-    assert len(every.contacts) > 1000
+    assert len(every.contacts) > 100
+    # an edge that overlaps a rim or a side by more than round-off may have another one's normal
+    lowest = 0.0 if isinstance(second, Frustum) else -0.1 * ahead
     rng, compared = np.random.default_rng(3), 0
     for _ in range(40):
         turn = rng.normal(size=3)
@@ -79,22 +127,25 @@ def test_what_is_near_is_found_until_it_is_looked_for_again(
         moved = Rotation.from_rotvec(angles[1]) * Rotation.from_rotvec(turn)
         poses = [(ways[0], _turned(angles[0])), (place + ways[1], _turned(moved.as_rotvec()))]
         least = _least(every, poses)
-        if -0.1 * ahead < least < 0.4 * margin:
+        if lowest < least < 0.4 * margin:
             compared += 1
             assert _least(rig, poses) == pytest.approx(least, abs=1e-15)
     assert compared >= 8
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-@pytest.mark.parametrize("kind", ["box", "channel"])
+@pytest.mark.parametrize("kind", BODIES)
 def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A body falls, tumbles and slides on hills: the same events, whether all pairs of features stand or those near."""
+    """A body falls, tumbles and slides on hills: the same events, whether all pairs of features stand or those near.
+
+    But where a rim goes from a face to the next: with all features one contact has both.
+    """
     runs = []
     for most in (0, 1_000_000):
         monkeypatch.setattr(mesh_mesh, "MOST_EACH", most)
         rng = np.random.default_rng(seed)
         ground = DrivenBody(carried=(HILLS,))
-        body = BoxBody(0.1, 0.07, 0.05, mass=1.0) if kind == "box" else MeshBody(Triangles(*channel()), mass=1.0)
+        body = BODIES[kind]()
         system = ns.System([ground, body])
         contacts = system.contact(ground, body, **build.laws(0.4, 0.3))
         assert (len(contacts) == surface_pairs.MOST_NEAR) == (most == 0)
@@ -109,11 +160,70 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeyp
         runs.append(ns.simulate(system, 0.4))
     one, two = runs
     assert one.status == two.status == "done"
-    assert np.sum(one.events.cause == IMPACT) >= 3
-    assert one.events.cause.tolist() == two.events.cause.tolist()
-    np.testing.assert_allclose(one.events.time, two.events.time, rtol=0, atol=1e-8)
+    assert np.sum(one.events.cause == IMPACT) >= 2
+    told = [~np.isin(run.events.cause, [FEATURE_END, FEATURE_CHANGE]) for run in runs]
+    causes, times = (
+        [getattr(run.events, name)[own] for run, own in zip(runs, told, strict=True)] for name in ("cause", "time")
+    )
+    assert causes[0].tolist() == causes[1].tolist()
+    np.testing.assert_allclose(times[0], times[1], rtol=0, atol=1e-8)
     np.testing.assert_allclose(one.q[-1], two.q[-1], rtol=0, atol=1e-7)
     assert one.energy.residual < 1e-8
+
+
+@pytest.mark.parametrize(("seed", "rounding"), [(1, 0.0), (2, 0.01)])
+def test_a_rim_rolls_over_borders_of_faces(
+    seed: int, rounding: float, build: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """There face and edge all but repeat one another, and neither opens the other by turns."""
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
+    rng, ground = np.random.default_rng(seed), DrivenBody(carried=(TriangleMesh(Triangles(*hills(10))),))
+    body = DiscBody(0.07, mass=1.0, rounding=rounding)
+    system = ns.System([ground, body])
+    system.contact(ground, body, **build.laws(0.4, 0.3))
+    turn = rng.normal(size=4)
+    system.place(
+        body,
+        position=(0.1, 0.1, 0.3),
+        orientation=turn / np.linalg.norm(turn),
+        velocity=rng.normal(size=3),
+        angular_velocity=rng.normal(size=3),
+    )
+    solution = ns.simulate(system, 0.5)
+    assert solution.status == "done"
+    assert solution.energy.residual < 1e-8
+
+
+@pytest.mark.parametrize("name", [name for name in PAIRS if "hills" in name])
+def test_python_finds_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Searches and evaluators, called as they stand and compiled."""
+    first, second, ahead = PAIRS[name]
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
+    kind, shapes = (FrustumMesh, (second, first)) if isinstance(second, Frustum) else (MeshSwept, (first, second))
+    one = (MeshMesh if isinstance(second, TriangleMesh) else kind).between(*shapes)[0]
+    search, values, rng = one.candidates, one.parameters(), np.random.default_rng(4)
+    assert search is not None
+    find, call = pair_caller(search.function, search.values, name), candidate_caller(one.evaluator, values, name)
+    own = {key: values[key] for key in parameter_names(one.evaluator, "pair")}
+    frames, compared = np.zeros((2, FRAME)), 0
+    for _ in range(3):
+        turn = rng.normal(size=3)
+        for frame, shape in zip(frames, shapes, strict=True):
+            frame[:3] = 0.0 if shape is first else _near(name, turn, rng)
+            frame[3:12] = np.eye(3).ravel() if shape is first else Rotation.from_rotvec(turn).as_matrix().ravel()
+        founds = np.zeros((2, 1 + CANDIDATE * (surface_pairs.MOST_NEAR + 1)))
+        founds[:, 0] = 0.5 * ahead
+        find(frames[0], frames[1], founds[0])
+        search.function(frames[0], frames[1], founds[1], **search.values)
+        np.testing.assert_array_equal(founds[0], founds[1])
+        n = min(int(founds[0, 0]), surface_pairs.MOST_NEAR)
+        for row in founds[0, 1 : 1 + CANDIDATE * n].reshape(-1, CANDIDATE):
+            blocks, candidate = np.zeros((2, GEOMETRY)), np.append(row, ahead)
+            call(frames[0], frames[1], blocks[0], candidate)
+            one.evaluator(frames[0], frames[1], blocks[1], **{**own, "candidate": candidate})
+            np.testing.assert_allclose(blocks[0], blocks[1], rtol=1e-12, atol=1e-12)
+            compared += 1
+    assert compared > 0
 
 
 def test_with_little_room_less_is_looked_at_ahead(build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -133,7 +243,8 @@ def test_with_little_room_less_is_looked_at_ahead(build: Any, monkeypatch: pytes
 
 def test_a_query_is_that_of_all_features(monkeypatch: pytest.MonkeyPatch) -> None:
     """Also from afar, where so many features are within reach that less must be looked for."""
-    pairs = [(HILLS, Box(*HALVES)), (HILLS, Sphere(0.03))]
+    pairs = [(HILLS, Box(*HALVES)), (HILLS, Sphere(0.03)), (HILLS, Capsule(0.1, 0.3)), (HILLS, Cylinder(0.2, 0.3))]
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
     near = [Contacts(*pair) for pair in pairs]
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 1_000_000)
     monkeypatch.setattr(patch_near, "MOST_EACH", 1_000)
@@ -145,7 +256,7 @@ def test_a_query_is_that_of_all_features(monkeypatch: pytest.MonkeyPatch) -> Non
         other = place, Rotation.from_rotvec(turn).as_matrix()
         for one, two in zip(near, every, strict=True):
             found, expected = (contacts.least((np.zeros(3), np.eye(3)), other) for contacts in (one, two))
-            if found is not None and found.gap > -1e-3:
+            if found is not None and found.gap > 0.0:
                 assert expected is not None
                 assert found.gap == pytest.approx(expected.gap, abs=1e-15)
                 compared += 1
