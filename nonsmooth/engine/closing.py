@@ -12,9 +12,6 @@ from nonsmooth.engine.record import record_event, remember
 from nonsmooth.engine.touching import slip_speed, touch
 from nonsmooth.engine.twins import closed_twin, take_over
 
-_SAME = 1e-2
-"""Contacts that go on separating by this part of the velocity tolerance have not been brought to rest with others."""
-
 
 @kernel("i8(S, F, I)")
 def _choose(S: Scalars, w: Floats, k: Integers) -> int:
@@ -90,7 +87,7 @@ def _left_over(S: Scalars, w: Floats, k: Integers) -> int:
     work = S.driven_work
     _begin_modes(S, w, k)
     _shut(S, w, k)
-    contact, worst = -1, _SAME * S.velocity_tolerance
+    contact, worst = -1, S.velocity_tolerance
     for c in range(S.n_contacts):
         if k[S.closes + c] == 1 and w[S.rate + 3 * c] > worst:
             contact, worst = c, w[S.rate + 3 * c]
