@@ -36,8 +36,8 @@ def _is_twin(S: Scalars, w: Floats, k: Integers, c: int, other: int) -> int:
 def closed_twin(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return a closed contact at the place of ``c`` that does not approach, or -1."""
     for other in range(S.n_contacts):
-        closed = k[S.touching + other] == 1 and k[S.mode + other] != OPEN
-        if closed and w[S.rate + 3 * other] >= -S.velocity_tolerance and _is_twin(S, w, k, c, other) == 1:
+        closed = k[S.mode + other] != OPEN and w[S.rate + 3 * other] >= -S.velocity_tolerance
+        if closed and _is_twin(S, w, k, c, other) == 1:
             return other
     return -1
 

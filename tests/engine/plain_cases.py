@@ -32,6 +32,7 @@ from bodies import (
     Triangles,
 )
 from bodies.contacts.surface_pairs import MOST_NEAR
+from bodies.meshes.patches import patches_for_ball
 from laws import (
     Anisotropic,
     Bristle,
@@ -197,6 +198,32 @@ def _hills() -> Numbers:
     return _numbers(system, 0.03)
 
 
+def _border() -> Numbers:
+    """Let a ball roll from an edge onto a face so fast that both close at once."""
+    mesh, radius = TriangleMesh(Triangles(*hills(6))), 0.03
+    features = mesh.features
+    patches = patches_for_ball(features, radius)
+    for edge, (_, _, left, right) in enumerate(features.edges):
+        upwards = min(features.planes[left, 2], features.planes[right, 2]) > 0.5
+        if upwards and patches.of_edges[edge] != patches.of_faces[left]:
+            break
+    start, end = features.vertices[list(features.edges[edge][:2])]
+    normal = features.planes[left, :3]
+    along = (end - start) / np.linalg.norm(end - start)
+    arm = radius * normal - 1e-9 * np.cross(normal, along)
+    ground, ball = DrivenBody(carried=(mesh,)), Ball(radius)
+    system = ns.System([ground, ball])
+    system.contact(ground, ball, **_rigid())
+    spin = -60.0 * along
+    system.place(
+        ball,
+        position=0.5 * (start + end) + radius * arm / np.linalg.norm(arm),
+        velocity=np.cross(spin, arm),
+        angular_velocity=spin,
+    )
+    return _numbers(system, 1e-4)
+
+
 def _contact_problem(seed: int, n: int, n_u: int, solver: str, sliding: bool) -> Numbers:
     """Solve for random contacts, more of them than the velocities need where n_u is small."""
     rng = np.random.default_rng(seed)
@@ -266,6 +293,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "long row": lambda: _balls(18, False, _rigid(EnergeticImpact(0.9), Frictionless()), 2e-4, impact_tolerance=1e-5),
     "cloud": lambda: _cloud(13),
     "hills": _hills,
+    "border": _border,
     **{
         f"contact problem, {solver}, {n} contacts, {n_u} velocities, sliding {sliding}": (
             lambda solver=solver, n=n, n_u=n_u, sliding=sliding: _contact_problem(n, n, n_u, solver, sliding)  # type: ignore[misc]
