@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -53,17 +54,19 @@ class Heap:
 
     def close(self) -> Memory:
         """Return the memory with all blocks in it, and behind them every table once."""
-        old, places = self._memory, dict[int, int]()
+        old, places, references = self._memory, dict[int, int](), []
+        tables = self._next
         for block, place, start, table in self._references:
             if id(table) not in places:
                 places[id(table)] = self.store(table.numbers)
             block[place] = places[id(table)] - start
+            references.append((start + place, start, places[id(table)]))
         floats = np.zeros(self._next + 1)
         written = int(old.scalars[0]["delassus"])
         floats[:written] = old.floats[:written]
         if self._blocks:
             np.concatenate(self._blocks, out=floats[len(old.floats) : -1])
-        return Memory(old.scalars, floats, old.integers)
+        return Memory(old.scalars, floats, old.integers, len(old.floats), tables, tuple(references))
 
 
 @dataclass(frozen=True)
@@ -78,17 +81,34 @@ class Memory:
         The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
     integers : numpy.ndarray
         The heap ``k``.
+    blocks, tables : int
+        Where in ``floats`` the blocks that the assembly appended begin, and the tables behind them.
+    references : tuple
+        (place of a number, the place from which that number counts, place of the table that it leads to), for every
+        table that a function reads.
+    owner : Memory or None
+        Whose tables it reads, if it has none of its own.
     """
 
     scalars: np.ndarray
     floats: np.ndarray
     integers: np.ndarray
+    blocks: int
+    tables: int
+    references: tuple[tuple[int, int, int], ...] = ()
+    owner: Memory | None = None
 
     def array(self, name: str, size: int) -> np.ndarray:
         """Return a view of ``size`` entries of the named array."""
         heap = self.floats if name in FLOAT_ARRAYS else self.integers
         start = int(self.scalars[name][0])
         return heap[start : start + size]
+
+    @functools.cached_property
+    def kept(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Views of what a step may find of those before it: neither output nor scratch that it writes itself."""
+        events, codes = (int(self.scalars[name][0]) for name in ("events", "event_codes"))
+        return self.floats[:events], self.floats[self.blocks : self.tables], self.integers[:codes]
 
 
 def allocate(counts: Mapping[str, int]) -> Memory:
@@ -103,7 +123,7 @@ def allocate(counts: Mapping[str, int]) -> Memory:
         totals.append(total)
     values.update(counts)
     scalars = np.array([tuple(values.values())], SCALARS)
-    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
+    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64), totals[0], totals[0])
     n = counts["n_slots"]
     memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
     memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)

@@ -13,6 +13,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
 from nonsmooth.solution.graph import TransitionGraph, transition_graph
+from nonsmooth.solution.state import State
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
@@ -60,10 +61,8 @@ class Solution:
         The energy account.
     counters : Counters
         Steps and times.
-    t_end : float
-        Time that the run reached [s].
-    q_end, u_end : array
-        State at that time.
+    state : State
+        Where the run ended, from which it can go on.
     status : str
         "done", "suspect", "interrupted" or "failed".  A suspect run reached its end, but what it found in itself no
         tolerance explains, as an energy account that is open.
@@ -78,11 +77,24 @@ class Solution:
     events: Events
     energy: EnergyAccount
     counters: Counters
-    t_end: float
-    q_end: NDArray[np.float64]
-    u_end: NDArray[np.float64]
+    state: State
     status: str
     message: str
+
+    @property
+    def t_end(self) -> float:
+        """Time that the run reached [s]."""
+        return self.state.time
+
+    @property
+    def q_end(self) -> NDArray[np.float64]:
+        """Coordinates at that time, shape [n_q]."""
+        return self.state.q
+
+    @property
+    def u_end(self) -> NDArray[np.float64]:
+        """Velocities at that time, shape [n_u]."""
+        return self.state.u
 
     @property
     def modes(self) -> dict[str, float]:

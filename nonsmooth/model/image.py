@@ -1,0 +1,78 @@
+"""What a memory holds between two steps: taken, put back, and kept as what differs from the memory before a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.model.layout import CATALOGUE
+from nonsmooth.model.memory import Memory
+
+Integers = NDArray[np.int64]
+_WIDTH = len(CATALOGUE)
+
+
+@final
+@dataclass(frozen=True)
+class Image:
+    """The scalars of a memory and its parts that a step may find of those before it.
+
+    Attributes
+    ----------
+    parts : tuple of array
+        Copies of the scalars and of :attr:`nonsmooth.model.memory.Memory.kept`, as integers of the same bits.
+    """
+
+    parts: tuple[Integers, ...]
+
+    @classmethod
+    def of(cls, memory: Memory) -> Image:
+        """Take the image of a memory."""
+        return cls(tuple(part.copy() for part in _bits(memory)))
+
+    def put(self, memory: Memory) -> None:
+        """Give a memory of the same system this content."""
+        for own, kept in zip(_bits(memory), self.parts, strict=True):
+            own[:] = kept
+
+
+@final
+@dataclass(frozen=True)
+class Difference:
+    """What an image has that another one has not.
+
+    Attributes
+    ----------
+    places, bits : tuple of array
+        Where they differ, and what stands there, one array for every part.
+    """
+
+    places: tuple[Integers, ...]
+    bits: tuple[Integers, ...]
+
+    @classmethod
+    def between(cls, blank: Image, image: Image) -> Difference:
+        """Return what ``image`` has that ``blank`` has not."""
+        places = tuple(np.flatnonzero(new != old) for old, new in zip(blank.parts, image.parts, strict=True))
+        return cls(places, tuple(part[at] for part, at in zip(image.parts, places, strict=True)))
+
+    def put(self, memory: Memory) -> None:
+        """Give a memory that holds the blank image what differs from it, which may come from another process."""
+        for own, places, bits in zip(_bits(memory), self.places, self.bits, strict=True):
+            own[places] = bits
+        # functions stand elsewhere in every process: slots take them from the catalogue of this one
+        n = int(memory.scalars["n_contacts"][0])
+        declared = int(memory.scalars["n_declared"][0])
+        catalogue = memory.array("catalogue", _WIDTH * declared).reshape(declared, _WIDTH)
+        rows = catalogue[memory.array("identity", n)]
+        for column, name in enumerate(CATALOGUE):
+            if name != "mode":
+                memory.array(name, n)[:] = rows[:, column]
+
+
+def _bits(memory: Memory) -> tuple[Integers, ...]:
+    # bits, because a number that is not finite differs from itself
+    return tuple(part.view(np.int64) for part in (memory.scalars, *memory.kept))
