@@ -148,8 +148,7 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         if not error < 1e300:
             if h < S.time_tolerance:
                 return NOT_FINITE
-            # what lies behind the end of the run need not have a value
-            h = S.t_end - S.t if h > S.t_end - S.t else 0.1 * h
+            h *= 0.1
         else:
             h *= step_factor(error)
         if h < S.time_tolerance:
@@ -192,6 +191,23 @@ def _take_over(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         S.closing_loss += project_closed(S, w, k, 0)
 
 
+@kernel("i8(S, i8)")
+def _up_to_end(S: Scalars, status: int) -> int:
+    """Let a step that has failed be tried once more, up to the end of the run: what lies behind need not have a value."""
+    if S.h_valid <= S.t_end - S.t:
+        return status
+    S.h_valid, S.fresh = S.t_end - S.t, 0
+    return RUNNING
+
+
+@kernel("i8(S, F, I)")
+def _arrived(S: Scalars, w: Floats, k: Integers) -> int:
+    """Look at the state at the end time; return the status."""
+    S.t = S.t_end
+    check_end(S, w, k)
+    return DONE if S.failed == RUNNING else int(S.failed)
+
+
 @kernel("i8(S, F, I)")
 def _end_within(S: Scalars, w: Floats, k: Integers) -> int:
     """End the run within the step that leads past its end time, before any event of it; return the status.
@@ -205,8 +221,7 @@ def _end_within(S: Scalars, w: Floats, k: Integers) -> int:
     if not try_step(S, w, k, h) < 1e300:
         return NOT_FINITE
     _take_over(S, w, k, h)
-    S.fresh = 0
-    return RUNNING
+    return _arrived(S, w, k)
 
 
 @kernel("i8(S, I, i8)")
@@ -320,16 +335,13 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
             S.fresh = 0
             return _settle_event(S, w, k, JAM, contact)
     if status != RUNNING:
-        return status
+        return _up_to_end(S, status)
     S.steps += 1
     h = S.h
     high = first_crossing(S, w, k, h)
     for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
         if not abs(w[S.guard_end + i]) < 1e300:
-            if h <= S.t_end - S.t:
-                return NOT_FINITE
-            S.h_valid = S.t_end - S.t
-            return RUNNING
+            return _up_to_end(S, NOT_FINITE)
     if high == 0.0:
         if h > S.t_end - S.t:
             return _end_within(S, w, k)
@@ -428,6 +440,10 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
             return NO_SLOT
         if status != RUNNING:
             return status
+    if S.resumed == 1:
+        # what follows from modes and is long is not kept in a state
+        S.resumed = 0
+        group_closed(S, w, k)
     S.calls += 1
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
@@ -435,9 +451,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
         if wary == 1 and _wanted_step(S, k) > S.t_end - S.t:
             return PAUSED
         if S.t_end - S.t <= S.time_tolerance:
-            S.t = S.t_end
-            check_end(S, w, k)
-            return DONE if S.failed == RUNNING else int(S.failed)
+            return _arrived(S, w, k)
         row = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * S.n_contacts
         floats_left, integers_left = S.event_floats - S.floats_used, S.event_integers - S.integers_used
         if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * S.n_contacts):

@@ -46,6 +46,7 @@ INTEGER_SCALARS = (
     "told",
     "n_samples",
     "started",
+    "resumed",
     "steps",
     "rejected",
     "listings",

@@ -121,4 +121,4 @@ def go_on(model: Model, blank: Image, continuation: Continuation) -> None:
     for name in ("integers_used", "last_floats", "stopped"):
         scalars[name] = 0
     scalars["h_valid"] = math.inf
-    scalars["told"] = continuation.told
+    scalars["told"], scalars["resumed"] = continuation.told, 1
