@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import warnings
 from collections.abc import Mapping, Sequence
@@ -73,6 +74,7 @@ def parameter(default: Any = dataclasses.MISSING, *, doc: str, unit: str = "1", 
     return dataclasses.field(default=default, metadata={"rule": Rule(doc, unit, **rule)})
 
 
+@functools.cache
 def rules(owner: type) -> dict[str, tuple[dataclasses.Field[Any], Rule]]:
     """Return the declared parameters of a component class by name."""
     return {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}

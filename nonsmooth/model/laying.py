@@ -17,9 +17,10 @@ from nonsmooth.system.system import System
 
 @dataclass
 class Place:
-    """Where a body stands: its number, first velocity, frames on the heap, and its linkage."""
+    """Where a body stands: its number, velocities and the first of them, frames on the heap, and its linkage."""
 
     number: int
+    nu: int
     u: int
     frames: tuple[int, ...]
     linkage: int = -1
@@ -63,7 +64,7 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
             "quaternion": body.quaternion,
         }
         _write(memory, "body", i, fields)
-        places[id(body)] = Place(i, i_u, tuple(out + frame * f for f in range(len(body.frames))))
+        places[id(body)] = Place(i, body.n_u, i_u, tuple(out + frame * f for f in range(len(body.frames))))
         q_scale, u_scale = body.scales
         first = n_q + i_u
         scale[i_q : i_q + body.n_q], scale[first : first + body.n_u] = q_scale, u_scale

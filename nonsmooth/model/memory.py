@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from array import array
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -27,46 +28,59 @@ class Heap:
 
     def __init__(self, memory: Memory) -> None:
         self._memory = memory
-        self._blocks: list[np.ndarray] = []
-        self._next = len(memory.floats)
-        self._references: list[tuple[np.ndarray, int, int, Table]] = []
+        self._first = len(memory.floats)
+        self._values = array("d")
+        self._references: list[tuple[int, int, Table]] = []
 
     def block(self, size: int) -> int:
         """Reserve floats; return their offset."""
-        return self.store(np.zeros(size))
+        start = self._first + len(self._values)
+        self._values.frombytes(bytes(self._values.itemsize * size))
+        return start
 
     def store(self, values: Sequence[float] | np.ndarray) -> int:
         """Append values; return their offset."""
-        start = self._next
-        self._blocks.append(np.asarray(values, dtype=float))
-        self._next += len(values)
+        start = self._first + len(self._values)
+        self._values.extend(values)
         return start
 
-    def store_with_tables(self, values: Sequence[float], tables: Mapping[int, Table]) -> int:
-        """Append values, of which some say how far behind their beginning a table lies; return their offset."""
-        start = self.store(values)
-        self._references += [(self._blocks[-1], place, start, table) for place, table in tables.items()]
+    def repeat(self, values: Sequence[float], times: int) -> int:
+        """Append the same values so many times; return the offset of the first."""
+        start = self._first + len(self._values)
+        self._values.extend(times * array("d", values))
         return start
+
+    def refer(self, place: int, start: int, table: Table) -> None:
+        """Let the number at an offset say how far behind the offset ``start`` a table lies."""
+        self._references.append((place, start, table))
 
     def output(self, size: int) -> int:
         """Reserve floats that a plug-in writes, and guards behind them; return their offset."""
-        return self.store(np.append(np.zeros(size), np.full(GUARD, UNTOUCHED)))
+        return self.store(output_block(size))
 
     def close(self) -> Memory:
         """Return the memory with all blocks in it, and behind them every table once."""
-        old, places, references = self._memory, dict[int, int](), []
-        tables = self._next
-        for block, place, start, table in self._references:
-            if id(table) not in places:
-                places[id(table)] = self.store(table.numbers)
-            block[place] = places[id(table)] - start
-            references.append((start + place, start, places[id(table)]))
-        floats = np.zeros(self._next + 1)
-        written = int(old.scalars[0]["delassus"])
+        old, tables = self._memory, {id(table): table for _, _, table in self._references}
+        first, places = self._first + len(self._values), dict[int, int]()
+        end = first
+        for key, table in tables.items():
+            places[key] = end
+            end += len(table)
+        floats = np.zeros(end + 1)
+        written = int(old.scalars[0]["events"])
         floats[:written] = old.floats[:written]
-        if self._blocks:
-            np.concatenate(self._blocks, out=floats[len(old.floats) : -1])
-        return Memory(old.scalars, floats, old.integers, len(old.floats), tables, tuple(references))
+        floats[self._first : first] = self._values
+        for key, table in tables.items():
+            floats[places[key] : places[key] + len(table)] = table.numbers
+        references = tuple((place, start, places[id(table)]) for place, start, table in self._references)
+        for place, start, at in references:
+            floats[place] = at - start
+        return Memory(old.scalars, floats, old.integers, self._first, first, references)
+
+
+def output_block(size: int) -> list[float]:
+    """Return what stands in a block that a plug-in writes before it does, guards included."""
+    return size * [0.0] + GUARD * [UNTOUCHED]
 
 
 @dataclass(frozen=True)

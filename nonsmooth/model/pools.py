@@ -57,9 +57,12 @@ def lay_pools(memory: Memory, heap: Heap, pools: Sequence[Pool], units: Mapping[
         tables = {name: value for name, value in values.items() if isinstance(value, Table)}
         address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, pool.owner)
         places = {parameter_place(function, "pair", name): table for name, table in tables.items()}
+        start = heap.store(numbers)
+        for place, table in places.items():
+            heap.refer(start + place, start, table)
         row = {
             "function": address,
-            "parameters": heap.store_with_tables(numbers, places),
+            "parameters": start,
             "out": heap.output(1 + CANDIDATE * (len(pool.contacts) + 1)),
             "first": pool.contacts.start,
             "contacts": len(pool.contacts),

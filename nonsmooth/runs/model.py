@@ -122,7 +122,9 @@ class Model:
         finally:
             self._runs.release()
 
-    def _run(self, t_end: float, state: State, interval: float, is_default: bool, progress: Progress | None) -> Solution:
+    def _run(
+        self, t_end: float, state: State, interval: float, is_default: bool, progress: Progress | None
+    ) -> Solution:
         laid, records = self._laid, Records(self._laid)
         scalars, continuation = laid.memory.scalars, state.continuation
         if continuation is not None and continuation.identity == self._identity:
