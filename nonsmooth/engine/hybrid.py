@@ -193,7 +193,7 @@ def _take_over(S: Scalars, w: Floats, k: Integers, h: float) -> None:
 
 @kernel("i8(S, i8)")
 def _up_to_end(S: Scalars, status: int) -> int:
-    """Let a step that has failed be tried once more, up to the end of the run: what lies behind need not have a value."""
+    """Let a step that failed be tried once more, up to the end of the run: what lies behind need not have a value."""
     if S.h_valid <= S.t_end - S.t:
         return status
     S.h_valid, S.fresh = S.t_end - S.t, 0

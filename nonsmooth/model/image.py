@@ -8,11 +8,12 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.model.layout import CATALOGUE
+from nonsmooth.model.layout import CATALOGUE, UNTOUCHED
 from nonsmooth.model.memory import Memory
 
 Integers = NDArray[np.int64]
 _WIDTH = len(CATALOGUE)
+_UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
 
 
 @final
@@ -31,12 +32,36 @@ class Image:
     @classmethod
     def of(cls, memory: Memory) -> Image:
         """Take the image of a memory."""
-        return cls(tuple(part.copy() for part in _bits(memory)))
+        return cls(tuple(part.copy() for part in memory.bits))
 
     def put(self, memory: Memory) -> None:
         """Give a memory of the same system this content."""
-        for own, kept in zip(_bits(memory), self.parts, strict=True):
+        for own, kept in zip(memory.bits, self.parts, strict=True):
             own[:] = kept
+
+
+@final
+@dataclass(frozen=True)
+class Guards:
+    """The numbers behind blocks that plug-ins write, which nobody may change.
+
+    Attributes
+    ----------
+    places : tuple of array
+        Where they stand in each part of an image.
+    """
+
+    places: tuple[Integers, ...]
+
+    @classmethod
+    def of(cls, blank: Image) -> Guards:
+        """Find them in an image of a memory before any run."""
+        return cls(tuple(np.flatnonzero(part == _UNTOUCHED) for part in blank.parts))
+
+    def hold(self, memory: Memory) -> bool:
+        """Tell whether all of them are as they were."""
+        parts = memory.bits
+        return all(bool((part[at] == _UNTOUCHED).all()) for part, at in zip(parts, self.places, strict=True))
 
 
 @final
@@ -61,7 +86,7 @@ class Difference:
 
     def put(self, memory: Memory) -> None:
         """Give a memory that holds the blank image what differs from it, which may come from another process."""
-        for own, places, bits in zip(_bits(memory), self.places, self.bits, strict=True):
+        for own, places, bits in zip(memory.bits, self.places, self.bits, strict=True):
             own[places] = bits
         # functions stand elsewhere in every process: slots take them from the catalogue of this one
         n = int(memory.scalars["n_contacts"][0])
@@ -71,8 +96,3 @@ class Difference:
         for column, name in enumerate(CATALOGUE):
             if name != "mode":
                 memory.array(name, n)[:] = rows[:, column]
-
-
-def _bits(memory: Memory) -> tuple[Integers, ...]:
-    # bits, because a number that is not finite differs from itself
-    return tuple(part.view(np.int64) for part in (memory.scalars, *memory.kept))

@@ -119,10 +119,20 @@ class Memory:
         return heap[start : start + size]
 
     @functools.cached_property
+    def addresses(self) -> tuple[int, int, int]:
+        """Where scalars and heaps stand, for calls of the engine."""
+        return self.scalars.ctypes.data, self.floats.ctypes.data, self.integers.ctypes.data
+
+    @functools.cached_property
     def kept(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Views of what a step may find of those before it: neither output nor scratch that it writes itself."""
         events, codes = (int(self.scalars[name][0]) for name in ("events", "event_codes"))
         return self.floats[:events], self.floats[self.blocks : self.tables], self.integers[:codes]
+
+    @functools.cached_property
+    def bits(self) -> tuple[np.ndarray, ...]:
+        """Views of the scalars and of :attr:`kept` as integers: a number that is not finite differs from itself."""
+        return tuple(part.view(np.int64) for part in (self.scalars, *self.kept))
 
 
 def allocate(counts: Mapping[str, int]) -> Memory:

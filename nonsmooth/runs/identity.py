@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from typing import Any, final
 
 import numpy as np
 
@@ -14,41 +13,12 @@ from nonsmooth.model.model import Model
 _FUNCTIONS = "_function"
 
 
-@final
-class Identity:
-    """A digest of all numbers of a model and of the kinds of its parts, made when it is first asked for.
+def digest(model: Model, blank: Image) -> str:
+    """Return a digest of all numbers of a model that stands nowhere yet, and of the kinds of its parts.
 
-    Parameters
-    ----------
-    digest : str
-        The digest, where it is known.
-    model, blank : Model, Image
-        Where it is not: the model, and its image before any run.
+    ``blank`` is its image.  Models with one digest run alike, in whatever process.
     """
-
-    def __init__(self, digest: str = "", model: Model | None = None, blank: Image | None = None) -> None:
-        self._digest, self._model, self._blank = digest, model, blank
-
-    @property
-    def digest(self) -> str:
-        """The digest."""
-        if not self._digest:
-            assert self._model is not None and self._blank is not None
-            self._digest = _digest(self._model, self._blank)
-        return self._digest
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Identity) and (self is other or self.digest == other.digest)
-
-    def __hash__(self) -> int:
-        return hash(self.digest)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Identity, (self.digest,)
-
-
-def _digest(model: Model, blank: Image) -> str:
-    found = hashlib.sha256(repr((SCALARS.names, tuple(FLOAT_ARRAYS), tuple(INTEGER_ARRAYS), CATALOGUE)).encode())
+    found = hashlib.blake2b(repr((SCALARS.names, tuple(FLOAT_ARRAYS), tuple(INTEGER_ARRAYS), CATALOGUE)).encode())
     for kind in _kinds(model):
         found.update(f"{kind.__module__}.{kind.__qualname__};".encode())
     scalars, floats, blocks, integers = (part.copy() for part in blank.parts)

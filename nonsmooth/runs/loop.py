@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.engine.modes import DONE, PAUSED, STOPPED
+from nonsmooth.engine.modes import PAUSED, STOPPED
 from nonsmooth.model.image import Image
 from nonsmooth.model.model import Model
 from nonsmooth.runs.records import Records
@@ -14,7 +14,7 @@ from nonsmooth.watch import Watch
 
 _STEPS_AT_ONCE = 2000
 _STEPS_NEAR_END = 16
-"""So many steps near its end a run that goes on may repeat, and so many times longer than an image is a step at least."""
+"""So many steps at most a run that goes on repeats; an image takes less time than they do."""
 Progress = Callable[[float, float], None]
 
 
@@ -69,5 +69,4 @@ def run_engine(model: Model, records: Records, progress: Progress | None) -> End
         status, interrupted = PAUSED, True
     if status == STOPPED:
         image, before = Image.of(memory), records.n_events
-    assert status != DONE or not interrupted
     return Ending(status, interrupted, image, records.n_events - before)

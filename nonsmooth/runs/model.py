@@ -11,10 +11,10 @@ from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.copying import copied
-from nonsmooth.model.image import Image
+from nonsmooth.model.image import Guards, Image
 from nonsmooth.model.model import Model as LaidOut
 from nonsmooth.model.options import Options
-from nonsmooth.runs.identity import Identity
+from nonsmooth.runs.identity import digest
 from nonsmooth.runs.loop import Progress, run_engine
 from nonsmooth.runs.outcome import reason, solution_of, state_of
 from nonsmooth.runs.records import Records
@@ -34,10 +34,14 @@ class Model:
     Nothing of one run is left for the next.  A model runs in one thread at a time; another thread takes a copy.
     """
 
-    def __init__(self, laid: LaidOut, options: Options, start: State, identity: Identity | None = None) -> None:
+    def __init__(self, laid: LaidOut, options: Options, start: State, key: str = "") -> None:
         self._laid, self._options, self._start = laid, options, start
         self._blank = Image.of(laid.memory)
-        self._identity = identity or Identity(model=laid, blank=self._blank)
+        self._key = key or digest(laid, self._blank)
+        self._guards = Guards.of(self._blank)
+        begin(laid, self._blank, start)
+        self._energy = laid.energy()
+        self._begun = Image.of(laid.memory)
         self._runs = threading.Lock()
 
     @classmethod
@@ -50,7 +54,6 @@ class Model:
             If bodies overlap at the start, a joint is not closed there, or a guard has no value.
         """
         made = cls(lay(system, options), options, State.at(system))
-        begin(made._laid, made._blank, made._start)
         check_start(made._laid)
         return made
 
@@ -74,7 +77,7 @@ class Model:
         with self._runs:
             self._blank.put(self._laid.memory)
             laid = LaidOut(self.system, copied(self._laid.memory), self._laid.n_q, self._laid.n_u, self._laid.n_states)
-        return Model(laid, self._options, self._start, self._identity)
+        return Model(laid, self._options, self._start, self._key)
 
     def run(
         self,
@@ -113,7 +116,8 @@ class Model:
             If the run cannot go on; its ``solution`` holds what was computed.
         """
         state = self._start if start is None else start
-        check_state(self._laid, state)
+        if state is not self._start:
+            check_state(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
         if not self._runs.acquire(blocking=False):
             raise InvalidInput("Model.run", "must not be called while it runs", "running", "Run model.copy().")
@@ -127,15 +131,17 @@ class Model:
     ) -> Solution:
         laid, records = self._laid, Records(self._laid)
         scalars, continuation = laid.memory.scalars, state.continuation
-        if continuation is not None and continuation.identity == self._identity:
+        if state is self._start:
+            self._begun.put(laid.memory)
+            energy = self._energy
+        elif continuation is not None and continuation.model == self._key:
             go_on(laid, self._blank, continuation)
             records.begin_with(state)
             energy = state.energy.kinetic_start, state.energy.potential_start
         else:
             begin(laid, self._blank, state)
-            if state is not self._start:
-                check_closed(laid, state)
-                check_start(laid)
+            check_closed(laid, state)
+            check_start(laid)
             energy = laid.energy()
         scalars["t_end"], scalars["sample_interval"], scalars["sample_index"] = t_end, interval, 0
         scalars["sample_start"] = scalars["next_sample"] = state.time
@@ -144,9 +150,9 @@ class Model:
         scalars["h_sampled"] = math.inf if is_default else room * interval
         began = time.perf_counter()
         ending = run_engine(laid, records, progress)
-        said = reason(laid, ending)
+        said = reason(laid, self._guards, ending)
         wall = time.perf_counter() - began
-        left = state_of(laid, self._blank, self._identity, energy, ending)
+        left = state_of(laid, self._blank, self._key, energy, ending)
         solution = solution_of(laid, records, energy, said, left, wall)
         if solution.status == "failed":
             raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.engine.modes import DONE, PAUSED, REASONS, STOPPED
-from nonsmooth.model.image import Difference, Image
+from nonsmooth.model.image import Difference, Guards, Image
 from nonsmooth.model.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
 from nonsmooth.model.model import Model
 from nonsmooth.plugins.blocks import written_past
 from nonsmooth.plugins.diagnose import culprit
-from nonsmooth.runs.identity import Identity
 from nonsmooth.runs.loop import Ending
 from nonsmooth.runs.records import Records
 from nonsmooth.solution.energy import EnergyAccount
@@ -22,9 +21,11 @@ from nonsmooth.solution.suspicion import suspicions
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
 
-def reason(model: Model, ending: Ending) -> tuple[str, str]:
-    """Return the status of a run that has ended, in a word, and why it did."""
-    status, past = ending.status, written_past(model)
+def reason(model: Model, guards: Guards, ending: Ending) -> tuple[str, str]:
+    """Return the status of a run that has ended, in a word, and why it did; ``guards`` are those of the model."""
+    past_map = int(model.memory.scalars["map_past"][0]) > 0
+    past = "" if guards.hold(model.memory) and not past_map else written_past(model)
+    status = ending.status
     if past or status not in (DONE, STOPPED, PAUSED):
         message = f"At t = {float(model.memory.scalars['t'][0]):.9g} s {REASONS[status]}."
         return "failed", f"{message} {past or culprit(model, status)}".strip()
@@ -80,14 +81,17 @@ def solution_of(
         Events.from_buffers(floats, integers, len(model.system.contacts), n_q, n_u),
         state.energy,
         counters,
-        state,
+        state.time,
+        state.q,
+        state.u,
         word,
         message,
+        state,
     )
 
 
-def state_of(model: Model, blank: Image, identity: Identity, start: tuple[float, float], ending: Ending) -> State:
-    """Return the state in which a run left its model; arguments as above, and the image of the model before any run."""
+def state_of(model: Model, blank: Image, key: str, start: tuple[float, float], ending: Ending) -> State:
+    """Return the state in which a run left its model, whose image before any run is ``blank``, its digest ``key``."""
     memory, n_q, n_u = model.memory, model.n_q, model.n_u
     n, slots = len(model.system.contacts), int(memory.scalars["n_contacts"][0])
     y = memory.array("y", model.n_y).copy()
@@ -114,7 +118,7 @@ def state_of(model: Model, blank: Image, identity: Identity, start: tuple[float,
         memory.array("own_guard_spent", len(model.system.guards)).copy(),
         _account(model, start),
     )
-    return state.with_continuation(Continuation(identity, Difference.between(blank, ending.image), ending.told))
+    return state.with_continuation(Continuation(key, Difference.between(blank, ending.image), ending.told))
 
 
 def _account(model: Model, start: tuple[float, float]) -> EnergyAccount:

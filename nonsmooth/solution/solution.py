@@ -61,13 +61,17 @@ class Solution:
         The energy account.
     counters : Counters
         Steps and times.
-    state : State
-        Where the run ended, from which it can go on.
+    t_end : float
+        Time that the run reached [s].
+    q_end, u_end : array
+        State at that time.
     status : str
         "done", "suspect", "interrupted" or "failed".  A suspect run reached its end, but what it found in itself no
         tolerance explains, as an energy account that is open.
     message : str
         Why it stopped, and what is suspect.
+    state : State
+        Where the run ended, from which it can go on.
     """
 
     system: System
@@ -77,24 +81,12 @@ class Solution:
     events: Events
     energy: EnergyAccount
     counters: Counters
-    state: State
+    t_end: float
+    q_end: NDArray[np.float64]
+    u_end: NDArray[np.float64]
     status: str
     message: str
-
-    @property
-    def t_end(self) -> float:
-        """Time that the run reached [s]."""
-        return self.state.time
-
-    @property
-    def q_end(self) -> NDArray[np.float64]:
-        """Coordinates at that time, shape [n_q]."""
-        return self.state.q
-
-    @property
-    def u_end(self) -> NDArray[np.float64]:
-        """Velocities at that time, shape [n_u]."""
-        return self.state.u
+    state: State
 
     @property
     def modes(self) -> dict[str, float]:

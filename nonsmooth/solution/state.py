@@ -16,7 +16,6 @@ from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
     from nonsmooth.model.image import Difference
-    from nonsmooth.runs.identity import Identity
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -29,15 +28,15 @@ class Continuation:
 
     Attributes
     ----------
-    identity : Identity
-        The model that ran.
+    model : str
+        Digest of the model that ran.
     difference : Difference
         What its memory held a few steps before, where nothing said when the run would end.
     told : int
         Events from there on that the run has told.
     """
 
-    identity: Identity
+    model: str
     difference: Difference
     told: int
 
