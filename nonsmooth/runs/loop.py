@@ -53,13 +53,13 @@ def run_engine(model: Model, records: Records, progress: Progress | None) -> End
     t_end = float(memory.scalars["t_end"][0])
     report = None if progress is None else lambda t: progress(t, t_end)
     status, interrupted = PAUSED, False
-    image, before = Image.of(memory), records.n_events
+    image, before = Image.of(memory), records.n_passed
     try:
         with Watch(memory, report) as watch:
             while status == PAUSED:
                 status = int(watch.call("advance", _STEPS_AT_ONCE, 1))
                 if status == PAUSED:
-                    image, before = Image.of(memory), records.n_events
+                    image, before = Image.of(memory), records.n_passed
                     status = int(watch.call("advance", _STEPS_NEAR_END, 0))
                 records.drain()
                 if progress is not None:
@@ -68,5 +68,5 @@ def run_engine(model: Model, records: Records, progress: Progress | None) -> End
         records.drain()
         status, interrupted = PAUSED, True
     if status == STOPPED:
-        image, before = Image.of(memory), records.n_events
-    return Ending(status, interrupted, image, records.n_events - before)
+        image, before = Image.of(memory), records.n_passed
+    return Ending(status, interrupted, image, records.n_passed - before)

@@ -33,9 +33,10 @@ class Records:
     _events: int = 0
 
     @property
-    def n_events(self) -> int:
-        """Events that the engine has recorded."""
-        return self._events + int(self.model.memory.scalars["n_events"][0])
+    def n_passed(self) -> int:
+        """Events that the engine has recorded, less those that it has still to pass as told."""
+        record = self.model.memory.scalars[0]
+        return self._events + int(record["n_events"]) - int(record["told"])
 
     def drain(self) -> None:
         """Empty the engine's buffers.
