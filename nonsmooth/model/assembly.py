@@ -9,7 +9,7 @@ import numpy as np
 from nonsmooth.engine.kernel import room_addresses
 from nonsmooth.engine.modes import POLICIES
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
-from nonsmooth.model.checks import check_start
+from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import initial_state, lay_contacts
 from nonsmooth.model.layout import COUNTS, N_ACCOUNTS
@@ -51,14 +51,20 @@ def lay_out(system: System, options: Options) -> Model:
         If these are too many.
     """
     model = lay(system, options)
-    y = model.memory.array("y", model.n_q + model.n_u)
-    np.concatenate([part for which in (0, 1) for part in (system.start(body)[which] for body in system.bodies)], out=y)
+    model.memory.array("y", model.n_q + model.n_u)[:] = np.concatenate(system.starts())
     model.list_contacts()
     return model
 
 
 def lay(system: System, options: Options) -> Model:
-    """Lay out a system that stands nowhere yet."""
+    """Lay out a system that stands nowhere yet.
+
+    Raises
+    ------
+    InvalidInput
+        If a guard has no value where the system was placed.
+    """
+    check_guards(system, 0.0, *system.starts())
     bodies, contacts = system.bodies, system.contacts
     n_q = sum(body.n_q for body in bodies)
     n_u = sum(body.n_u for body in bodies)

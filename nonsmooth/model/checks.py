@@ -8,12 +8,14 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.model import Model
 from nonsmooth.plugins.blocks import written_past
 from nonsmooth.solids.start import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
+from nonsmooth.system.system import System
 
 _OPEN = 1e-9
 
@@ -45,7 +47,8 @@ def check_start(model: Model) -> None:
     # gaps tell of features that face each other, and bodies right through one another may have none
     check_overlaps(model)
     _check_joints(model)
-    _check_guards(model)
+    t, y = float(model.memory.scalars["t"][0]), model.memory.array("y", model.n_q + model.n_u)
+    check_guards(model.system, t, y[: model.n_q], y[model.n_q :])
 
 
 def _ask_shapes(model: Model, number: int) -> None:
@@ -87,10 +90,16 @@ def _check_joint(model: Model, tie: Tie, number: int, linkage: int, allowed: flo
             )
 
 
-def _check_guards(model: Model) -> None:
-    t, y = float(model.memory.scalars["t"][0]), model.memory.array("y", model.n_q + model.n_u)
-    for guard in model.system.guards:
-        value = guard_value(guard, t, y[: model.n_q], y[model.n_q :])
+def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:
+    """Look at the guards of a system at a time [s], for its coordinates and velocities.
+
+    Raises
+    ------
+    InvalidInput
+        If one has no finite value.
+    """
+    for guard in system.guards:
+        value = guard_value(guard, t, q, u)
         if not isinstance(value, float) or not math.isfinite(value):
             raise InvalidInput(
                 f"{type(guard).__name__}.value",

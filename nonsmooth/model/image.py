@@ -89,10 +89,9 @@ class Difference:
         for own, places, bits in zip(memory.bits, self.places, self.bits, strict=True):
             own[places] = bits
         # functions stand elsewhere in every process: slots take them from the catalogue of this one
-        n = int(memory.scalars["n_contacts"][0])
-        declared = int(memory.scalars["n_declared"][0])
+        record = memory.scalars[0]
+        n, slots, declared = int(record["n_contacts"]), int(record["n_slots"]), int(record["n_declared"])
         catalogue = memory.array("catalogue", _WIDTH * declared).reshape(declared, _WIDTH)
-        rows = catalogue[memory.array("identity", n)]
-        for column, name in enumerate(CATALOGUE):
-            if name != "mode":
-                memory.array(name, n)[:] = rows[:, column]
+        # the arrays of the catalogue's entries follow one another, and the mode, which is last, is each slot's own
+        own = memory.array(CATALOGUE[0], _WIDTH * slots).reshape(_WIDTH, slots)
+        own[:-1, :n] = catalogue[memory.array("identity", n), :-1].T

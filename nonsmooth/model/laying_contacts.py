@@ -117,13 +117,13 @@ def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) ->
 
 
 def _lay_floats(memory: Memory, contacts: Sequence[Contact]) -> None:
-    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * len(contacts)).reshape(-1, CATALOGUE_FLOATS)
+    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * len(contacts)).reshape(len(contacts), CATALOGUE_FLOATS)
     floats[:, 0] = [0.0 if contact.impact is None else contact.impact.contact_time for contact in contacts]
     floats[:, 1] = 1.0
     floats[:, 3] = [
         contact.normal.reach if isinstance(contact.normal, CompliantNormalLaw) else 0.0 for contact in contacts
     ]
-    floats[:, 5:7] = np.reshape([contact.levers for contact in contacts], (-1, 2))
+    floats[:, 5:7] = np.reshape([contact.levers for contact in contacts], (len(contacts), 2))
     floats[:, 7] = [contact.size for contact in contacts]
 
 

@@ -116,7 +116,7 @@ class Model:
             If the run cannot go on; its ``solution`` holds what was computed.
         """
         state = self._start if start is None else start
-        if state is not self._start:
+        if state is not self._start and not self._left(state):
             check_state(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
         if not self._runs.acquire(blocking=False):
@@ -126,16 +126,20 @@ class Model:
         finally:
             self._runs.release()
 
+    def _left(self, state: State) -> bool:
+        """Tell whether a run of this model left a state, which goes on then."""
+        return state.continuation is not None and state.continuation.model == self._key
+
     def _run(
         self, t_end: float, state: State, interval: float, is_default: bool, progress: Progress | None
     ) -> Solution:
         laid, records = self._laid, Records(self._laid)
-        scalars, continuation = laid.memory.scalars, state.continuation
+        scalars = laid.memory.scalars
         if state is self._start:
             self._begun.put(laid.memory)
             energy = self._energy
-        elif continuation is not None and continuation.model == self._key:
-            go_on(laid, self._blank, continuation)
+        elif self._left(state):
+            go_on(laid, self._blank, state)
             records.begin_with(state)
             energy = state.energy.kinetic_start, state.energy.potential_start
         else:

@@ -94,9 +94,9 @@ def state_of(model: Model, blank: Image, key: str, start: tuple[float, float], e
     """Return the state in which a run left its model, whose image before any run is ``blank``, its digest ``key``."""
     memory, n_q, n_u = model.memory, model.n_q, model.n_u
     n, slots = len(model.system.contacts), int(memory.scalars["n_contacts"][0])
-    y = memory.array("y", model.n_y).copy()
-    rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, -1)
-    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, -1)
+    y = memory.array("y", model.n_y)
+    rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
+    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
     modes, directions, rates = rows[:, _MODE].copy(), floats[:, 1:3].copy(), floats[:, 4].copy()
     # what stands in a slot is newer than what the catalogue keeps of it
     listed = memory.array("identity", slots)
@@ -115,7 +115,7 @@ def state_of(model: Model, blank: Image, key: str, start: tuple[float, float], e
         rates,
         features,
         y[n_q + n_u + N_ACCOUNTS :],
-        memory.array("own_guard_spent", len(model.system.guards)).copy(),
+        memory.array("own_guard_spent", len(model.system.guards)),
         _account(model, start),
     )
     return state.with_continuation(Continuation(key, Difference.between(blank, ending.image), ending.told))

@@ -69,5 +69,8 @@ class Records:
 
     def joined(self) -> tuple[Floats, Integers, Floats]:
         """Return floats and integers of all events, and all samples."""
-        floats, integers, samples = (np.concatenate(parts) for parts in zip(*self._parts.values(), strict=True))
+        parts = list(self._parts.values())
+        if len(parts) == 1:
+            return parts[0]
+        floats, integers, samples = (np.concatenate(same) for same in zip(*parts, strict=True))
         return floats, integers, samples

@@ -11,7 +11,7 @@ from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.image import Image
 from nonsmooth.model.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
 from nonsmooth.model.model import Model
-from nonsmooth.solution.state import Continuation, State
+from nonsmooth.solution.state import State
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 _UNIT = 1e-9
@@ -77,8 +77,8 @@ def begin(model: Model, blank: Image, state: State) -> None:
     y = memory.array("y", model.n_y)
     y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = state.q, state.u
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
-    rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, -1)
-    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, -1)
+    rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
+    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
     rows[:, _MODE], floats[:, 1:3], floats[:, 4] = state.modes, state.slip_directions, state.closing_rates
     places = rows[:, _PLACE]
     for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
@@ -111,8 +111,10 @@ def check_closed(model: Model, state: State) -> None:
             )
 
 
-def go_on(model: Model, blank: Image, continuation: Continuation) -> None:
-    """Put a model in the midst of a run that goes on."""
+def go_on(model: Model, blank: Image, state: State) -> None:
+    """Put a model in the midst of the run that left a state, and goes on."""
+    continuation = state.continuation
+    assert continuation is not None
     blank.put(model.memory)
     continuation.difference.put(model.memory)
     scalars = model.memory.scalars

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.engine.modes import OPEN
 from nonsmooth.interfaces import StatefulFrictionLaw, TractionLaw
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+_ARRAYS = ("q", "u", "modes", "slip_directions", "closing_rates", "features", "law_states", "guards_spent")
 
 
 @final
@@ -87,8 +88,15 @@ class State:
     # no argument: whatever is replaced in a state, this does not belong to the new one
     continuation: Continuation | None = field(default=None, init=False, repr=False)
 
+    def __post_init__(self) -> None:
+        # what goes on with a run is not changed by changing the arrays here
+        for name in _ARRAYS:
+            value = np.array(getattr(self, name))
+            value.flags.writeable = False
+            object.__setattr__(self, name, value)
+
     @classmethod
-    def at(cls, system: System, time: float = 0.0, q: Floats | None = None, u: Floats | None = None) -> State:
+    def at(cls, system: System, time: float = 0.0, q: ArrayLike | None = None, u: ArrayLike | None = None) -> State:
         """Return a start with no contact closed yet: those that touch close in the first instant of the run.
 
         Parameters
@@ -100,12 +108,12 @@ class State:
         q, u : array, optional
             Coordinates and velocities of all bodies, in the order of the system; by default as they were placed.
         """
-        places = [system.start(body) for body in system.bodies]
+        placed = system.starts()
         n, n_states = len(system.contacts), sum(map(_n_states, (contact.friction for contact in system.contacts)))
         return cls(
             time,
-            np.concatenate([place[0] for place in places]) if q is None else np.array(q, dtype=float),
-            np.concatenate([place[1] for place in places]) if u is None else np.array(u, dtype=float),
+            placed[0] if q is None else np.asarray(q, dtype=float),
+            placed[1] if u is None else np.asarray(u, dtype=float),
             np.full(n, OPEN),
             np.tile([1.0, 0.0], (n, 1)),
             np.zeros(n),

@@ -195,6 +195,10 @@ class System:
         self._require(body, "System.start")
         return self._starts[self._numbers[id(body)]]
 
+    def starts(self) -> tuple[Vector, Vector]:
+        """Return q and u of all bodies at t = 0, in the order of the bodies."""
+        return np.concatenate([q for q, _ in self._starts]), np.concatenate([u for _, u in self._starts])
+
     def place(self, body: Body, **start: Any) -> None:
         """Say where a body starts; the words are those of its ``state``."""
         self._require(body, "System.place")

@@ -46,7 +46,7 @@ def test_a_run_may_be_stopped_often(build: Any) -> None:
     system.place(system.bodies[1], position=(0.0, 0.0, 0.03), velocity=(0.1, 0.0, 0.0))
     model = ns.assemble(system)
     whole = model.run(0.6)
-    state, times = model.start, []
+    state, times = model.start, list[float]()
     impact = float(whole.events.time[3])
     for t_end in sorted([*np.linspace(0.006, 0.6, 100).tolist(), impact]):
         piece = model.run(t_end, start=state)
