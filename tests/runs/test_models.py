@@ -7,7 +7,8 @@ import gc
 import math
 import pickle
 import threading
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, final
 
 import numpy as np
 import pytest
@@ -15,7 +16,10 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Harmonic
 from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.interfaces import Guard
+from nonsmooth.parameters import parameter
 from nonsmooth.plugins import registry
+from nonsmooth.types import Floats
 from tests.benchmarks.bodies_on_hills import scene
 from tests.runs.continued import differences, lost_by_stopping
 
@@ -111,3 +115,28 @@ def test_what_is_changed_in_a_system_later_the_model_does_not_know(build: Any) -
     system.place(system.bodies[1], position=(0.0, 0.0, 0.05))
     assert differences(first, model.run(0.1)) == []
     assert model.run(0.1, start=ns.State.at(system)).q[0, 2] == 0.05
+
+
+@final
+@dataclass(frozen=True)
+class _Until(Guard):
+    """A clock without a value after its end."""
+
+    end: float = parameter(0.1, doc="end", unit="s")
+    ends_run = False
+
+    @staticmethod
+    def value(t: float, q: Floats, u: Floats, end: float) -> float:
+        return 1.0 + math.sqrt(end - t)
+
+
+def test_what_lies_behind_the_end_needs_no_value(build: Any) -> None:
+    """A run steps as if it had no end; where that leads nowhere it keeps within its end."""
+    system = build.over(Ball(0.01))
+    system.place(system.bodies[1], position=(0.0, 0.0, 0.01), velocity=(0.3, 0.0, 0.0))
+    system.guard(_Until())
+    solution = ns.simulate(system, 0.1)
+    assert solution.status == "done"
+    assert solution.t_end == 0.1
+    with pytest.raises(ns.RunFailed, match="_Until"):
+        ns.simulate(system, 0.11)
