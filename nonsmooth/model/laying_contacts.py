@@ -34,7 +34,7 @@ _Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
 
 
 @dataclass
-class _Kind:
+class Kind:
     """What contacts of the same geometry and laws have in common.
 
     Attributes
@@ -65,13 +65,9 @@ def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places
     """Lay the contacts, and reserve the Jacobians of the slots."""
     n = len(contacts)
     rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
-    same: dict[tuple[int, ...], list[int]] = {}
-    for number, contact in enumerate(contacts):
-        parts = contact.kinematics, contact.normal, contact.friction, contact.impact
-        same.setdefault(tuple(map(id, parts)), []).append(number)
     tried = set[tuple[Any, ...]]()
-    for numbers in same.values():
-        kind = _kind(memory, contacts[numbers[0]], tried)
+    for numbers in by_kind(contacts):
+        kind = kind_of(memory, contacts[numbers[0]], tried)
         starts = heap.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
         for name, value in kind.fields.items():
             rows[numbers, CATALOGUE.index(name)] = value
@@ -82,11 +78,20 @@ def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places
                 heap.refer(begin + place, begin + start, table)
     _lay_states(memory, contacts, rows)
     _lay_sides(rows, contacts, places)
-    _lay_floats(memory, contacts)
+    lay_floats(memory, contacts)
     widths = [places[id(body)].linkage_nu for contact in contacts for body in (contact.first, contact.second)]
     size, slots = 3 * max(widths, default=0), int(memory.scalars["n_slots"][0])
     for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
         memory.array(name, slots)[:] = heap.block(size * slots) + size * np.arange(slots)
+
+
+def by_kind(contacts: Sequence[Contact]) -> list[list[int]]:
+    """Return the numbers of the contacts of each kind: those of the same geometry and laws."""
+    same: dict[tuple[int, ...], list[int]] = {}
+    for number, contact in enumerate(contacts):
+        parts = contact.kinematics, contact.normal, contact.friction, contact.impact
+        same.setdefault(tuple(map(id, parts)), []).append(number)
+    return list(same.values())
 
 
 def _lay_states(memory: Memory, contacts: Sequence[Contact], rows: np.ndarray) -> None:
@@ -116,7 +121,8 @@ def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) ->
             rows[:, CATALOGUE.index(f"{name}_{side}")] = values
 
 
-def _lay_floats(memory: Memory, contacts: Sequence[Contact]) -> None:
+def lay_floats(memory: Memory, contacts: Sequence[Contact]) -> None:
+    """Lay what the catalogue holds of each contact in floats."""
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * len(contacts)).reshape(len(contacts), CATALOGUE_FLOATS)
     floats[:, 0] = [0.0 if contact.impact is None else contact.impact.contact_time for contact in contacts]
     floats[:, 1] = 1.0
@@ -133,9 +139,12 @@ def initial_state(contact: Contact) -> tuple[float, ...]:
     return law.initial_state if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
 
 
-def _kind(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]]) -> _Kind:
-    """Compile what a contact and all of its kind call, and pick the parameters."""
-    impact, made = contact.impact, _Kind()
+def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None = None) -> Kind:
+    """Compile what a contact and all of its kind call, and pick the parameters.
+
+    ``tried`` keeps which functions with tables were tried out; without it none of them is.
+    """
+    impact, made = contact.impact, Kind()
     functions: list[_Function] = [
         ("geometry", contact.kinematics.evaluator, "pair", contact.kinematics.parameters()),
         *_friction_functions(contact.friction),
@@ -153,8 +162,9 @@ def _kind(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]]) -> _Kin
         address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
         if form == "pair":
             kind = function, *map(id, tables.values())
-            if not tables or kind not in tried:
-                tried.add(kind)
+            if not tables or (tried is not None and kind not in tried):
+                if tried is not None:
+                    tried.add(kind)
                 whole = bind(function, form, available, owner)[1] if tables else values
                 try_out(function, form, available, whole, PAIR, owner)
         elif form == "traction":

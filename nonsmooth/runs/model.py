@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import threading
 import time
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import final
 
 from nonsmooth.errors import InvalidInput, RunFailed
@@ -14,6 +17,7 @@ from nonsmooth.model.copying import copied
 from nonsmooth.model.image import Guards, Image
 from nonsmooth.model.model import Model as LaidOut
 from nonsmooth.model.options import Options
+from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.loop import Progress, run_engine
 from nonsmooth.runs.outcome import reason, solution_of, state_of
@@ -73,11 +77,46 @@ class Model:
         return self._start
 
     def copy(self) -> Model:
-        """Return a model of its own for another thread; it reads the same tables of meshes."""
-        with self._runs:
+        """Return a model of its own for another thread; it reads the same tables of meshes.
+
+        Raises
+        ------
+        InvalidInput
+            If the model runs.
+        """
+        return Model(self._copied(), self._options, self._start, self._key)
+
+    def with_laws_of(self, system: System) -> Model:
+        """Return the model of a system that differs in its laws only, without assembling it.
+
+        Parameters
+        ----------
+        system : System
+            The same bodies, contacts, joints, loads and guards, with laws of the same kinds and other numbers, or that
+            need as many of them: :func:`nonsmooth.with_laws` makes one.  It starts where its bodies are placed.
+
+        Raises
+        ------
+        InvalidInput
+            If anything else differs, or the start is not valid, or the model runs.
+        """
+        made = Model(lay_laws(self._copied(), system), self._options, State.at(system))
+        check_start(made._laid)
+        return made
+
+    def _copied(self) -> LaidOut:
+        with self._alone("copy"):
             self._blank.put(self._laid.memory)
-            laid = LaidOut(self.system, copied(self._laid.memory), self._laid.n_q, self._laid.n_u, self._laid.n_states)
-        return Model(laid, self._options, self._start, self._key)
+            return replace(self._laid, memory=copied(self._laid.memory))
+
+    @contextlib.contextmanager
+    def _alone(self, what: str) -> Iterator[None]:
+        if not self._runs.acquire(blocking=False):
+            raise InvalidInput(f"Model.{what}", "must not be called while it runs", "running", "Make a copy before.")
+        try:
+            yield
+        finally:
+            self._runs.release()
 
     def run(
         self,
@@ -119,12 +158,8 @@ class Model:
         if state is not self._start and not self._left(state):
             check_state(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
-        if not self._runs.acquire(blocking=False):
-            raise InvalidInput("Model.run", "must not be called while it runs", "running", "Run model.copy().")
-        try:
+        with self._alone("run"):
             return self._run(t_end, state, interval, sample_interval is None, progress)
-        finally:
-            self._runs.release()
 
     def _left(self, state: State) -> bool:
         """Tell whether a run of this model left a state, which goes on then."""
