@@ -48,7 +48,7 @@ class Guards:
     Attributes
     ----------
     places : tuple of array
-        Where they stand in each part of an image.
+        Where they stand in the parts of an image that have floats.
     """
 
     places: tuple[Integers, ...]
@@ -56,11 +56,11 @@ class Guards:
     @classmethod
     def of(cls, blank: Image) -> Guards:
         """Find them in an image of a memory before any run."""
-        return cls(tuple(np.flatnonzero(part == _UNTOUCHED) for part in blank.parts))
+        return cls(tuple(np.flatnonzero(part == _UNTOUCHED) for part in blank.parts[1:3]))
 
     def hold(self, memory: Memory) -> bool:
         """Tell whether all of them are as they were."""
-        parts = memory.bits
+        parts = memory.bits[1:3]
         return all(bool((part[at] == _UNTOUCHED).all()) for part, at in zip(parts, self.places, strict=True))
 
 

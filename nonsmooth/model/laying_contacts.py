@@ -29,6 +29,8 @@ from nonsmooth.plugins.bounds import try_out
 from nonsmooth.plugins.compile import bind, parameter_names, parameter_place, vector_place
 from nonsmooth.system.contact import Contact
 
+COLUMN = {name: number for number, name in enumerate(CATALOGUE)}
+"""Where the entries of the catalogue stand in its rows."""
 _Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
 """Name in the catalogue, function, form, parameters that it may ask for."""
 
@@ -69,10 +71,12 @@ def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places
     for numbers in by_kind(contacts):
         kind = kind_of(memory, contacts[numbers[0]], tried)
         starts = heap.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
+        row, leads = np.zeros(len(CATALOGUE), np.int64), np.zeros(len(CATALOGUE), np.int64)
         for name, value in kind.fields.items():
-            rows[numbers, CATALOGUE.index(name)] = value
+            row[COLUMN[name]] = value
         for name, offset in kind.offsets.items():
-            rows[numbers, CATALOGUE.index(name)] = starts + offset
+            row[COLUMN[name]], leads[COLUMN[name]] = offset, 1
+        rows[numbers] = row + leads * starts[:, None]
         for place, start, table in kind.tables:
             for begin in starts.tolist():
                 heap.refer(begin + place, begin + start, table)
@@ -99,7 +103,7 @@ def _lay_states(memory: Memory, contacts: Sequence[Contact], rows: np.ndarray) -
     scales: list[float] = []
     for number, contact in enumerate(contacts):
         if isinstance(contact.friction, (TractionLaw, StatefulFrictionLaw)):
-            rows[number, CATALOGUE.index("state")] = len(scales)
+            rows[number, COLUMN["state"]] = len(scales)
             scales += contact.friction.state_scale
     n_y = int(memory.scalars["n_y"][0])
     memory.array("y_scale", n_y)[n_y - len(scales) :] = scales
@@ -118,7 +122,7 @@ def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) ->
             "linkage": [place.linkage for place in stand],
         }
         for name, values in columns.items():
-            rows[:, CATALOGUE.index(f"{name}_{side}")] = values
+            rows[:, COLUMN[f"{name}_{side}"]] = values
 
 
 def lay_floats(memory: Memory, contacts: Sequence[Contact]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.laying_contacts import by_kind, kind_of, lay_floats
+from nonsmooth.model.laying_contacts import COLUMN, by_kind, kind_of, lay_floats
 from nonsmooth.model.layout import CATALOGUE
 from nonsmooth.model.model import Model
 from nonsmooth.system.contact import Contact
@@ -30,10 +30,10 @@ def lay_laws(model: Model, system: System) -> Model:
         if (before.offsets, len(before.block)) != (after.offsets, len(after.block)):
             _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
         for name, value in after.fields.items():
-            rows[numbers, CATALOGUE.index(name)] = value
+            rows[numbers, COLUMN[name]] = value
         # behind what belongs to the geometry, whose tables stand somewhere
         first = min((at for name, at in after.offsets.items() if name not in _OF_GEOMETRY), default=len(after.block))
-        starts = rows[numbers, CATALOGUE.index("geometry_parameters")]
+        starts = rows[numbers, COLUMN["geometry_parameters"]]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
     lay_floats(memory, contacts)

@@ -10,7 +10,9 @@ from nonsmooth.model.image import Image
 from nonsmooth.model.layout import CATALOGUE, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
 from nonsmooth.model.model import Model
 
-_FUNCTIONS = "_function"
+_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
+_COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]
+_LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,), CATALOGUE)).encode()).digest()
 
 
 def digest(model: Model, blank: Image) -> str:
@@ -18,26 +20,22 @@ def digest(model: Model, blank: Image) -> str:
 
     ``blank`` is its image.  Models with one digest run alike, in whatever process.
     """
-    found = hashlib.blake2b(repr((SCALARS.names, tuple(FLOAT_ARRAYS), tuple(INTEGER_ARRAYS), CATALOGUE)).encode())
-    for kind in _kinds(model):
-        found.update(f"{kind.__module__}.{kind.__qualname__};".encode())
-    scalars, floats, blocks, integers = (part.copy() for part in blank.parts)
-    memory = model.memory
-    record = scalars.view(SCALARS)
-    # functions stand elsewhere in every process
+    scalars, floats, blocks, integers = blank.parts
+    scalars, blocks, integers = scalars.copy(), blocks.copy(), integers.copy()
+    memory, record = model.memory, scalars.view(SCALARS)
+    # functions stand elsewhere in every process, and so do the tables of copies
     record["impact_map"] = record["impact_map"] != 0
-    for name in INTEGER_ARRAYS:
-        if name.endswith(_FUNCTIONS) or name == "rooms":
-            start = int(record[name][0])
-            integers[start : start + _size(record, name)] = 0
+    for name in _FUNCTIONS:
+        start = int(record[name][0])
+        integers[start : start + _size(record, name)] = 0
     declared, width = int(record["n_declared"][0]), len(CATALOGUE)
     start = int(record["catalogue"][0])
-    rows = integers[start : start + width * declared].reshape(declared, width)
-    rows[:, [i for i, name in enumerate(CATALOGUE) if name.endswith(_FUNCTIONS)]] = 0
+    integers[start : start + width * declared].reshape(declared, width)[:, _COLUMNS] = 0
     for place, _, _ in memory.references:
         blocks[place - memory.blocks] = 0
+    found = hashlib.blake2b(_LAYOUT + _kinds(model))
     for part in (scalars, floats, blocks, integers, (memory.owner or memory).floats[memory.tables :]):
-        found.update(np.ascontiguousarray(part).data)
+        found.update(part.data)
     return found.hexdigest()
 
 
@@ -45,9 +43,12 @@ def _size(record: np.ndarray, name: str) -> int:
     return int(INTEGER_ARRAYS[name]({count: int(record[count][0]) for count in COUNTS}))
 
 
-def _kinds(model: Model) -> list[type]:
+def _kinds(model: Model) -> bytes:
+    """Return the names of the classes of all parts of a system, and which part is of which."""
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]
     for contact in system.contacts:
-        parts += [contact.kinematics, contact.normal, contact.friction, contact.impact]
-    return [type(part) for part in parts]
+        parts += (contact.kinematics, contact.normal, contact.friction, contact.impact)
+    known: dict[type, int] = {}
+    numbers = [known.setdefault(type(part), len(known)) for part in parts]
+    return repr([(kind.__module__, kind.__qualname__) for kind in known]).encode() + np.array(numbers).tobytes()

@@ -109,7 +109,9 @@ class State:
             Coordinates and velocities of all bodies, in the order of the system; by default as they were placed.
         """
         placed = system.starts()
-        n, n_states = len(system.contacts), sum(map(_n_states, (contact.friction for contact in system.contacts)))
+        laws = [contact.friction for contact in system.contacts]
+        states = {id(law): _n_states(law) for law in {id(law): law for law in laws}.values()}
+        n, n_states = len(laws), sum(states[id(law)] for law in laws)
         return cls(
             time,
             placed[0] if q is None else np.asarray(q, dtype=float),
