@@ -11,8 +11,10 @@ from nonsmooth.model.options import Options
 from nonsmooth.placing import at_height, resting, touching
 from nonsmooth.queries.distance import distance
 from nonsmooth.queries.proximity import proximity
-from nonsmooth.simulate import simulate
+from nonsmooth.runs.model import Model
+from nonsmooth.simulate import assemble, simulate
 from nonsmooth.solution.solution import Solution
+from nonsmooth.solution.state import State
 from nonsmooth.system.materials import ContactLaws, Materials
 from nonsmooth.system.replacing import with_laws
 from nonsmooth.system.system import System
@@ -24,6 +26,7 @@ __all__ = [
     "ImpactResult",
     "InvalidInput",
     "Materials",
+    "Model",
     "NoDistance",
     "NonsmoothError",
     "Options",
@@ -32,8 +35,10 @@ __all__ = [
     "RunsInPython",
     "Setup",
     "Solution",
+    "State",
     "System",
     "UnknownName",
+    "assemble",
     "at_height",
     "distance",
     "load_system",

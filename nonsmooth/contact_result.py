@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -137,7 +137,8 @@ class ContactResult:
         if n > _MOST_SEARCHED:
             return None
         small = _SAME * self._size
-        trial = Memory(*(part.copy() for part in (self._memory.scalars, self._memory.floats, self._memory.integers)))
+        whole = {name: getattr(self._memory, name).copy() for name in ("scalars", "floats", "integers")}
+        trial = replace(self._memory, **whole)
         trial.array("mode_past", n)[:] = -1
         number = 0
         while number := int(call_room("enumerate_modes", trial, number)):

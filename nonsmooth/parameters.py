@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeAlias, final, get_origin, get_type_hints
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -73,9 +74,17 @@ def parameter(default: Any = dataclasses.MISSING, *, doc: str, unit: str = "1", 
     return dataclasses.field(default=default, metadata={"rule": Rule(doc, unit, **rule)})
 
 
-def rules(owner: type) -> dict[str, tuple[dataclasses.Field[Any], Rule]]:
+Rules: TypeAlias = Mapping[str, tuple[dataclasses.Field[Any], Rule]]
+_known: WeakKeyDictionary[type, Rules] = WeakKeyDictionary()
+
+
+def rules(owner: type) -> Rules:
     """Return the declared parameters of a component class by name."""
-    return {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}
+    # asked for with every object that is made
+    if owner not in _known:
+        found = {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}
+        _known[owner] = MappingProxyType(found)
+    return _known[owner]
 
 
 def check_number(thing: str, value: Any, rule: Rule) -> None:

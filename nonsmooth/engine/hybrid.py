@@ -88,6 +88,15 @@ def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     return float(_FIRST_WAY * w[S.size + c] / max(speed, S.velocity_tolerance))
 
 
+@kernel("f8(S, I)")
+def _wanted_step(S: Scalars, k: Integers) -> float:
+    """Return how long the next step is if nothing cuts it short; it is never longer."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            return float(min(S.h_closed, S.h_max))
+    return float(min(S.h_free, S.h_max))
+
+
 @kernel("i8(S, F, I)")
 def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
@@ -97,13 +106,10 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             closed = 1
             if S.fresh == 0:
                 S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
-    wanted = min(S.h_closed if closed == 1 else S.h_free, S.h_max)
-    h = min(wanted, S.t_end - S.t, S.h_listed)
+    wanted = _wanted_step(S, k)
+    h = min(wanted, S.h_listed, S.h_sampled, S.h_valid)
     if S.fresh == 0:
         h = min(h, S.h_first)
-    if S.sample_interval > 0.0:
-        h = min(h, 0.5 * S.sample_capacity * S.sample_interval)
-    if S.fresh == 0:
         foresee(S, w, k, h)
     for _attempt in range(200):
         if S.stopped == 1:
@@ -167,8 +173,14 @@ def _drifted(S: Scalars, w: Floats, k: Integers) -> int:
 
 @kernel("void(S, F, I, f8)")
 def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> None:
-    """Take over the step of ``h``: samples, state, time, constraints."""
+    """Take over the step of ``h`` with its samples."""
     record_samples(S, w, k, h)
+    _take_over(S, w, k, h)
+
+
+@kernel("void(S, F, I, f8)")
+def _take_over(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+    """Take over the step of ``h``: state, time, constraints."""
     for i in range(S.n_y):
         w[S.y + i] = w[S.y_new + i]
     S.t += h
@@ -177,6 +189,39 @@ def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         project_joints(S, w, k)
     if _drifted(S, w, k) == 1:
         S.closing_loss += project_closed(S, w, k, 0)
+
+
+@kernel("i8(S, i8)")
+def _up_to_end(S: Scalars, status: int) -> int:
+    """Let a step that failed be tried once more, up to the end of the run: what lies behind need not have a value."""
+    if S.h_valid <= S.t_end - S.t:
+        return status
+    S.h_valid, S.fresh = S.t_end - S.t, 0
+    return RUNNING
+
+
+@kernel("i8(S, F, I)")
+def _arrived(S: Scalars, w: Floats, k: Integers) -> int:
+    """Look at the state at the end time; return the status."""
+    S.t = S.t_end
+    check_end(S, w, k)
+    return DONE if S.failed == RUNNING else int(S.failed)
+
+
+@kernel("i8(S, F, I)")
+def _end_within(S: Scalars, w: Floats, k: Integers) -> int:
+    """End the run within the step that leads past its end time, before any event of it; return the status.
+
+    The step was taken, and its event looked for, as if the run went on: where it ends then changes nothing of what
+    it does before.
+    """
+    h = S.t_end - S.t
+    record_samples(S, w, k, h)
+    S.h = h
+    if not try_step(S, w, k, h) < 1e300:
+        return NOT_FINITE
+    _take_over(S, w, k, h)
+    return _arrived(S, w, k)
 
 
 @kernel("i8(S, I, i8)")
@@ -290,14 +335,16 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
             S.fresh = 0
             return _settle_event(S, w, k, JAM, contact)
     if status != RUNNING:
-        return status
+        return _up_to_end(S, status)
     S.steps += 1
     h = S.h
     high = first_crossing(S, w, k, h)
     for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
         if not abs(w[S.guard_end + i]) < 1e300:
-            return NOT_FINITE
+            return _up_to_end(S, NOT_FINITE)
     if high == 0.0:
+        if h > S.t_end - S.t:
+            return _end_within(S, w, k)
         _commit(S, w, k, h)
         contact = _stopping(S, w, k)
         if contact < 0:
@@ -315,6 +362,8 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         else:
             S.h_free = 0.25 * S.h
         return RUNNING
+    if h > S.t_end - S.t:
+        return _end_within(S, w, k)
     ends = 2 * S.n_contacts + S.n_own_guards
     if S.trigger >= ends:
         contact = S.trigger - ends
@@ -376,25 +425,33 @@ def _break_direction(S: Scalars, w: Floats, k: Integers, contact: int) -> None:
         w[S.direction + 2 * contact + 1] = -t2 / norm
 
 
-@room("i8(S, F, I, i8)")
-def advance(S: Scalars, w: Floats, k: Integers, most_steps: int) -> int:
-    """Run until the end time, a failure, full buffers or ``most_steps``; return the status."""
+@room("i8(S, F, I, i8, i8)")
+def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> int:
+    """Run until the end time, a failure, full buffers or ``most_steps``; return the status.
+
+    A wary run (1) pauses before a step that may lead past the end time.
+    """
     if S.started == 0:
         S.started = 1
+        S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
         evaluate_bodies(S, w, k, S.t, S.y)
         status = settle(S, w, k, START, -1)
         if S.crowded == 1:
             return NO_SLOT
         if status != RUNNING:
             return status
+    if S.resumed == 1:
+        # what follows from modes and is long is not kept in a state
+        S.resumed = 0
+        group_closed(S, w, k)
     S.calls += 1
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
+        if wary == 1 and _wanted_step(S, k) > S.t_end - S.t:
+            return PAUSED
         if S.t_end - S.t <= S.time_tolerance:
-            S.t = S.t_end
-            check_end(S, w, k)
-            return DONE if S.failed == RUNNING else int(S.failed)
+            return _arrived(S, w, k)
         row = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * S.n_contacts
         floats_left, integers_left = S.event_floats - S.floats_used, S.event_integers - S.integers_used
         if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * S.n_contacts):

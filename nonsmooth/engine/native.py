@@ -189,8 +189,7 @@ def _callable(name: str) -> Callable[..., Any]:
 
 def call_room(name: str, memory: Memory, *arguments: float) -> Any:
     """Call a room from Python on the memory of one trajectory; the interpreter's lock is released."""
-    heaps = (memory.scalars, memory.floats, memory.integers)
-    return _callable(name)(*[heap.ctypes.data for heap in heaps], *arguments)
+    return _callable(name)(*memory.addresses, *arguments)
 
 
 @intrinsic

@@ -101,10 +101,14 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
             w[row + 3 * i + r] = w[S.event_impulse + 3 * c + r]
         k[codes + CODE_HEAD + 2 * i] = k[S.identity + c]
         k[codes + CODE_HEAD + 2 * i + 1] = k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
+    S.last_contact = contact
+    if S.told > 0:
+        # a run that is continued repeats what led to its state, and has told of it
+        S.told -= 1
+        return
     S.floats_used += width
     S.integers_used += CODE_HEAD + 2 * n
     S.n_events += 1
-    S.last_contact = contact
 
 
 @kernel()
@@ -130,4 +134,4 @@ def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), row + 1)
         S.n_samples += 1
         S.sample_index += 1
-        S.next_sample = S.sample_index * S.sample_interval
+        S.next_sample = S.sample_start + S.sample_index * S.sample_interval

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from nonsmooth.engine.kernel import room_addresses
 from nonsmooth.engine.modes import POLICIES
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
-from nonsmooth.model.checks import check_start
+from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import initial_state, lay_contacts
 from nonsmooth.model.layout import COUNTS, N_ACCOUNTS
@@ -48,6 +50,21 @@ def lay_out(system: System, options: Options) -> Model:
     InvalidInput
         If these are too many.
     """
+    model = lay(system, options)
+    model.memory.array("y", model.n_q + model.n_u)[:] = np.concatenate(system.starts())
+    model.list_contacts()
+    return model
+
+
+def lay(system: System, options: Options) -> Model:
+    """Lay out a system that stands nowhere yet.
+
+    Raises
+    ------
+    InvalidInput
+        If a guard has no value where the system was placed.
+    """
+    check_guards(system, 0.0, *system.starts())
     bodies, contacts = system.bodies, system.contacts
     n_q = sum(body.n_q for body in bodies)
     n_u = sum(body.n_u for body in bodies)
@@ -91,7 +108,6 @@ def lay_out(system: System, options: Options) -> Model:
     lay_guards(system, memory, heap)
     model = Model(system, heap.close(), n_q, n_u, n_states)
     _set_scalars(model, options)
-    model.list_contacts()
     return model
 
 
@@ -110,6 +126,8 @@ def _set_scalars(model: Model, options: Options) -> None:
         "h_max": step,
         "h_free": step,
         "h_closed": step,
+        "h_sampled": math.inf,
+        "h_valid": math.inf,
         "last_event_t": -math.inf,
         "chosen_t": -math.inf,
         "feature_t": -math.inf,

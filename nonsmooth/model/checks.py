@@ -1,4 +1,4 @@
-"""What must hold at the start: nothing overlaps, every joint is closed."""
+"""What must hold at the start: nothing overlaps, every joint is closed, every guard has a value."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.model import Model
 from nonsmooth.plugins.blocks import written_past
 from nonsmooth.solids.start import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
+from nonsmooth.system.system import System
 
 _OPEN = 1e-9
 
@@ -23,7 +26,7 @@ def check_start(model: Model) -> None:
     Raises
     ------
     InvalidInput
-        If bodies overlap, a shape has no farthest point, or a joint is open or opening.
+        If bodies overlap, a shape has no farthest point, a joint is open or opening, or a guard has no finite value.
     PluginError
         If a function writes past its block.
     """
@@ -44,6 +47,8 @@ def check_start(model: Model) -> None:
     # gaps tell of features that face each other, and bodies right through one another may have none
     check_overlaps(model)
     _check_joints(model)
+    t, y = float(model.memory.scalars["t"][0]), model.memory.array("y", model.n_q + model.n_u)
+    check_guards(model.system, t, y[: model.n_q], y[model.n_q :])
 
 
 def _ask_shapes(model: Model, number: int) -> None:
@@ -82,4 +87,23 @@ def _check_joint(model: Model, tie: Tie, number: int, linkage: int, allowed: flo
                 f"must have the {what} 0 [{unit}] in each of its rows",
                 values.tolist(),
                 "Place the bodies where the joint is closed; joints that contradict each other cannot all be.",
+            )
+
+
+def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:
+    """Look at the guards of a system at a time [s], for its coordinates and velocities.
+
+    Raises
+    ------
+    InvalidInput
+        If one has no finite value.
+    """
+    for guard in system.guards:
+        value = guard_value(guard, t, q, u)
+        if not isinstance(value, float) or not math.isfinite(value):
+            raise InvalidInput(
+                f"{type(guard).__name__}.value",
+                "must return a finite number at the start",
+                value,
+                f"Look at {guard.value.__qualname__} with t = {t:g} and the q and u of the start.",
             )

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Joint, Load
-from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.layout import FRAME, JOINT_ROW, LOAD
 from nonsmooth.model.linkages import Linkage
 from nonsmooth.model.memory import Heap, Memory
@@ -20,9 +17,10 @@ from nonsmooth.system.system import System
 
 @dataclass
 class Place:
-    """Where a body stands: its number, first velocity, frames on the heap, and its linkage."""
+    """Where a body stands: its number, velocities and the first of them, frames on the heap, and its linkage."""
 
     number: int
+    nu: int
     u: int
     frames: tuple[int, ...]
     linkage: int = -1
@@ -39,11 +37,10 @@ def _write(memory: Memory, kind: str, number: int, values: Mapping[str, float]) 
 
 
 def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
-    """Lay the bodies and their start; return where each stands, by its id."""
+    """Lay the bodies; return where each stands, by its id."""
     gravity = dict(zip(("gravity_x", "gravity_y", "gravity_z"), system.gravity, strict=True))
     n_q = sum(body.n_q for body in system.bodies)
-    n_y = int(memory.scalars["n_y"][0])
-    y, scale = memory.array("y", n_y), memory.array("y_scale", n_y)
+    scale = memory.array("y_scale", int(memory.scalars["n_y"][0]))
     places = {}
     i_q = i_u = 0
     for i, body in enumerate(system.bodies):
@@ -67,11 +64,10 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
             "quaternion": body.quaternion,
         }
         _write(memory, "body", i, fields)
-        places[id(body)] = Place(i, i_u, tuple(out + frame * f for f in range(len(body.frames))))
+        places[id(body)] = Place(i, body.n_u, i_u, tuple(out + frame * f for f in range(len(body.frames))))
         q_scale, u_scale = body.scales
-        y[i_q : i_q + body.n_q], scale[i_q : i_q + body.n_q] = q, q_scale
         first = n_q + i_u
-        y[first : first + body.n_u], scale[first : first + body.n_u] = u, u_scale
+        scale[i_q : i_q + body.n_q], scale[first : first + body.n_u] = q_scale, u_scale
         i_q, i_u = i_q + body.n_q, i_u + body.n_u
     return places
 
@@ -155,24 +151,8 @@ def lay_loads(system: System, memory: Memory, heap: Heap, places: Places) -> Non
 
 
 def lay_guards(system: System, memory: Memory, heap: Heap) -> None:
-    """Lay the guards of the scenario's own.
-
-    Raises
-    ------
-    InvalidInput
-        If a guard has no finite value at the start.
-    """
-    n_q, n_u = int(memory.scalars["n_q"][0]), int(memory.scalars["n_u"][0])
-    y = memory.array("y", n_q + n_u)
+    """Lay the guards of the scenario's own."""
     for number, guard in enumerate(system.guards):
-        value = guard_value(guard, 0.0, y[:n_q], y[n_q:])
-        if not isinstance(value, float) or not math.isfinite(value):
-            raise InvalidInput(
-                f"{type(guard).__name__}.value",
-                "must return a finite number at the start",
-                value,
-                f"Look at {guard.value.__qualname__} with t = 0 and the q and u of the start.",
-            )
         address, values = bind(guard.value, "guard", guard.parameters(), type(guard).__name__)
         fields = {"function": address, "parameters": heap.store(values), "ends": int(guard.ends_run)}
         _write(memory, "own_guard", number, fields)

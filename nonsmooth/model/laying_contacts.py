@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -21,32 +22,119 @@ from nonsmooth.interfaces import (
     TractionLaw,
 )
 from nonsmooth.model.laying import Places
-from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, FORCE_AND_MOMENT, N_ACCOUNTS, PAIR
-from nonsmooth.model.memory import Heap, Memory
+from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, FORCE_AND_MOMENT, PAIR
+from nonsmooth.model.memory import Heap, Memory, output_block
 from nonsmooth.parameters import Table, Value
 from nonsmooth.plugins.bounds import try_out
 from nonsmooth.plugins.compile import bind, parameter_names, parameter_place, vector_place
 from nonsmooth.system.contact import Contact
 
+COLUMN = {name: number for number, name in enumerate(CATALOGUE)}
+"""Where the entries of the catalogue stand in its rows."""
 _Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
 """Name in the catalogue, function, form, parameters that it may ask for."""
 
 
+@dataclass
+class Kind:
+    """What contacts of the same geometry and laws have in common.
+
+    Attributes
+    ----------
+    fields : dict
+        Entries of the catalogue.
+    offsets : dict
+        Those that lead to a place in the block, from its beginning.
+    block : list of float
+        What each of them has on the heap.
+    tables : list of tuple
+        (place in the block, place from which its number counts, table).
+    """
+
+    fields: dict[str, int] = field(default_factory=lambda: {"mode": OPEN})
+    offsets: dict[str, int] = field(default_factory=dict)
+    block: list[float] = field(default_factory=list)
+    tables: list[tuple[int, int, Table]] = field(default_factory=list)
+
+    def store(self, name: str, values: Sequence[float]) -> int:
+        """Append values, to which an entry leads; return where they begin."""
+        start = self.offsets[name] = len(self.block)
+        self.block += values
+        return start
+
+
 def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places: Places) -> None:
     """Lay the contacts, and reserve the Jacobians of the slots."""
+    n = len(contacts)
+    rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
     tried = set[tuple[Any, ...]]()
-    first_state, first = 0, int(memory.scalars["n_q"][0] + memory.scalars["n_u"][0]) + N_ACCOUNTS
-    for number, contact in enumerate(contacts):
-        _lay_contact(memory, heap, number, contact, places, first_state, tried)
-        scales = state_scale(contact)
-        n_y = int(memory.scalars["n_y"][0])
-        memory.array("y_scale", n_y)[first + first_state : first + first_state + len(scales)] = scales
-        first_state += len(scales)
+    for numbers in by_kind(contacts):
+        kind = kind_of(memory, contacts[numbers[0]], tried)
+        starts = heap.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
+        row, leads = np.zeros(len(CATALOGUE), np.int64), np.zeros(len(CATALOGUE), np.int64)
+        for name, value in kind.fields.items():
+            row[COLUMN[name]] = value
+        for name, offset in kind.offsets.items():
+            row[COLUMN[name]], leads[COLUMN[name]] = offset, 1
+        rows[numbers] = row + leads * starts[:, None]
+        for place, start, table in kind.tables:
+            for begin in starts.tolist():
+                heap.refer(begin + place, begin + start, table)
+    _lay_states(memory, contacts, rows)
+    _lay_sides(rows, contacts, places)
+    lay_floats(memory, contacts)
     widths = [places[id(body)].linkage_nu for contact in contacts for body in (contact.first, contact.second)]
-    widest = max(widths, default=0)
-    for slot in range(int(memory.scalars["n_slots"][0])):
-        for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
-            memory.array(name, slot + 1)[slot] = heap.block(3 * widest)
+    size, slots = 3 * max(widths, default=0), int(memory.scalars["n_slots"][0])
+    for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
+        memory.array(name, slots)[:] = heap.block(size * slots) + size * np.arange(slots)
+
+
+def by_kind(contacts: Sequence[Contact]) -> list[list[int]]:
+    """Return the numbers of the contacts of each kind: those of the same geometry and laws."""
+    same: dict[tuple[int, ...], list[int]] = {}
+    for number, contact in enumerate(contacts):
+        parts = contact.kinematics, contact.normal, contact.friction, contact.impact
+        same.setdefault(tuple(map(id, parts)), []).append(number)
+    return list(same.values())
+
+
+def _lay_states(memory: Memory, contacts: Sequence[Contact], rows: np.ndarray) -> None:
+    """Say where the inner states of each contact stand, and how large they usually are."""
+    scales: list[float] = []
+    for number, contact in enumerate(contacts):
+        if isinstance(contact.friction, (TractionLaw, StatefulFrictionLaw)):
+            rows[number, COLUMN["state"]] = len(scales)
+            scales += contact.friction.state_scale
+    n_y = int(memory.scalars["n_y"][0])
+    memory.array("y_scale", n_y)[n_y - len(scales) :] = scales
+
+
+def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) -> None:
+    for side, which in (("a", 0), ("b", 1)):
+        bodies = [(contact.first, contact.second)[which] for contact in contacts]
+        stand = [places[id(body)] for body in bodies]
+        frames = [contact.frames[which] for contact in contacts]
+        columns = {
+            "body": [place.number for place in stand],
+            "frame": [place.frames[frame] for place, frame in zip(stand, frames, strict=True)],
+            "nu": [place.nu for place in stand],
+            "shift": [place.shift for place in stand],
+            "linkage": [place.linkage for place in stand],
+        }
+        for name, values in columns.items():
+            rows[:, COLUMN[f"{name}_{side}"]] = values
+
+
+def lay_floats(memory: Memory, contacts: Sequence[Contact]) -> None:
+    """Lay what the catalogue holds of each contact in floats."""
+    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * len(contacts)).reshape(len(contacts), CATALOGUE_FLOATS)
+    floats[:, 0] = [0.0 if contact.impact is None else contact.impact.contact_time for contact in contacts]
+    floats[:, 1] = 1.0
+    floats[:, 3] = [
+        contact.normal.reach if isinstance(contact.normal, CompliantNormalLaw) else 0.0 for contact in contacts
+    ]
+    floats[:, 5:7] = np.reshape([contact.levers for contact in contacts], (len(contacts), 2))
+    floats[:, 7] = [contact.size for contact in contacts]
 
 
 def initial_state(contact: Contact) -> tuple[float, ...]:
@@ -55,43 +143,32 @@ def initial_state(contact: Contact) -> tuple[float, ...]:
     return law.initial_state if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
 
 
-def state_scale(contact: Contact) -> tuple[float, ...]:
-    """Return the usual sizes of the inner states of the friction of a contact."""
-    law = contact.friction
-    return law.state_scale if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
+def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None = None) -> Kind:
+    """Compile what a contact and all of its kind call, and pick the parameters.
 
-
-def _lay_contact(
-    memory: Memory,
-    heap: Heap,
-    number: int,
-    contact: Contact,
-    places: Places,
-    first_state: int,
-    tried: set[tuple[Any, ...]],
-) -> None:
-    impact, reach = contact.impact, 0.0
+    ``tried`` keeps which functions with tables were tried out; without it none of them is.
+    """
+    impact, made = contact.impact, Kind()
     functions: list[_Function] = [
         ("geometry", contact.kinematics.evaluator, "pair", contact.kinematics.parameters()),
         *_friction_functions(contact.friction),
     ]
     if isinstance(contact.normal, CompliantNormalLaw):
         functions.append(("normal", contact.normal.force, "compliance", contact.normal.parameters()))
-        reach = contact.normal.reach
     if isinstance(impact, ImpactProcess):
         functions.append(("force", impact.force, "scalar", impact.parameters()))
         functions.append(("efficiency", impact.efficiency, "scalar", impact.parameters()))
     owners = {"geometry": contact.kinematics, "normal": contact.normal, "force": impact, "efficiency": impact}
     start = initial_state(contact)
-    fields: dict[str, int] = {"mode": OPEN}
     for name, function, form, available in functions:
         owner = f"{type(owners.get(name, contact.friction)).__name__} ({contact.name})"
         tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
         address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
         if form == "pair":
             kind = function, *map(id, tables.values())
-            if not tables or kind not in tried:
-                tried.add(kind)
+            if not tables or (tried is not None and kind not in tried):
+                if tried is not None:
+                    tried.add(kind)
                 whole = bind(function, form, available, owner)[1] if tables else values
                 try_out(function, form, available, whole, PAIR, owner)
         elif form == "traction":
@@ -99,30 +176,25 @@ def _lay_contact(
             try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, given)
         elif form == "rates":
             try_out(function, form, available, values, len(start), owner, (0.1, (), start))
-        at_tables = {parameter_place(function, form, name): table for name, table in tables.items()}
-        fields |= {f"{name}_function": address, f"{name}_parameters": heap.store_with_tables(values, at_tables)}
+        made.fields[f"{name}_function"] = address
+        at = made.store(f"{name}_parameters", values)
+        made.tables += [(at + parameter_place(function, form, n), at, table) for n, table in tables.items()]
         if name == "geometry" and contact.kinematics.candidates is not None:
-            fields["candidate"] = fields["geometry_parameters"] + vector_place(function, form, values, "candidate")
+            made.offsets["candidate"] = at + vector_place(function, form, values, "candidate")
         if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
-            fields["state_copy"] = fields["friction_parameters"] + _place_of_state(contact.friction, values)
+            made.offsets["state_copy"] = at + _place_of_state(contact.friction, values)
     if start or isinstance(contact.friction, TractionLaw):
-        fields |= {"state": first_state, "n_state": len(start), "state_start": heap.store(start)}
-        fields |= {"traction_out": heap.output(FORCE_AND_MOMENT + len(start)), "rates_out": heap.output(len(start))}
+        made.fields["n_state"] = len(start)
+        made.store("state_start", start)
+        made.store("traction_out", output_block(FORCE_AND_MOMENT + len(start)))
+        made.store("rates_out", output_block(len(start)))
     if isinstance(contact.friction, AnisotropicFrictionLaw):
         law, on_second = contact.friction, float(contact.friction.body == "second")
-        axis = np.divide(law.axis, math.hypot(*law.axis))
-        fields |= {"oriented": 1, "axis": heap.store((on_second, *axis, *law.ratios))}
-    for side, body, frame in (("a", contact.first, contact.frames[0]), ("b", contact.second, contact.frames[1])):
-        place = places[id(body)]
-        fields |= {f"body_{side}": place.number, f"frame_{side}": place.frames[frame], f"nu_{side}": body.n_u}
-        fields |= {f"shift_{side}": place.shift, f"linkage_{side}": place.linkage}
+        made.fields["oriented"] = 1
+        made.store("axis", (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios))
     if isinstance(impact, ImpactMap):
-        fields["map_parameters"] = _lay_map(memory, heap, impact)
-    row = memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
-    for name, value in fields.items():
-        row[CATALOGUE.index(name)] = value
-    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * (number + 1))[CATALOGUE_FLOATS * number :]
-    floats[:] = 0.0 if impact is None else impact.contact_time, 1.0, 0.0, reach, 0.0, *contact.levers, contact.size
+        made.store("map_parameters", _map_values(memory, impact))
+    return made
 
 
 def _friction_functions(law: TangentialLaw) -> list[_Function]:
@@ -147,7 +219,8 @@ def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
     return vector_place(law.coefficient, "scalar", values, "state")
 
 
-def _lay_map(memory: Memory, heap: Heap, impact: ImpactMap) -> int:
+def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
+    """Compile a law that maps velocities; return its parameters."""
     names = parameter_names(impact.impulses, "map")
     if names[:1] != ("friction",):
         raise InvalidInput(
@@ -161,4 +234,4 @@ def _lay_map(memory: Memory, heap: Heap, impact: ImpactMap) -> int:
     single = 1, tuple(2.0 * np.eye(3).ravel()), (-1.0, 0.2, 0.1)
     try_out(impact.impulses, "map", offered, values, 3, type(impact).__name__, single)
     memory.scalars["impact_map"] = address
-    return heap.store(values[1:])
+    return values[1:]

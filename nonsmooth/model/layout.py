@@ -375,7 +375,6 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "own_guard_parameters": _per(1, "n_own_guards"),
     "own_guard_ends": _per(1, "n_own_guards"),
     "own_guard_spent": _per(1, "n_own_guards"),
-    "event_codes": _per(1, "event_integers"),
     "identity": _per(1, "n_slots"),
     "doubtful": _per(1, "n_slots"),
     "astray": _per(1, "n_slots"),
@@ -410,6 +409,8 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "pool_contacts": _per(1, "n_pools"),
     "pool_unit_a": _per(1, "n_pools"),
     "pool_unit_b": _per(1, "n_pools"),
+    # what no step reads of those before: that of the table of floats begins with ``events``
+    "event_codes": _per(1, "event_integers"),
     "block_column": _blocks,
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+from array import array
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -26,44 +28,59 @@ class Heap:
 
     def __init__(self, memory: Memory) -> None:
         self._memory = memory
-        self._blocks: list[np.ndarray] = []
-        self._next = len(memory.floats)
-        self._references: list[tuple[np.ndarray, int, int, Table]] = []
+        self._first = len(memory.floats)
+        self._values = array("d")
+        self._references: list[tuple[int, int, Table]] = []
 
     def block(self, size: int) -> int:
         """Reserve floats; return their offset."""
-        return self.store(np.zeros(size))
+        start = self._first + len(self._values)
+        self._values.frombytes(bytes(self._values.itemsize * size))
+        return start
 
     def store(self, values: Sequence[float] | np.ndarray) -> int:
         """Append values; return their offset."""
-        start = self._next
-        self._blocks.append(np.asarray(values, dtype=float))
-        self._next += len(values)
+        start = self._first + len(self._values)
+        self._values.extend(values)
         return start
 
-    def store_with_tables(self, values: Sequence[float], tables: Mapping[int, Table]) -> int:
-        """Append values, of which some say how far behind their beginning a table lies; return their offset."""
-        start = self.store(values)
-        self._references += [(self._blocks[-1], place, start, table) for place, table in tables.items()]
+    def repeat(self, values: Sequence[float], times: int) -> int:
+        """Append the same values so many times; return the offset of the first."""
+        start = self._first + len(self._values)
+        self._values.extend(times * array("d", values))
         return start
+
+    def refer(self, place: int, start: int, table: Table) -> None:
+        """Let the number at an offset say how far behind the offset ``start`` a table lies."""
+        self._references.append((place, start, table))
 
     def output(self, size: int) -> int:
         """Reserve floats that a plug-in writes, and guards behind them; return their offset."""
-        return self.store(np.append(np.zeros(size), np.full(GUARD, UNTOUCHED)))
+        return self.store(output_block(size))
 
     def close(self) -> Memory:
         """Return the memory with all blocks in it, and behind them every table once."""
-        old, places = self._memory, dict[int, int]()
-        for block, place, start, table in self._references:
-            if id(table) not in places:
-                places[id(table)] = self.store(table.numbers)
-            block[place] = places[id(table)] - start
-        floats = np.zeros(self._next + 1)
-        written = int(old.scalars[0]["delassus"])
+        old, tables = self._memory, {id(table): table for _, _, table in self._references}
+        first, places = self._first + len(self._values), dict[int, int]()
+        end = first
+        for key, table in tables.items():
+            places[key] = end
+            end += len(table)
+        floats = np.zeros(end + 1)
+        written = int(old.scalars[0]["events"])
         floats[:written] = old.floats[:written]
-        if self._blocks:
-            np.concatenate(self._blocks, out=floats[len(old.floats) : -1])
-        return Memory(old.scalars, floats, old.integers)
+        floats[self._first : first] = self._values
+        for key, table in tables.items():
+            floats[places[key] : places[key] + len(table)] = table.numbers
+        references = tuple((place, start, places[id(table)]) for place, start, table in self._references)
+        for place, start, at in references:
+            floats[place] = at - start
+        return Memory(old.scalars, floats, old.integers, self._first, first, references)
+
+
+def output_block(size: int) -> list[float]:
+    """Return what stands in a block that a plug-in writes before it does, guards included."""
+    return size * [0.0] + GUARD * [UNTOUCHED]
 
 
 @dataclass(frozen=True)
@@ -78,17 +95,44 @@ class Memory:
         The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
     integers : numpy.ndarray
         The heap ``k``.
+    blocks, tables : int
+        Where in ``floats`` the blocks that the assembly appended begin, and the tables behind them.
+    references : tuple
+        (place of a number, the place from which that number counts, place of the table that it leads to), for every
+        table that a function reads.
+    owner : Memory or None
+        Whose tables it reads, if it has none of its own.
     """
 
     scalars: np.ndarray
     floats: np.ndarray
     integers: np.ndarray
+    blocks: int
+    tables: int
+    references: tuple[tuple[int, int, int], ...] = ()
+    owner: Memory | None = None
 
     def array(self, name: str, size: int) -> np.ndarray:
         """Return a view of ``size`` entries of the named array."""
         heap = self.floats if name in FLOAT_ARRAYS else self.integers
         start = int(self.scalars[name][0])
         return heap[start : start + size]
+
+    @functools.cached_property
+    def addresses(self) -> tuple[int, int, int]:
+        """Where scalars and heaps stand, for calls of the engine."""
+        return self.scalars.ctypes.data, self.floats.ctypes.data, self.integers.ctypes.data
+
+    @functools.cached_property
+    def kept(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Views of what a step may find of those before it: neither output nor scratch that it writes itself."""
+        events, codes = (int(self.scalars[name][0]) for name in ("events", "event_codes"))
+        return self.floats[:events], self.floats[self.blocks : self.tables], self.integers[:codes]
+
+    @functools.cached_property
+    def bits(self) -> tuple[np.ndarray, ...]:
+        """Views of the scalars and of :attr:`kept` as integers: a number that is not finite differs from itself."""
+        return tuple(part.view(np.int64) for part in (self.scalars, *self.kept))
 
 
 def allocate(counts: Mapping[str, int]) -> Memory:
@@ -103,7 +147,7 @@ def allocate(counts: Mapping[str, int]) -> Memory:
         totals.append(total)
     values.update(counts)
     scalars = np.array([tuple(values.values())], SCALARS)
-    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64))
+    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64), totals[0], totals[0])
     n = counts["n_slots"]
     memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
     memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)

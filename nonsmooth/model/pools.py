@@ -83,9 +83,12 @@ def lay_pools(memory: Memory, heap: Heap, pools: Sequence[Pool], units: Mapping[
         places = {parameter_place(function, "pair", name): table for name, table in tables.items()}
         whole = bind(function, "pair", values, pool.owner)[1] if tables else numbers
         try_out(function, "pair", values, whole, pool.size, pool.owner)
+        start = heap.store(numbers)
+        for place, table in places.items():
+            heap.refer(start + place, start, table)
         row = {
             "function": address,
-            "parameters": heap.store_with_tables(numbers, places),
+            "parameters": start,
             "out": heap.output(pool.size),
             "first": pool.contacts.start,
             "contacts": len(pool.contacts),

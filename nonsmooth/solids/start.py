@@ -76,7 +76,8 @@ def solid_pairs(
     pairs: dict[tuple[int, ...], list[int]] = {}
     for number in numbers:
         contact = model.system.contacts[number]
-        pairs.setdefault(tuple(map(id, (contact.first, contact.second, *contact.shapes))), []).append(number)
+        key = (*map(id, (contact.first, contact.second, *contact.shapes)), *contact.frames)
+        pairs.setdefault(key, []).append(number)
     for same in pairs.values():
         contact, frames = model.system.contacts[same[0]], frames_of(model, same[0])
         apart = float(np.linalg.norm(frames[0][:3] - frames[1][:3]))

@@ -73,8 +73,9 @@ class Events:
         """Cut the engine's buffers into columns."""
         heads, places, starts = [], [], []
         i = f = 0
-        while i < len(integers):
-            n = int(integers[i + CODE_HEAD - 1])
+        numbers = integers.tolist()
+        while i < len(numbers):
+            n = numbers[i + CODE_HEAD - 1]
             heads.append(i)
             starts.append(f)
             places.append(n)

@@ -13,6 +13,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
 from nonsmooth.solution.graph import TransitionGraph, transition_graph
+from nonsmooth.solution.state import State
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
@@ -69,6 +70,8 @@ class Solution:
         tolerance explains, as an energy account that is open.
     message : str
         Why it stopped, and what is suspect.
+    state : State
+        Where the run ended, from which it can go on.
     """
 
     system: System
@@ -83,6 +86,7 @@ class Solution:
     u_end: NDArray[np.float64]
     status: str
     message: str
+    state: State
 
     @property
     def modes(self) -> dict[str, float]:

@@ -66,7 +66,8 @@ def long_quaternion(bodies: Sequence[Body], t: NDArray[np.float64], q: NDArray[n
     for body in bodies:
         if body.quaternion >= 0 and len(t) > 0:
             start = first + body.quaternion
-            off = np.abs(np.linalg.norm(q[:, start : start + 4], axis=1) - 1.0)
+            four = q[:, start : start + 4]
+            off = np.abs(np.sqrt(np.einsum("ij,ij->i", four, four)) - 1.0)
             worst = int(np.argmax(off))
             if off[worst] > most:
                 most = float(off[worst])

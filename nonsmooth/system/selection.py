@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
+
+Frames: TypeAlias = tuple[tuple[Shape, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -32,15 +34,17 @@ class Side:
     shape: Shape
 
 
-def select(where: str, bodies: tuple[Body, Body], shapes: Any) -> tuple[list[Side], list[Side]]:
-    """Return the shapes chosen of either body, in the order of its frames.
+def select(
+    where: str, bodies: tuple[Body, Body], shapes: Any, carried: Callable[[Body], Frames]
+) -> tuple[list[Side], list[Side]]:
+    """Return the shapes chosen of either body, in the order of its frames; ``carried`` gives those of each frame.
 
     Raises
     ------
     InvalidInput
         If a body carries no shapes, or the choice is not, for either body, None or numbers of its shapes, each once.
     """
-    sides = tuple(_carried(where, body) for body in bodies)
+    sides = tuple(_carried(where, body, carried(body)) for body in bodies)
     if not isinstance(shapes, (tuple, list)) or len(shapes) != 2:
         raise InvalidInput(
             f"{where}: shapes", "must be a pair, one entry for either body", shapes, "For example ((0, 1), None)."
@@ -48,8 +52,8 @@ def select(where: str, bodies: tuple[Body, Body], shapes: Any) -> tuple[list[Sid
     return _chosen(where, sides[0], shapes[0]), _chosen(where, sides[1], shapes[1])
 
 
-def _carried(where: str, body: Body) -> list[Side]:
-    pairs = [(frame, shape) for frame, shapes in enumerate(body.frames) for shape in shapes]
+def _carried(where: str, body: Body, frames: Frames) -> list[Side]:
+    pairs = [(frame, shape) for frame, shapes in enumerate(frames) for shape in shapes]
     if not pairs:
         raise InvalidInput(where, "needs bodies that carry shapes", body, "Without a shape nothing can touch it.")
     return [Side(body, frame, number, shape) for number, (frame, shape) in enumerate(pairs)]

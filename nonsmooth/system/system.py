@@ -23,10 +23,9 @@ from nonsmooth.interfaces import (
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
-from nonsmooth.plugins import registry
 from nonsmooth.system.contact import Contact, Declaration, Tie
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws
-from nonsmooth.system.pairing import nearest_pair
+from nonsmooth.system.pairing import Geometries
 from nonsmooth.system.selection import Side, select
 from nonsmooth.system.sharing import check_sharing
 
@@ -79,10 +78,11 @@ class System:
     def _count_bodies(self) -> None:
         # bodies are told apart as objects, however equal they are: copies have identities of their own
         self._numbers = {id(body): number for number, body in enumerate(self._bodies)}
+        self._geometries = Geometries()
 
     def __getstate__(self) -> dict[str, Any]:
         """Return what a copy starts from: lists of its own, that it may be changed apart from this system."""
-        kept = {name: value for name, value in vars(self).items() if name != "_numbers"}
+        kept = {name: value for name, value in vars(self).items() if name not in ("_numbers", "_geometries")}
         return {name: value.copy() if isinstance(value, (list, set)) else value for name, value in kept.items()}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:
@@ -195,6 +195,10 @@ class System:
         self._require(body, "System.start")
         return self._starts[self._numbers[id(body)]]
 
+    def starts(self) -> tuple[Vector, Vector]:
+        """Return q and u of all bodies at t = 0, in the order of the bodies."""
+        return np.concatenate([q for q, _ in self._starts]), np.concatenate([u for _, u in self._starts])
+
     def place(self, body: Body, **start: Any) -> None:
         """Say where a body starts; the words are those of its ``state``."""
         self._require(body, "System.place")
@@ -268,7 +272,7 @@ class System:
             raise InvalidInput(
                 "System.contact", "needs two different bodies", type(first).__name__, "Name the other body."
             )
-        sides = select("System.contact", (first, second), shapes)
+        sides = select("System.contact", (first, second), shapes, self._geometries.shapes)
         pairs = {frozenset((self._key(one), self._key(other))) for one, other in itertools.product(*sides)}
         if pairs & self._paired:
             raise InvalidInput(
@@ -388,36 +392,16 @@ class System:
         friction: TangentialLaw,
         impact: ImpactLaw | None,
     ) -> list[Contact]:
-        known = registry.load_all("kinematics").values()
         number = len(self._contacts) + n_added + 1
-        found = nearest_pair(known, first.shape, second.shape)
-        if found is not None:
-            kinematics, in_order = found
-            one, two = (first, second) if in_order else (second, first)
-            names = type(one.body).__name__, type(two.body).__name__
-            return [
-                Contact(
-                    f"contact of {names[0]} and {names[1]} (from number {number})",
-                    one.body,
-                    two.body,
-                    (one.frame, two.frame),
-                    (one.shape, two.shape),
-                    geometry,
-                    (one.shape.extent, two.shape.extent),
-                    (one.shape.lever, two.shape.lever),
-                    normal,
-                    friction,
-                    impact,
-                )
-                for geometry in kinematics.between(one.shape, two.shape)
-            ]
-        pairs = sorted(f"{k.pair[0].__name__}-{k.pair[1].__name__}" for k in known)
-        raise InvalidInput(
-            "System.contact",
-            "needs shapes whose contact kinematics is known",
-            f"{type(first.shape).__name__}-{type(second.shape).__name__}",
-            " ".join(filter(None, (first.shape.advice, second.shape.advice, f"Known pairs: {', '.join(pairs)}."))),
-        )
+        geometries, in_order = self._geometries.between(first.shape, second.shape)
+        one, two = (first, second) if in_order else (second, first)
+        name = f"contact of {type(one.body).__name__} and {type(two.body).__name__} (from number {number})"
+        bodies, frames, shapes = (one.body, two.body), (one.frame, two.frame), (one.shape, two.shape)
+        extents, levers = (one.shape.extent, two.shape.extent), (one.shape.lever, two.shape.lever)
+        return [
+            Contact(name, *bodies, frames, shapes, geometry, extents, levers, normal, friction, impact)
+            for geometry in geometries
+        ]
 
     def _require(self, body: Body, where: str) -> None:
         if id(body) not in self._numbers:

@@ -24,6 +24,7 @@ from tests.engine.plain_cases import CASES
 NOT_ENTERED = {
     "contact_search": {"_accept_raw", "_rubs"},
     "contact_spread": {"_add_disc_curve", "_disc_excess"},
+    "hybrid": {"_up_to_end"},
     "impact_clock": {"_restore_phases"},
     "impact_end": {"cut_short", "faded"},
     "location": {"_advance", "_behind_jump", "_sampled", "_soonest"},

@@ -147,7 +147,7 @@ def test_contacts_that_nearly_repeat_each_other_move_nothing_far(angle: float) -
     system.contact(tilted, ball, **LAWS)
     system.place(ball, position=(RADIUS * np.tan(0.5 * angle), 0.0, RADIUS))
     memory = assemble(system, Options()).memory
-    call_room("advance", memory, 0)
+    call_room("advance", memory, 0, 0)
     memory.array("mode", 2)[:] = 2
     y = memory.array("y", 7)
     y[2] -= 1e-12

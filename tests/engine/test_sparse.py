@@ -44,7 +44,7 @@ def _row(n: int, order: Any, plate: bool) -> System:
 
 def _started(system: System) -> Memory:
     memory = assemble(system, Options()).memory
-    call_room("advance", memory, 0)
+    call_room("advance", memory, 0, 0)
     return memory
 
 
@@ -197,7 +197,7 @@ def test_too_many_blocks_end_the_run() -> None:
     """Without room for the blocks of an island the run ends with that reason, and nothing is written beyond them."""
     memory = assemble(_row(6, np.arange(6), False), Options()).memory
     memory.scalars["n_slots"] = 2
-    assert call_room("advance", memory, 0) == NO_SLOT
+    assert call_room("advance", memory, 0, 0) == NO_SLOT
     assert memory.array("block_start", 6).tolist() == [0, 1, 2, 3, 4, 5]
 
 

@@ -1,0 +1,97 @@
+"""What a memory holds between two steps: taken, put back, and kept as what differs from the memory before a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.model.layout import CATALOGUE, UNTOUCHED
+from nonsmooth.model.memory import Memory
+
+Integers = NDArray[np.int64]
+_WIDTH = len(CATALOGUE)
+_UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
+
+
+@final
+@dataclass(frozen=True)
+class Image:
+    """The scalars of a memory and its parts that a step may find of those before it.
+
+    Attributes
+    ----------
+    parts : tuple of array
+        Copies of the scalars and of :attr:`nonsmooth.model.memory.Memory.kept`, as integers of the same bits.
+    """
+
+    parts: tuple[Integers, ...]
+
+    @classmethod
+    def of(cls, memory: Memory) -> Image:
+        """Take the image of a memory."""
+        return cls(tuple(part.copy() for part in memory.bits))
+
+    def put(self, memory: Memory) -> None:
+        """Give a memory of the same system this content."""
+        for own, kept in zip(memory.bits, self.parts, strict=True):
+            own[:] = kept
+
+
+@final
+@dataclass(frozen=True)
+class Guards:
+    """The numbers behind blocks that plug-ins write, which nobody may change.
+
+    Attributes
+    ----------
+    places : tuple of array
+        Where they stand in the parts of an image that have floats.
+    """
+
+    places: tuple[Integers, ...]
+
+    @classmethod
+    def of(cls, blank: Image) -> Guards:
+        """Find them in an image of a memory before any run."""
+        return cls(tuple(np.flatnonzero(part == _UNTOUCHED) for part in blank.parts[1:3]))
+
+    def hold(self, memory: Memory) -> bool:
+        """Tell whether all of them are as they were."""
+        parts = memory.bits[1:3]
+        return all(bool((part[at] == _UNTOUCHED).all()) for part, at in zip(parts, self.places, strict=True))
+
+
+@final
+@dataclass(frozen=True)
+class Difference:
+    """What an image has that another one has not.
+
+    Attributes
+    ----------
+    places, bits : tuple of array
+        Where they differ, and what stands there, one array for every part.
+    """
+
+    places: tuple[Integers, ...]
+    bits: tuple[Integers, ...]
+
+    @classmethod
+    def between(cls, blank: Image, image: Image) -> Difference:
+        """Return what ``image`` has that ``blank`` has not."""
+        places = tuple(np.flatnonzero(new != old) for old, new in zip(blank.parts, image.parts, strict=True))
+        return cls(places, tuple(part[at] for part, at in zip(image.parts, places, strict=True)))
+
+    def put(self, memory: Memory) -> None:
+        """Give a memory that holds the blank image what differs from it, which may come from another process."""
+        for own, places, bits in zip(memory.bits, self.places, self.bits, strict=True):
+            own[places] = bits
+        # functions stand elsewhere in every process: slots take them from the catalogue of this one
+        record = memory.scalars[0]
+        n, slots, declared = int(record["n_contacts"]), int(record["n_slots"]), int(record["n_declared"])
+        catalogue = memory.array("catalogue", _WIDTH * declared).reshape(declared, _WIDTH)
+        # the arrays of the catalogue's entries follow one another, and the mode, which is last, is each slot's own
+        own = memory.array(CATALOGUE[0], _WIDTH * slots).reshape(_WIDTH, slots)
+        own[:-1, :n] = catalogue[memory.array("identity", n), :-1].T

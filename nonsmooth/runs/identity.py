@@ -1,0 +1,54 @@
+"""What tells models apart: whether a run of one may be continued by another, in another process too."""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+
+from nonsmooth.model.image import Image
+from nonsmooth.model.layout import CATALOGUE, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
+from nonsmooth.model.model import Model
+
+_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
+_COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]
+_LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,), CATALOGUE)).encode()).digest()
+
+
+def digest(model: Model, blank: Image) -> str:
+    """Return a digest of all numbers of a model that stands nowhere yet, and of the kinds of its parts.
+
+    ``blank`` is its image.  Models with one digest run alike, in whatever process.
+    """
+    scalars, floats, blocks, integers = blank.parts
+    scalars, blocks, integers = scalars.copy(), blocks.copy(), integers.copy()
+    memory, record = model.memory, scalars.view(SCALARS)
+    # functions stand elsewhere in every process, and so do the tables of copies
+    record["impact_map"] = record["impact_map"] != 0
+    for name in _FUNCTIONS:
+        start = int(record[name][0])
+        integers[start : start + _size(record, name)] = 0
+    declared, width = int(record["n_declared"][0]), len(CATALOGUE)
+    start = int(record["catalogue"][0])
+    integers[start : start + width * declared].reshape(declared, width)[:, _COLUMNS] = 0
+    for place, _, _ in memory.references:
+        blocks[place - memory.blocks] = 0
+    found = hashlib.blake2b(_LAYOUT + _kinds(model))
+    for part in (scalars, floats, blocks, integers, (memory.owner or memory).floats[memory.tables :]):
+        found.update(part.data)
+    return found.hexdigest()
+
+
+def _size(record: np.ndarray, name: str) -> int:
+    return int(INTEGER_ARRAYS[name]({count: int(record[count][0]) for count in COUNTS}))
+
+
+def _kinds(model: Model) -> bytes:
+    """Return the names of the classes of all parts of a system, and which part is of which."""
+    system = model.system
+    parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]
+    for contact in system.contacts:
+        parts += (contact.kinematics, contact.normal, contact.friction, contact.impact)
+    known: dict[type, int] = {}
+    numbers = [known.setdefault(type(part), len(known)) for part in parts]
+    return repr([(kind.__module__, kind.__qualname__) for kind in known]).encode() + np.array(numbers).tobytes()

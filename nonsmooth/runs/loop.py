@@ -1,0 +1,72 @@
+"""The loop that feeds the engine, empties its buffers and reports progress."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+from nonsmooth.engine.modes import PAUSED, STOPPED
+from nonsmooth.model.image import Image
+from nonsmooth.model.model import Model
+from nonsmooth.runs.records import Records
+from nonsmooth.watch import Watch
+
+_STEPS_AT_ONCE = 2000
+_STEPS_NEAR_END = 16
+"""So many steps at most a run that goes on repeats; an image takes less time than they do."""
+Progress = Callable[[float, float], None]
+
+
+@final
+@dataclass(frozen=True)
+class Ending:
+    """How the engine ended.
+
+    Attributes
+    ----------
+    status : int
+        Its status.
+    interrupted : bool
+        Whether that was asked for.
+    image : Image
+        What its memory held at last where nothing yet said when the run would end.
+    told : int
+        Events from there on.
+    """
+
+    status: int
+    interrupted: bool
+    image: Image
+    told: int
+
+
+def run_engine(model: Model, records: Records, progress: Progress | None) -> Ending:
+    """Run to the end time, to a failure, or until somebody interrupts.
+
+    Raises
+    ------
+    BaseException
+        Whatever ``progress`` raises.
+    """
+    memory = model.memory
+    t_end = float(memory.scalars["t_end"][0])
+    report = None if progress is None else lambda t: progress(t, t_end)
+    status, interrupted = PAUSED, False
+    image, before = Image.of(memory), records.n_passed
+    try:
+        with Watch(memory, report) as watch:
+            while status == PAUSED:
+                status = int(watch.call("advance", _STEPS_AT_ONCE, 1))
+                if status == PAUSED:
+                    image, before = Image.of(memory), records.n_passed
+                    status = int(watch.call("advance", _STEPS_NEAR_END, 0))
+                records.drain()
+                if progress is not None:
+                    progress(float(memory.scalars["t"][0]), t_end)
+    except KeyboardInterrupt:
+        records.drain()
+        status, interrupted = PAUSED, True
+    if status == STOPPED:
+        image, before = Image.of(memory), records.n_passed
+    return Ending(status, interrupted, image, records.n_passed - before)

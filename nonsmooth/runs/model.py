@@ -1,0 +1,215 @@
+"""Model: a system that is laid out once and run often."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import threading
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import final
+
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.model.assembly import lay
+from nonsmooth.model.checks import check_start
+from nonsmooth.model.copying import copied
+from nonsmooth.model.image import Guards, Image
+from nonsmooth.model.model import Model as LaidOut
+from nonsmooth.model.options import Options
+from nonsmooth.model.other_laws import lay_laws
+from nonsmooth.runs.identity import digest
+from nonsmooth.runs.loop import Progress, run_engine
+from nonsmooth.runs.outcome import reason, solution_of, state_of
+from nonsmooth.runs.records import Records
+from nonsmooth.runs.start import begin, check_closed, check_state, go_on
+from nonsmooth.solution.solution import Solution
+from nonsmooth.solution.state import State
+from nonsmooth.system.system import System
+
+_DEFAULT_SAMPLES = 2000
+_SAMPLES_AT_ONCE = 0.5
+
+
+@final
+class Model:
+    """A system that is laid out once and run often; :func:`nonsmooth.assemble` makes it.
+
+    Nothing of one run is left for the next.  A model runs in one thread at a time; another thread takes a copy.
+    """
+
+    def __init__(self, laid: LaidOut, options: Options, start: State, key: str = "") -> None:
+        self._laid, self._options, self._start = laid, options, start
+        self._blank = Image.of(laid.memory)
+        self._key = key or digest(laid, self._blank)
+        self._guards = Guards.of(self._blank)
+        begin(laid, self._blank, start)
+        self._energy = laid.energy()
+        self._begun = Image.of(laid.memory)
+        self._runs = threading.Lock()
+
+    @classmethod
+    def of(cls, system: System, options: Options) -> Model:
+        """Return the model of a system, whose start has been looked at.
+
+        Raises
+        ------
+        InvalidInput
+            If bodies overlap at the start, a joint is not closed there, or a guard has no value.
+        """
+        made = cls(lay(system, options), options, State.at(system))
+        check_start(made._laid)
+        return made
+
+    @property
+    def system(self) -> System:
+        """What it was made from."""
+        return self._laid.system
+
+    @property
+    def options(self) -> Options:
+        """Its tolerances."""
+        return self._options
+
+    @property
+    def start(self) -> State:
+        """Where it starts if nothing else is said: as the bodies were placed when it was made, at t = 0."""
+        return self._start
+
+    def copy(self) -> Model:
+        """Return a model of its own for another thread; it reads the same tables of meshes.
+
+        Raises
+        ------
+        InvalidInput
+            If the model runs.
+        """
+        return Model(self._copied(), self._options, self._start, self._key)
+
+    def with_laws_of(self, system: System) -> Model:
+        """Return the model of a system that differs in its laws only, without assembling it.
+
+        Parameters
+        ----------
+        system : System
+            The same bodies, contacts, joints, loads and guards, with laws of the same kinds and other numbers, or that
+            need as many of them: :func:`nonsmooth.with_laws` makes one.  It starts where its bodies are placed.
+
+        Raises
+        ------
+        InvalidInput
+            If anything else differs, or the start is not valid, or the model runs.
+        """
+        made = Model(lay_laws(self._copied(), system), self._options, State.at(system))
+        check_start(made._laid)
+        return made
+
+    def _copied(self) -> LaidOut:
+        with self._alone("copy"):
+            self._blank.put(self._laid.memory)
+            return replace(self._laid, memory=copied(self._laid.memory))
+
+    @contextlib.contextmanager
+    def _alone(self, what: str) -> Iterator[None]:
+        if not self._runs.acquire(blocking=False):
+            raise InvalidInput(f"Model.{what}", "must not be called while it runs", "running", "Make a copy before.")
+        try:
+            yield
+        finally:
+            self._runs.release()
+
+    def run(
+        self,
+        t_end: float,
+        *,
+        start: State | None = None,
+        sample_interval: float | None = None,
+        progress: Progress | None = None,
+    ) -> Solution:
+        """Run to an end time.
+
+        Parameters
+        ----------
+        t_end : float
+            End time [s].
+        start : State, optional
+            Where to start; :attr:`start` by default.  The ``state`` of a solution of this model, of a copy, or of one
+            that was made alike in another process, goes on as if that run had not stopped: with the same events to
+            the last bit.  Any other is a start, which may be at any time.
+        sample_interval : float, optional
+            Time between stored samples [s], the first at the start; a 2000th of the run by default.  Events are stored
+            exactly in any case.
+        progress : callable, optional
+            Called now and then with the time reached and the end time [s].  What it raises ends the run and is raised.
+
+        Returns
+        -------
+        Solution
+            Of this run; its account of energy goes on with the run, its counters do not.
+
+        Raises
+        ------
+        InvalidInput
+            If a number is not valid, the state is none of this model, or the model runs already.
+        RunFailed
+            If the run cannot go on; its ``solution`` holds what was computed.
+        """
+        state = self._start if start is None else start
+        if state is not self._start and not self._left(state):
+            check_state(self._laid, state)
+        interval = check_times("run", t_end, sample_interval, state.time)
+        with self._alone("run"):
+            return self._run(t_end, state, interval, sample_interval is None, progress)
+
+    def _left(self, state: State) -> bool:
+        """Tell whether a run of this model left a state, which goes on then."""
+        return state.continuation is not None and state.continuation.model == self._key
+
+    def _run(
+        self, t_end: float, state: State, interval: float, is_default: bool, progress: Progress | None
+    ) -> Solution:
+        laid, records = self._laid, Records(self._laid)
+        scalars = laid.memory.scalars
+        if state is self._start:
+            self._begun.put(laid.memory)
+            energy = self._energy
+        elif self._left(state):
+            go_on(laid, self._blank, state)
+            records.begin_with(state)
+            energy = state.energy.kinetic_start, state.energy.potential_start
+        else:
+            begin(laid, self._blank, state)
+            check_closed(laid, state)
+            check_start(laid)
+            energy = laid.energy()
+        scalars["t_end"], scalars["sample_interval"], scalars["sample_index"] = t_end, interval, 0
+        scalars["sample_start"] = scalars["next_sample"] = state.time
+        # where a run ends is not to change its steps: all samples by default are fewer than those at once
+        room = _SAMPLES_AT_ONCE * float(scalars["sample_capacity"][0])
+        scalars["h_sampled"] = math.inf if is_default else room * interval
+        began = time.perf_counter()
+        ending = run_engine(laid, records, progress)
+        said = reason(laid, self._guards, ending)
+        wall = time.perf_counter() - began
+        left = state_of(laid, self._blank, self._key, energy, ending)
+        solution = solution_of(laid, records, energy, said, left, wall)
+        if solution.status == "failed":
+            raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
+        return solution
+
+
+def check_times(what: str, t_end: float, sample_interval: float | None, start: float = 0.0) -> float:
+    """Return the sample interval of a run [s].
+
+    Raises
+    ------
+    InvalidInput
+        If the end time is not behind the start, or a number is not finite or not positive.
+    """
+    if not math.isfinite(t_end) or not t_end > start:
+        rule = "must be positive and finite" if start == 0.0 else f"must be finite and after the start at {start:.9g} s"
+        raise InvalidInput(f"{what}: t_end", rule, t_end, "Give it in [s].")
+    interval = (t_end - start) / _DEFAULT_SAMPLES if sample_interval is None else sample_interval
+    if not (math.isfinite(interval) and interval > 0.0):
+        raise InvalidInput(f"{what}: sample_interval", "must be positive and finite", interval, "Give it in [s].")
+    return interval

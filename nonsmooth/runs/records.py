@@ -1,0 +1,76 @@
+"""What the engine records, taken out of its buffers part by part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import final
+
+import numpy as np
+
+from nonsmooth.engine.modes import OPEN, SLIDE, START
+from nonsmooth.engine.record import EVENT_HEAD
+from nonsmooth.model.model import Model
+from nonsmooth.solution.state import Floats, Integers, State
+
+_BEFORE_THE_FIRST = -1
+_CODES = 1 + 8 + 64
+"""Before, during and after an event."""
+
+
+@final
+@dataclass
+class Records:
+    """Floats and integers of events, and samples, by the number of the engine's call.
+
+    Parameters
+    ----------
+    model : Model
+        What runs.
+    """
+
+    model: Model
+    _parts: dict[int, tuple[Floats, Integers, Floats]] = field(default_factory=dict)
+    _events: int = 0
+
+    @property
+    def n_passed(self) -> int:
+        """Events that the engine has recorded, less those that it has still to pass as told."""
+        record = self.model.memory.scalars[0]
+        return self._events + int(record["n_events"]) - int(record["told"])
+
+    def drain(self) -> None:
+        """Empty the engine's buffers.
+
+        An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
+        """
+        memory, width = self.model.memory, self.model.n_y + 1
+        record = memory.scalars[0]
+        key, n_samples = int(record["calls"]), int(record["n_samples"])
+        if key not in self._parts:
+            self._events += int(record["n_events"])
+            self._parts[key] = (
+                memory.array("events", int(record["floats_used"])).copy(),
+                memory.array("event_codes", int(record["integers_used"])).copy(),
+                memory.array("samples", n_samples * width).reshape(n_samples, width).copy(),
+            )
+        for name in ("n_events", "n_samples", "floats_used", "integers_used", "last_floats"):
+            memory.scalars[name] = 0
+
+    def begin_with(self, state: State) -> None:
+        """Record the start of a run that goes on: its modes are those of the state."""
+        closed = np.flatnonzero(state.modes != OPEN)
+        codes = _CODES * np.where(state.modes[closed] == SLIDE, 5, 1)
+        head = np.zeros(EVENT_HEAD)
+        head[0] = state.time
+        floats = np.concatenate([head, state.q, state.u, state.u, np.zeros(3 * len(closed))])
+        listed = np.column_stack([closed, codes]).ravel()
+        integers = np.concatenate([[START, -1, 0, 0, len(closed)], listed]).astype(np.int64)
+        self._parts[_BEFORE_THE_FIRST] = floats, integers, np.zeros((0, self.model.n_y + 1))
+
+    def joined(self) -> tuple[Floats, Integers, Floats]:
+        """Return floats and integers of all events, and all samples."""
+        parts = list(self._parts.values())
+        if len(parts) == 1:
+            return parts[0]
+        floats, integers, samples = (np.concatenate(same) for same in zip(*parts, strict=True))
+        return floats, integers, samples

@@ -1,0 +1,126 @@
+"""A model is put where a run starts: at the beginning of one, or in the midst of one that goes on."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.image import Image
+from nonsmooth.model.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
+from nonsmooth.model.model import Model
+from nonsmooth.solution.state import State
+
+_MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
+_UNIT = 1e-9
+"""By how much a quaternion may be off unit length."""
+_NOT_CLOSED = 1e3
+"""A contact that is closed may have a gap of so many gap tolerances."""
+
+
+def check_state(model: Model, state: State) -> None:
+    """Look whether a state can be one of the model.
+
+    Raises
+    ------
+    InvalidInput
+        If it has other numbers of anything, a number is not finite, a quaternion not unit, or a mode unknown.
+    """
+    system, n = model.system, len(model.system.contacts)
+    shapes = {
+        "q": (model.n_q,),
+        "u": (model.n_u,),
+        "modes": (n,),
+        "slip_directions": (n, 2),
+        "closing_rates": (n,),
+        "features": (n, CANDIDATE),
+        "law_states": (model.n_states,),
+        "guards_spent": (len(system.guards),),
+    }
+    remedy = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
+    for name, shape in shapes.items():
+        value = np.asarray(getattr(state, name))
+        if value.shape != shape:
+            raise InvalidInput(f"State.{name}", f"must have the shape {shape} of this model", value.shape, remedy)
+        if not np.all(np.isfinite(value)):
+            number = int(np.flatnonzero(~np.isfinite(value.ravel()))[0])
+            remedy = f"Look at entry {number}; a run that failed may leave such a state."
+            raise InvalidInput(f"State.{name}", "must be finite numbers", float(value.ravel()[number]), remedy)
+    if not math.isfinite(state.time):
+        raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
+    if not np.all(np.isin(state.modes, (0, 1, 2))):
+        raise InvalidInput("State.modes", "must be 0 (open), 1 (stick) or 2 (slide)", state.modes.tolist(), remedy)
+    first = 0
+    for body in system.bodies:
+        if body.quaternion >= 0:
+            start = first + body.quaternion
+            length = float(np.linalg.norm(state.q[start : start + 4]))
+            if not abs(length - 1.0) <= _UNIT:
+                thing = f"State.q[{start}:{start + 4}], the quaternion of {type(body).__name__},"
+                raise InvalidInput(thing, "must have unit length", length, "Divide it by its norm.")
+        first += body.n_q
+
+
+def begin(model: Model, blank: Image, state: State) -> None:
+    """Put a model where a run begins, and list the contacts that are near each other there.
+
+    Raises
+    ------
+    InvalidInput
+        If these are too many.
+    """
+    blank.put(model.memory)
+    memory, scalars, n = model.memory, model.memory.scalars, len(model.system.contacts)
+    scalars["t"] = state.time
+    y = memory.array("y", model.n_y)
+    y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = state.q, state.u
+    y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
+    rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
+    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
+    rows[:, _MODE], floats[:, 1:3], floats[:, 4] = state.modes, state.slip_directions, state.closing_rates
+    places = rows[:, _PLACE]
+    for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
+        memory.floats[places[number] :][:CANDIDATE] = state.features[number]
+    memory.array("own_guard_spent", len(model.system.guards))[:] = state.guards_spent
+    model.list_contacts()
+
+
+def check_closed(model: Model, state: State) -> None:
+    """Look whether the contacts that a start calls closed are.
+
+    Raises
+    ------
+    InvalidInput
+        If one is not.
+    """
+    if not np.any(state.modes):
+        return
+    gaps = model.gaps()
+    allowed = _NOT_CLOSED * float(model.memory.scalars["gap_tolerance"][0])
+    for number in np.flatnonzero(state.modes).tolist():
+        normal = model.system.contacts[number].normal
+        reach = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
+        if not gaps[number] <= reach + allowed:
+            raise InvalidInput(
+                f"State.modes[{number}], the {model.system.contacts[number].name},",
+                f"must be 0, open, where there is a gap of {gaps[number]:.3g} m",
+                int(state.modes[number]),
+                "Where q has been changed, begin with State.at(system, time, q, u).",
+            )
+
+
+def go_on(model: Model, blank: Image, state: State) -> None:
+    """Put a model in the midst of the run that left a state, and goes on."""
+    continuation = state.continuation
+    assert continuation is not None
+    blank.put(model.memory)
+    continuation.difference.put(model.memory)
+    scalars = model.memory.scalars
+    for name in ("steps", "rejected", "impacts", "impact_steps", "n_events", "n_samples", "floats_used"):
+        scalars[name] = 0
+    for name in ("integers_used", "last_floats", "stopped"):
+        scalars[name] = 0
+    scalars["h_valid"] = math.inf
+    scalars["told"], scalars["resumed"] = continuation.told, 1

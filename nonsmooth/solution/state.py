@@ -1,0 +1,135 @@
+"""State: where a run stands, from which another one starts or the same one goes on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nonsmooth.engine.modes import OPEN
+from nonsmooth.interfaces import StatefulFrictionLaw, TractionLaw
+from nonsmooth.model.layout import CANDIDATE
+from nonsmooth.solution.energy import EnergyAccount
+from nonsmooth.system.system import System
+
+if TYPE_CHECKING:
+    from nonsmooth.model.image import Difference
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+_ARRAYS = ("q", "u", "modes", "slip_directions", "closing_rates", "features", "law_states", "guards_spent")
+
+
+@final
+@dataclass(frozen=True)
+class Continuation:
+    """What a run needs besides its state to go on as if it had not stopped.
+
+    Attributes
+    ----------
+    model : str
+        Digest of the model that ran.
+    difference : Difference
+        What its memory held a few steps before, where nothing said when the run would end.
+    told : int
+        Events from there on that the run has told.
+    """
+
+    model: str
+    difference: Difference
+    told: int
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class State:
+    """Where a run stands.
+
+    A state that a run left goes on as if that run had not stopped, on the same model.  One that was made otherwise,
+    also by :func:`dataclasses.replace`, and any on a model with other numbers, is a start: what touches is found anew.
+
+    Attributes
+    ----------
+    time : float
+        [s].
+    q, u : array
+        Coordinates and velocities of all bodies, shapes [n_q] and [n_u].
+    modes : array
+        Of every contact, 0 open, 1 stick, 2 slide, shape [n_contacts].  Those that are not open stay closed, whatever
+        is left of their gaps, unless they separate.
+    slip_directions : array
+        Unit vectors in the tangent planes, shape [n_contacts, 2].
+    closing_rates : array
+        Rates at which compliant contacts closed last [m/s], shape [n_contacts].
+    features : array
+        What a search for features left in its contacts, zero where that is nothing, shape [n_contacts, 3].
+    law_states : array
+        Inner states of friction and traction laws, contact by contact, shape [n_states].
+    guards_spent : array
+        1 for a guard that has fired here and is not to fire again at once, shape [n_guards].
+    energy : EnergyAccount
+        The account up to here, which goes on with the run; a start begins a new one.
+    continuation : Continuation or None
+        What makes a run go on as if it had not stopped.
+    """
+
+    time: float
+    q: Floats
+    u: Floats
+    modes: Integers
+    slip_directions: Floats
+    closing_rates: Floats
+    features: Floats
+    law_states: Floats
+    guards_spent: Integers
+    energy: EnergyAccount
+    # no argument: whatever is replaced in a state, this does not belong to the new one
+    continuation: Continuation | None = field(default=None, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        # what goes on with a run is not changed by changing the arrays here
+        for name in _ARRAYS:
+            value = np.array(getattr(self, name))
+            value.flags.writeable = False
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def at(cls, system: System, time: float = 0.0, q: ArrayLike | None = None, u: ArrayLike | None = None) -> State:
+        """Return a start with no contact closed yet: those that touch close in the first instant of the run.
+
+        Parameters
+        ----------
+        system : System
+            The system.
+        time : float
+            [s].
+        q, u : array, optional
+            Coordinates and velocities of all bodies, in the order of the system; by default as they were placed.
+        """
+        placed = system.starts()
+        laws = [contact.friction for contact in system.contacts]
+        states = {id(law): _n_states(law) for law in {id(law): law for law in laws}.values()}
+        n, n_states = len(laws), sum(states[id(law)] for law in laws)
+        return cls(
+            time,
+            placed[0] if q is None else np.asarray(q, dtype=float),
+            placed[1] if u is None else np.asarray(u, dtype=float),
+            np.full(n, OPEN),
+            np.tile([1.0, 0.0], (n, 1)),
+            np.zeros(n),
+            np.zeros((n, CANDIDATE)),
+            np.zeros(n_states),
+            np.zeros(len(system.guards), dtype=np.int64),
+            EnergyAccount(*(10 * [0.0])),
+        )
+
+    def with_continuation(self, continuation: Continuation) -> State:
+        """Return the same state, from which the run goes on; for the engine that left it."""
+        object.__setattr__(self, "continuation", continuation)
+        return self
+
+
+def _n_states(law: object) -> int:
+    return len(law.initial_state) if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else 0

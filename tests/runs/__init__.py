@@ -1,0 +1,1 @@
+"""Runs of models: again, from anywhere, in several threads."""

@@ -1,0 +1,56 @@
+"""A model with other laws runs as one that was assembled with them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import nonsmooth as ns
+from bodies import Ball
+from laws import Coulomb, EnergeticImpact, HuntCrossley, NewtonImpact, Stribeck
+from nonsmooth.plugins import registry
+from tests.runs.continued import differences
+
+
+@pytest.mark.parametrize(
+    "laws",
+    [
+        {"friction": Coulomb(0.35)},
+        {"impact": EnergeticImpact(0.3)},
+        {"friction": Coulomb(0.1, 0.4), "impact": EnergeticImpact(0.9)},
+    ],
+)
+def test_other_numbers(laws: dict[str, Any]) -> None:
+    system = registry.load("scenarios", "dumbbell")().build()
+    model, other = ns.assemble(system), ns.with_laws(system, **laws)
+    before, found = model.run(0.3), model.with_laws_of(other)
+    assert differences(found.run(0.3), ns.simulate(other, 0.3)) == []
+    assert differences(model.run(0.3), before) == []
+    assert found.system is other
+    # a state of the one is a start for the other
+    assert found.run(0.4, start=before.state).energy.restitution_loss < before.energy.restitution_loss
+
+
+def test_many_contacts_in_a_list() -> None:
+    system = registry.load("scenarios", "ball_box")().build()
+    other = ns.with_laws(system, friction=Coulomb(0.05))
+    found = ns.assemble(system).with_laws_of(other)
+    assert differences(found.run(0.15), ns.simulate(other, 0.15)) == []
+
+
+def test_what_differs_in_more_than_laws_is_refused(build: Any) -> None:
+    system = build.over(Ball(0.01))
+    system.place(system.bodies[1], position=(0.0, 0.0, 0.02))
+    model = ns.assemble(system)
+    with pytest.raises(ns.InvalidInput, match="same bodies"):
+        model.with_laws_of(build.over(Ball(0.01)))
+    with pytest.raises(ns.InvalidInput, match="same joints, loads, guards and contacts"):
+        model.with_laws_of(ns.System(system.bodies))
+    for laws in (
+        {"friction": Stribeck(0.3, 0.2, 0.1)},
+        {"impact": NewtonImpact(0.5)},
+        {"normal": HuntCrossley(1e5, 0.1)},
+    ):
+        with pytest.raises(ns.InvalidInput, match=r"must be of the kinds of Unilateral, Coulomb, EnergeticImpact"):
+            model.with_laws_of(ns.with_laws(system, **laws))
