@@ -19,6 +19,9 @@ from nonsmooth.system.materials import ContactLaws, Materials
 from nonsmooth.system.replacing import with_laws
 from nonsmooth.system.system import System
 
+__version__: str
+"""The version that is installed."""
+
 __all__ = [
     "ContactLaws",
     "ContactResult",
@@ -51,3 +54,11 @@ __all__ = [
     "touching",
     "with_laws",
 ]
+
+
+def __getattr__(name: str) -> str:
+    if name != "__version__":
+        raise AttributeError(f"module 'nonsmooth' has no attribute {name!r}")
+    from importlib.metadata import version
+
+    return version("nonsmooth")

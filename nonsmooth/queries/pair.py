@@ -114,8 +114,19 @@ class ShapePair:
             bound = self._library.result(told)
             # points of contacts are points of the shapes: what is nearer contradicts the library
             if found is None or found.gap >= bound.lower:
-                return _within(found, bound)
-        return _within(found, self._by_planes(*self._placed(one, two)))
+                return self._within(found, bound)
+        return self._within(found, self._by_planes(*self._placed(one, two)))
+
+    def _within(self, found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
+        """Return what contacts say with the bounds of another answer, or that if they are outside of these."""
+        if found is None:
+            return bound
+        # planes leave no more than round-off between their bounds; contacts see some bodies smaller than they are
+        slack = _ROUND_OFF * abs(bound.gap) + _LEAST
+        slack += sum(solid.set_back for solid in self._solids if solid is not None)
+        if not bound.lower - slack <= found.gap <= bound.upper + slack:
+            return bound
+        return replace(found, lower=min(bound.lower, found.gap), upper=max(bound.upper, found.gap))
 
     def _least(self, one: Place, two: Place) -> DistanceResult | None:
         return None if self._contacts is None else self._contacts.least(one, two)
@@ -164,14 +175,3 @@ def shape_pair(first: Shape, second: Shape, by: str | None, quick: bool) -> Shap
 @functools.lru_cache(maxsize=32)
 def _ready(first: Shape, second: Shape, by: str | None, quick: bool) -> ShapePair:
     return ShapePair(first, second, by, quick)
-
-
-def _within(found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
-    """Return what contacts say with the bounds of another answer, or that if they are outside of these."""
-    if found is None:
-        return bound
-    # planes leave no more than round-off between their bounds
-    slack = _ROUND_OFF * abs(bound.gap) + _LEAST
-    if not bound.lower - slack <= found.gap <= bound.upper + slack:
-        return bound
-    return replace(found, lower=min(bound.lower, found.gap), upper=max(bound.upper, found.gap))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from typing import final
 
@@ -82,6 +83,14 @@ class DistanceHistory:
     second: Vector
     normal: Vector
     how: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        """Return the least gap, when it is, and how often which way told."""
+        if len(self.t) == 0:
+            return "DistanceHistory(no samples)"
+        least = int(np.argmin(self.gap))
+        ways = ", ".join(f"{way} {n}" for way, n in Counter(self.how).most_common())
+        return f"DistanceHistory(least gap {self.gap[least]:.6g} m at t = {self.t[least]:.6g} s; told by {ways})"
 
     @classmethod
     def of(cls, t: Vector, results: list[DistanceResult]) -> DistanceHistory:

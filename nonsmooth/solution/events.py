@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -140,6 +141,11 @@ class Events:
         impulse = np.zeros((len(self), self.n_contacts, 3))
         impulse[self._event_of_entry(), self.listed] = self.listed_impulse
         return impulse
+
+    def __repr__(self) -> str:
+        """Return how many there are of which cause."""
+        causes = ", ".join(f"{n} {cause}" for cause, n in Counter(self.causes()).most_common())
+        return f"Events({len(self)}: {causes})" if causes else "Events(0)"
 
     def __len__(self) -> int:
         return len(self.time)

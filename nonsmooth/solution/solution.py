@@ -88,6 +88,13 @@ class Solution:
     message: str
     state: State
 
+    def __repr__(self) -> str:
+        """Return how it ended, and how much there is of it."""
+        return (
+            f"Solution({self.status} at t = {self.t_end:.9g} s: {self.message}; {len(self.t)} samples, "
+            f"{len(self.events)} events, energy residual {self.energy.residual:.1e})"
+        )
+
     @property
     def modes(self) -> dict[str, float]:
         """Share of the time spent in each mode word; impacts are listed with 0, as they take no time."""

@@ -125,6 +125,12 @@ class State:
             EnergyAccount(*(10 * [0.0])),
         )
 
+    def __repr__(self) -> str:
+        """Return when it is, and how much there is of it."""
+        closed = int(np.count_nonzero(self.modes))
+        size = f"{len(self.q)} coordinates, {len(self.u)} velocities, {closed} of {len(self.modes)} contacts closed"
+        return f"State(t = {self.time:.9g} s: {size})"
+
     def with_continuation(self, continuation: Continuation) -> State:
         """Return the same state, from which the run goes on; for the engine that left it."""
         object.__setattr__(self, "continuation", continuation)

@@ -80,6 +80,11 @@ class System:
         self._numbers = {id(body): number for number, body in enumerate(self._bodies)}
         self._geometries = Geometries()
 
+    def __repr__(self) -> str:
+        """Return how many there are of its parts."""
+        counts = {"bodies": self._bodies, "contacts": self._contacts, "joints": self._joints, "loads": self._loads}
+        return f"System({', '.join(f'{name} {len(parts)}' for name, parts in counts.items() if parts)})"
+
     def __getstate__(self) -> dict[str, Any]:
         """Return what a copy starts from: lists of its own, that it may be changed apart from this system."""
         kept = {name: value for name, value in vars(self).items() if name not in ("_numbers", "_geometries")}

@@ -21,6 +21,7 @@ from bodies import (
     Capsule,
     Compound,
     Cylinder,
+    CylinderBody,
     DrivenBody,
     Egg,
     Ellipsoid,
@@ -40,7 +41,7 @@ from nonsmooth.errors import MissingPackagesError
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.plugins import registry
 from tests.bodies.given_shapes import EllipsoidSum, RoundedLens
-from tests.bodies.meshes.parts import bracket
+from tests.bodies.meshes.parts import bracket, hills
 from tests.queries.shapes import SHAPES, UNBOUNDED, Pose, pose
 
 PAIRS = [pair for pair in itertools.combinations_with_replacement(SHAPES, 2) if not set(pair) <= set(UNBOUNDED)]
@@ -153,6 +154,19 @@ def test_ways_agree_where_each_tells() -> None:
         assert found.how == by
         assert found.gap == pytest.approx(exact.gap, abs=1e-9)
         np.testing.assert_allclose(found.normal, exact.normal, atol=1e-6)
+
+
+def test_a_cylinder_on_its_feet_touches_a_surface(build: Any) -> None:
+    """The solid is deeper than the feet by their height: contacts hold all the same, not the way out of the hulls."""
+    ground = DrivenBody(carried=(TriangleMesh(Triangles(*hills(10))),))
+    cylinder = CylinderBody(0.05, 0.04, 1000.0)
+    system = ns.System([ground, cylinder])
+    system.contact(ground, cylinder, **build.laws(0.2, 0.5))
+    system.place(cylinder, position=(0.1, 0.1, 0.1))
+    history = ns.simulate(system, 0.5, sample_interval=0.01).distances(ground, cylinder)
+    assert np.count_nonzero(history.gap < 1e-9) > 5
+    assert np.min(history.gap) > -1e-9
+    assert set(history.how) == {"exact"}
 
 
 def test_what_faces_is_no_distance_where_corners_are_nearer() -> None:

@@ -1,0 +1,37 @@
+"""What an interactive session prints of a run is a line, however long the run."""
+
+from __future__ import annotations
+
+import importlib.metadata
+from typing import Any
+
+import nonsmooth as ns
+from bodies import Ball, Plate
+
+
+def test_what_is_printed_is_short(build: Any) -> None:
+    """With what one looks for first."""
+    plate, ball = Plate(), Ball(0.01)
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, **build.laws(0.5, 0.2))
+    system.place(ball, position=(0.0, 0.0, 0.1))
+    solution = ns.simulate(system, 0.5)
+    history = solution.distances(plate, ball)
+    events = len(solution.events)
+    for thing, said in (
+        (system, "System(bodies 2, contacts 1)"),
+        (solution, "Solution(done at t = 0.5 s: the end time was reached; 2001 samples, "),
+        (solution.events, f"Events({events}: {events - 2} impact, 1 start, 1 closing of an accumulation)"),
+        (solution.state, "State(t = 0.5 s: 7 coordinates, 6 velocities, 1 of 1 contacts closed)"),
+        (history, "DistanceHistory(least gap "),
+    ):
+        assert repr(thing).startswith(said)
+        assert len(repr(thing)) < 130
+    assert repr(history).endswith("told by exact 2001)")
+    assert repr(ns.System([plate])) == "System(bodies 1)"
+
+
+def test_the_version_is_that_of_the_package() -> None:
+    """As pip tells it."""
+    assert ns.__version__ == importlib.metadata.version("nonsmooth")
+    assert not hasattr(ns, "__versions__")
