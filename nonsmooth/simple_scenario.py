@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import rules
@@ -23,6 +23,8 @@ class SimpleScenario(Scenario, ABC):
     Its figure shows all coordinates over time, its summary the number of impacts and the energy account.  A scenario
     with coordinates, numbers or figures of its own is a :class:`nonsmooth.interfaces.Scenario`.
     """
+
+    units: ClassVar[Mapping[str, str]] = {"restitution_loss": "J", "friction_loss": "J"}
 
     @property
     def sample_interval(self) -> float:

@@ -13,6 +13,10 @@ from nonsmooth.solution.solution import Solution
 Report = dict[str, Any]
 _LONG_WORD = 80
 """Characters of a word of modes, from which its middle is left out."""
+_COMMONEST = 5
+"""Words of modes that are told; the others are counted."""
+_ROUND_OFF, _NOTHING = 1e-15, 1e-12
+"""Numbers below which, in SI units, and beside the largest of their list, nothing is told."""
 _NUMBERS = ("t_end", "wall_seconds", "n_events", "n_impacts", "n_steps", "mode_words", "energy_residual")
 
 
@@ -38,22 +42,32 @@ def as_json(report: Report) -> str:
 
 def as_text(report: Report) -> str:
     """Return a short summary to read."""
-    rounded = json.loads(as_json(report), parse_float=lambda number: float(f"{float(number):.6g}"))
-    rounded["acceptance"] = json.loads(as_json(report)).get("acceptance")
-    head = f"{rounded['scenario']}: {rounded['status']}"
-    if rounded["t_end"] is None:
+    plain = json.loads(as_json(report))
+    head = f"{plain['scenario']}: {plain['status']}"
+    if plain["t_end"] is None:
         return head
     head += (
-        f" at t = {rounded['t_end']} s in {rounded['wall_seconds']:.3g} s of wall time; {rounded['n_events']} events, "
-        f"{rounded['n_impacts']} impacts, {rounded['n_steps']} steps"
+        f" at t = {plain['t_end']:.6g} s in {plain['wall_seconds']:.3g} s of wall time; {plain['n_events']} events, "
+        f"{plain['n_impacts']} impacts, {plain['n_steps']} steps"
     )
-    rows = [(name.replace("_", " "), _spell(value)) for name, value in (rounded["summary"] or {}).items()]
-    rows.append(("energy residual", _spell(rounded["energy_residual"])))
-    modes = rounded["mode_words"].items()
-    rows += [("time in modes" * (i == 0), f"{_shortened(word)} {share:7.2%}") for i, (word, share) in enumerate(modes)]
-    judged = rounded.get("acceptance")
-    table = [] if judged is None else ["", *_judged(judged), ""]
-    return "\n".join([head, *lines(rows), *table, "SI units, radians"])
+    units = plain["units"] or {}
+    rows = [
+        (name.replace("_", " "), _with_unit(_spell(value), units.get(name, "")))
+        for name, value in (plain["summary"] or {}).items()
+    ]
+    residual = plain["energy_residual"]
+    rows.append(("energy residual", "none" if residual is None else f"{residual:.6g}"))
+    rows += [("time in modes" * (i == 0), line) for i, line in enumerate(_modes(plain["mode_words"]))]
+    judged = plain.get("acceptance")
+    table = [] if judged is None else ["", *_judged(judged)]
+    return "\n".join([head, *lines(rows), *table])
+
+
+def _modes(shares: dict[str, float]) -> list[str]:
+    """Return the commonest words of modes with their shares of time, and how many others there are."""
+    found = [f"{_shortened(word)} {share:7.2%}" for word, share in list(shares.items())[:_COMMONEST]]
+    others = len(shares) - len(found)
+    return [*found, f"and {others} more"] if others > 0 else found
 
 
 def _shortened(word: str) -> str:
@@ -85,5 +99,19 @@ def _listed(value: Any) -> Any:
     return str(value) if listed is value else listed
 
 
-def _spell(value: Any) -> str:
-    return json.dumps(value).replace('"', "").strip("[]{}")
+def _spell(value: Any, scale: float = _ROUND_OFF) -> str:
+    """Return a value in words; a number that is round-off beside a scale, or the largest of its list, is 0."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value if abs(value) >= scale else 0.0:.6g}"
+    if isinstance(value, list):
+        largest = max((abs(one) for one in value if isinstance(one, (int, float))), default=0.0)
+        return ", ".join(_spell(one, max(scale, _NOTHING * largest)) for one in value) or "none"
+    if isinstance(value, dict):
+        return ", ".join(f"{name.replace('_', ' ')} {_spell(one)}" for name, one in value.items()) or "none"
+    return "none" if value is None else str(value)
+
+
+def _with_unit(spelt: str, unit: str) -> str:
+    return f"{spelt} {unit}" if unit and spelt != "none" else spelt

@@ -71,7 +71,7 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
     else:
         solution, status, message = _compute(job, system)
     outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
-    outcome |= {"final": None, "summary": None}
+    outcome |= {"final": None, "summary": None, "units": dict(scenario.units)}
     if solution is None:
         return outcome
     if arguments.out is not None:

@@ -42,6 +42,7 @@ from nonsmooth.engine.projection import project_closed
 from nonsmooth.engine.record import MOST_EVENTS, amend_last, code, impact_code, record_event, remember
 from nonsmooth.engine.self_check import open_account
 from nonsmooth.engine.touching import slip_speed, touch
+from nonsmooth.engine.twins import has_replaced
 from nonsmooth.engine.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
@@ -353,6 +354,8 @@ def _finish(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> Non
     if S.recorded > 0:
         amend_last(S, w, k)
         return
+    if cause == IMPACT and has_replaced(S, w, k, contact) == 1:
+        cause = FEATURE_CHANGE
     changed = 0
     for c in range(S.n_contacts):
         if code(S, w, k, c) != k[S.code_before + c]:

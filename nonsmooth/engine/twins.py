@@ -43,6 +43,15 @@ def closed_twin(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 
 @kernel("i8(S, F, I, i8)")
+def has_replaced(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if a contact has taken the place of one that was closed before the event, without a collision."""
+    for other in range(S.n_contacts):
+        if k[S.code_before + other] != 0 and k[S.mode + other] == OPEN and _is_twin(S, w, k, c, other) == 1:
+            return 1 if k[S.mode + c] != OPEN else 0
+    return 0
+
+
+@kernel("i8(S, F, I, i8)")
 def take_over(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Close a contact in place of those at its place; return 1, or 0 if there are none."""
     twin, taken = closed_twin(S, w, k, c), 0

@@ -23,9 +23,11 @@ class Scenario(Component, ABC):
     2. ``build`` returns a new System; ``t_end`` says how long to run it.
     3. ``summarise``, ``coordinates``, ``figures`` and ``acceptance`` only read the solution.
     4. A full run of the default parameters has at least one criterion, and fulfils all.
+    5. ``units`` are those of the numbers of ``summarise``, by name; the others have none.
     """
 
     title: ClassVar[str]
+    units: ClassVar[Mapping[str, str]] = {}
 
     @property
     @abstractmethod

@@ -47,7 +47,7 @@ def check_scenario(scenario: Scenario, *, t_end: float | None = None) -> list[Pr
         ("runs", "it runs for a short time", look.runs),
         ("energy", "the energy account of the run closes", look.energy),
         ("repeatable", "a second run is the same to the last bit", look.repeatable),
-        ("summary", "`summarise` returns numbers and words by name, the same each time", look.summary),
+        ("summary", "`summarise` returns numbers and words by name, the same each time, `units` theirs", look.summary),
         ("coordinates", "`coordinates` returns an array over the samples for each name", look.coordinates),
         ("final state", "`final` returns finite lists q and u", look.final),
         ("acceptance", "a full run has criteria, each with a finite number, and fulfils all", look.acceptance),
@@ -136,6 +136,9 @@ class _Look:
         found = self._scenario.summarise(self.solution)
         if not isinstance(found, Mapping) or not found or not all(isinstance(name, str) for name in found):
             raise Broken("it must be a mapping with names, at least one", "summarise", found)
+        unknown = sorted(set(self._scenario.units) - set(found))
+        if unknown:
+            raise Broken("it must name numbers of `summarise`", "units", unknown)
         return json.dumps(dict(found), default=lambda value: np.asarray(value).tolist(), sort_keys=True)
 
     def coordinates(self) -> None:

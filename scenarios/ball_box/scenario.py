@@ -42,6 +42,7 @@ class BallBox(Scenario):
     """
 
     title: ClassVar[str] = "Balls in a box"
+    units: ClassVar[Mapping[str, str]] = {"settled_at": "s", "height": "m"}
 
     n_balls: float = parameter(10.0, doc="number of balls", minimum=1.0, maximum=300.0)
     radius: float = parameter(0.01, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0))
@@ -196,7 +197,6 @@ class BallBox(Scenario):
             "kinetic_share": float(self._kinetic(solution.u_end[None])[0]) / self.fall_energy,
             "settled_at": self.settled(solution),
             "height": float(np.max(solution.q_end.reshape(-1, 7)[:, 2])) + self.radius,
-            "energy_residual": solution.energy.residual,
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:

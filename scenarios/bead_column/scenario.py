@@ -37,6 +37,7 @@ class BeadColumn(Scenario):
     """
 
     title: ClassVar[str] = "Column of beads on a wall"
+    units: ClassVar[Mapping[str, str]] = {"restitution_loss": "J"}
 
     n_beads: float = parameter(10.0, doc="number of beads", minimum=1.0, maximum=100.0)
     radius: float = parameter(5e-3, doc="radius of the beads", unit="m", above=0.0, usual=(1e-4, 1.0))

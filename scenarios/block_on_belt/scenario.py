@@ -42,6 +42,13 @@ class BlockOnBelt(Scenario):
     """
 
     title: ClassVar[str] = "Block on a belt"
+    units: ClassVar[Mapping[str, str]] = {
+        "breakaway": "m",
+        "period": "s",
+        "smallest_q": "m",
+        "largest_q": "m",
+        "friction_loss": "J",
+    }
 
     mass: float = parameter(1.0, doc="mass m", unit="kg", above=0.0, usual=(1e-6, 1e6))
     stiffness: float = parameter(1.0, doc="stiffness k of the spring", unit="N/m", above=0.0, usual=(1e-6, 1e9))

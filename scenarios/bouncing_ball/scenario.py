@@ -48,6 +48,7 @@ class BouncingBall(Scenario):
     """
 
     title: ClassVar[str] = "Ball on a vibrating table"
+    units: ClassVar[Mapping[str, str]] = {"last_flight": "table periods", "first_rest": "s"}
 
     gamma: float = parameter(
         0.8, doc="peak acceleration of the table over gravity, 0 for a table at rest", minimum=0.0, usual=(0.0, 20.0)

@@ -43,6 +43,7 @@ class BouncingTrimer(Scenario):
     """
 
     title: ClassVar[str] = "Bouncing trimer"
+    units: ClassVar[Mapping[str, str]] = {"drift": "m/s", "wandering": "m/s", "rotation": "rad/s"}
 
     gamma: float = parameter(2.0, doc="peak acceleration of the plate over gravity", minimum=0.0, usual=(0.0, 20.0))
     frequency: float = parameter(50.0, doc="frequency f of the plate", unit="Hz", above=0.0, usual=(1.0, 1e3))

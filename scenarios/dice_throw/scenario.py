@@ -38,6 +38,7 @@ class DiceThrow(Scenario):
     """
 
     title: ClassVar[str] = "Throw of dice"
+    units: ClassVar[Mapping[str, str]] = {"last_event": "s"}
 
     number: float = parameter(3.0, doc="number of dice", minimum=1.0, maximum=20.0)
     throw: float = parameter(1.0, doc="number of the throw", minimum=0.0, maximum=1e9)

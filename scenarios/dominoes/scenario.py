@@ -46,6 +46,12 @@ class Dominoes(Scenario):
     """
 
     title: ClassVar[str] = "Dominoes"
+    units: ClassVar[Mapping[str, str]] = {
+        "strikes": "s",
+        "wave_speed": "m/s",
+        "restitution_loss": "J",
+        "friction_loss": "J",
+    }
 
     number: float = parameter(14.0, doc="number of dominoes", minimum=2.0, maximum=100.0)
     thickness: float = parameter(7.5e-3, doc="thickness", unit="m", above=0.0, usual=(1e-3, 1.0))

@@ -45,6 +45,12 @@ class DumbbellScenario(Scenario):
     """
 
     title: ClassVar[str] = "Dumbbell on a vibrating plate"
+    units: ClassVar[Mapping[str, str]] = {
+        "period": "plate periods",
+        "drift_velocity": "m/s",
+        "max_gap": "m",
+        "beta_range": "rad",
+    }
 
     mode: str = parameter(
         "drift", doc="the start, by the motion it leads to", unit="", choices=("drift", "jump", "flutter", "free")

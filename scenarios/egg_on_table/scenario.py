@@ -41,6 +41,7 @@ class EggOnTable(Scenario):
     """
 
     title: ClassVar[str] = "Egg on a table"
+    units: ClassVar[Mapping[str, str]] = {"upright": "s", "tilt": "rad", "spin": "rad/s", "energy_lost": "J"}
 
     semi_long: float = parameter(0.03, doc="semi-axis of revolution a", unit="m", above=0.0, usual=(1e-3, 1.0))
     semi_across: float = parameter(0.022, doc="semi-axis across b", unit="m", above=0.0, usual=(1e-3, 1.0))

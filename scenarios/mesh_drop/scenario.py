@@ -41,6 +41,13 @@ class MeshDrop(Scenario):
     """
 
     title: ClassVar[str] = "A part dropped on the ground"
+    units: ClassVar[Mapping[str, str]] = {
+        "extent": "m",
+        "mass": "kg",
+        "first_impact": "s",
+        "restitution_loss": "J",
+        "friction_loss": "J",
+    }
 
     mesh: str = parameter(_BUILT_IN, doc="file of the surface, or the bracket that comes with the scenario", unit="")
     unit: str = parameter("mm", doc="unit of the numbers in the file", unit="", choices=tuple(METRES))
@@ -166,7 +173,6 @@ class MeshDrop(Scenario):
             "kinetic_share": kinetic / (self.body.total_mass * _GRAVITY * self.height),
             "restitution_loss": account.restitution_loss,
             "friction_loss": account.friction_loss,
-            "energy_residual": account.residual,
         }
 
     def _first_impact(self, solution: Solution) -> float | None:

@@ -38,6 +38,7 @@ class PolyhedronStack(Scenario):
     """
 
     title: ClassVar[str] = "Tower of prisms"
+    units: ClassVar[Mapping[str, str]] = {"way": "m", "friction_loss": "J"}
 
     radius: float = parameter(0.03, doc="radius round the lowest prism", unit="m", above=0.0, usual=(1e-3, 10.0))
     height: float = parameter(0.02, doc="height of a prism", unit="m", above=0.0, usual=(1e-3, 10.0))

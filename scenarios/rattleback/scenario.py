@@ -44,6 +44,13 @@ class Rattleback(Scenario):
     """
 
     title: ClassVar[str] = "Rattleback"
+    units: ClassVar[Mapping[str, str]] = {
+        "reversed": "s",
+        "spin_start": "rad/s",
+        "spin_least": "rad/s",
+        "spin_most": "rad/s",
+        "energy_lost": "J",
+    }
 
     semi_x: float = parameter(0.2, doc="long semi-axis a", **_SIZE)
     semi_y: float = parameter(0.03, doc="semi-axis b across", **_SIZE)

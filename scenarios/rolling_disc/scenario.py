@@ -43,6 +43,13 @@ class RollingDisc(Scenario):
     """
 
     title: ClassVar[str] = "Euler's disk"
+    units: ClassVar[Mapping[str, str]] = {
+        "time": "s",
+        "tilt": "rad",
+        "precession": "rad/s",
+        "friction_loss": "J",
+        "air_loss": "J",
+    }
 
     radius: float = parameter(0.0375, doc="radius a", unit="m", above=0.0, usual=(1e-4, 10.0))
     mass: float = parameter(0.4, doc="mass", unit="kg", above=0.0, usual=(1e-6, 1e4))

@@ -41,6 +41,7 @@ class SlidingRod(Scenario):
     """
 
     title: ClassVar[str] = "Painleve's sliding rod"
+    units: ClassVar[Mapping[str, str]] = {"impact_without_collision": "s", "jam": "s", "lift_off": "s"}
 
     friction: float = parameter(
         1.4, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 10.0), law="friction"

@@ -45,6 +45,14 @@ class TippeTop(Scenario):
     """
 
     title: ClassVar[str] = "Tippe top"
+    units: ClassVar[Mapping[str, str]] = {
+        "stem_down": "s",
+        "body_up": "s",
+        "tilt": "rad",
+        "spin_vertical": "rad/s",
+        "spin_axis": "rad/s",
+        "energy_lost": "J",
+    }
 
     mass: float = parameter(6e-3, doc="mass", unit="kg", above=0.0, usual=(1e-4, 10.0))
     across: float = parameter(8e-7, doc="moment of inertia I_1 across the axis", unit="kg m^2", above=0.0)

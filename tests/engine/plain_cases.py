@@ -198,8 +198,8 @@ def _hills() -> Numbers:
     return _numbers(system, 0.03)
 
 
-def _border() -> Numbers:
-    """Let a ball roll from an edge onto a face so fast that both close at once."""
+def _border(rate: float, way: float) -> Numbers:
+    """Let a ball roll from an edge onto a face [rad/s], from so far before it [m]: fast ones close both at once."""
     mesh, radius = TriangleMesh(Triangles(*hills(6))), 0.03
     features = mesh.features
     patches = patches_for_ball(features, radius)
@@ -210,11 +210,11 @@ def _border() -> Numbers:
     start, end = features.vertices[list(features.edges[edge][:2])]
     normal = features.planes[left, :3]
     along = (end - start) / np.linalg.norm(end - start)
-    arm = radius * normal - 1e-9 * np.cross(normal, along)
+    arm = radius * normal - way * np.cross(normal, along)
     ground, ball = DrivenBody(carried=(mesh,)), Ball(radius)
     system = ns.System([ground, ball])
     system.contact(ground, ball, **_rigid())
-    spin = -60.0 * along
+    spin = -rate * along
     system.place(
         ball,
         position=0.5 * (start + end) + radius * arm / np.linalg.norm(arm),
@@ -293,7 +293,8 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "long row": lambda: _balls(18, False, _rigid(EnergeticImpact(0.9), Frictionless()), 2e-4, impact_tolerance=1e-5),
     "cloud": lambda: _cloud(13),
     "hills": _hills,
-    "border": _border,
+    "border": lambda: _border(60.0, 1e-9),
+    "slow border": lambda: _border(12.0, 3e-9),
     **{
         f"contact problem, {solver}, {n} contacts, {n_u} velocities, sliding {sliding}": (
             lambda solver=solver, n=n, n_u=n_u, sliding=sliding: _contact_problem(n, n, n_u, solver, sliding)  # type: ignore[misc]
