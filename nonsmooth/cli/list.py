@@ -7,7 +7,7 @@ from typing import Any
 
 from nonsmooth.cli.law import ROLES
 from nonsmooth.cli.messages import say
-from nonsmooth.cli.table import first_line, lines
+from nonsmooth.cli.table import first_line, folded
 from nonsmooth.plugins import registry
 
 GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws")
@@ -31,7 +31,7 @@ def execute(arguments: argparse.Namespace) -> bool:
 def _section(group: str) -> str:
     loaded = registry.load_all(group).items()
     rows = [(name, *_kind(group, owner), registry.source(group, name), first_line(owner)) for name, owner in loaded]
-    return "\n".join([f"{group}:", *(lines(rows) or ["  none"])])
+    return "\n".join([f"{group}:", *(folded(rows) or ["  none"])])
 
 
 def _kind(group: str, owner: type) -> tuple[str, ...]:

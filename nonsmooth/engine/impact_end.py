@@ -14,7 +14,7 @@ from nonsmooth.engine.linear import SINGULAR
 
 @kernel("void(S, F, I, i8)")
 def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
-    """Book the work of the phase that ends at the active contact ``a``."""
+    """Book the work of the phase that ends at the active contact ``a``, or of the part of it so far."""
     work = w[S.impact_y + STRIDE * a + 4]
     done = work - w[S.impact_mark + a]
     if k[S.phase + a] == COMPRESSION:
@@ -120,7 +120,6 @@ def finish(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         for r in range(3):
             w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + r]
-        done = w[S.impact_y + STRIDE * a + 4] - w[S.impact_mark + a]
-        w[S.returned + a] += done
+        account(S, w, k, a)
         w[S.rubbed + a] = w[S.impact_y + STRIDE * a + 5]
     evaluate_impact_rates(S, w, k, S.impact_y)

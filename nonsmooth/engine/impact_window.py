@@ -18,7 +18,7 @@ from nonsmooth.engine.impact_problem import (
     run_impact,
     start_impact,
 )
-from nonsmooth.engine.impact_rates import COMPRESSION, EXPANSION, IDLE, NOISE, STRIDE
+from nonsmooth.engine.impact_rates import IDLE, NOISE, STRIDE
 from nonsmooth.engine.impact_scales import scale_impact
 from nonsmooth.engine.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.kinematics import row
@@ -113,8 +113,7 @@ def _store(S: Scalars, w: Floats, k: Integers) -> None:
     """Give the bodies the impulses of the window, and keep what goes on."""
     for a in range(S.n_active):
         c = k[S.active + a]
-        if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
-            account(S, w, k, a)
+        account(S, w, k, a)
         total = S.impact_total + TOTALS * c
         for r in range(3):
             w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + r]

@@ -11,7 +11,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
-"""What steps and impacts within their tolerances leave adds up to no more than so many of them."""
+"""What steps and impacts within their tolerances leave adds up to no more than so many of them, or one a step."""
 _OF_IMPACTS = 0.1
 """Part of the tolerance of impacts that adds up like that of steps."""
 _ROUND_OFF = 1e-12
@@ -24,15 +24,16 @@ def suspicions(
     bodies: Sequence[Body],
     samples: tuple[NDArray[np.float64], NDArray[np.float64]],
     tolerances: tuple[float, float],
+    steps: int,
 ) -> str:
     """Return what is wrong with a run, "" for nothing.
 
     ``worst_event`` has time [s], energy [J] and share of what is explained; ``samples`` t and q; ``tolerances`` are
-    those of a step and of an impact.
+    those of a step and of an impact, ``steps`` their number.
     """
     found = (
         open_event(*worst_event),
-        open_run(energy, max(tolerances[0], _OF_IMPACTS * tolerances[1])),
+        open_run(energy, max(tolerances[0], _OF_IMPACTS * tolerances[1]), steps),
         long_quaternion(bodies, *samples, tolerances[0]),
     )
     return "; ".join(filter(None, found))
@@ -48,9 +49,9 @@ def open_event(time: float, energy: float, share: float) -> str:
     )
 
 
-def open_run(energy: EnergyAccount, tolerance: float) -> str:
-    """Return what is wrong with the energy account of a run whose relative tolerance is given, or ""."""
-    most = _EXPLAINED * tolerance
+def open_run(energy: EnergyAccount, tolerance: float, steps: int) -> str:
+    """Return what is wrong with the energy account of a run of so many steps of a relative tolerance, or ""."""
+    most = max(_EXPLAINED, steps) * tolerance
     potential = max(abs(energy.potential_start), abs(energy.potential_end))
     if energy.unexplained <= most * energy.scale + _ROUND_OFF * potential:
         return ""

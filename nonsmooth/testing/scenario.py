@@ -50,7 +50,11 @@ def check_scenario(scenario: Scenario, *, t_end: float | None = None) -> list[Pr
         ("summary", "`summarise` returns numbers and words by name, the same each time, `units` theirs", look.summary),
         ("coordinates", "`coordinates` returns an array over the samples for each name", look.coordinates),
         ("final state", "`final` returns finite lists q and u", look.final),
-        ("acceptance", "a full run has criteria, each with a finite number, and fulfils all", look.acceptance),
+        (
+            "acceptance",
+            "a full run is not suspect; it has criteria, each with a finite number, and fulfils all",
+            look.acceptance,
+        ),
         ("figures", "`figures` returns figures by file name, and they can be drawn", look.figures),
         ("results can be saved", "solution and coordinates can be written to files", look.files),
         ("only reads", "summary, coordinates and criteria leave the solution as it is", look.only_reads),
@@ -161,6 +165,8 @@ class _Look:
         if isinstance(self._solution, Exception):
             raise NotChecked(f"not checked, as it does not run: {self._solution}") from self._solution
         solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
+        if solution.status == "suspect":
+            raise Broken(f"it must not be suspect: {solution.message}", "status", solution.status)
         criteria = scenario.acceptance(solution)
         if not isinstance(criteria, tuple) or not all(isinstance(one, Criterion) for one in criteria):
             raise Broken("it must be a tuple of Criterion", "acceptance", criteria)

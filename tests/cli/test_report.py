@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from nonsmooth.cli.report import as_json
+from nonsmooth.cli.report import as_json, as_text
 
 
 @pytest.mark.parametrize(
@@ -36,3 +36,45 @@ def test_values_come_out_as_plain_json(value: Any, expected: Any) -> None:
         raise AssertionError(f"{constant} is not JSON")
 
     assert json.loads(text, parse_constant=refuse) == {"value": expected}
+
+
+def test_the_text_has_units_and_no_round_off() -> None:
+    """Beside each number that has one; what is next to nothing is 0, and what is not there is none."""
+    shares = {f"{{{i:03b}}}": 1.0 / (i + 2) for i in range(8)}
+    report = {
+        "scenario": "toy",
+        "status": "done",
+        "t_end": 4.0,
+        "wall_seconds": 0.01,
+        "n_events": 3,
+        "n_impacts": 2,
+        "n_steps": 5,
+        "mode_words": shares,
+        "energy_residual": 1.2e-16,
+        "summary": {
+            "drift_velocity": np.array([5e-18, -0.0022]),
+            "first_rest": None,
+            "largest_gap": 3e-17,
+            "tiny_force": 2e-9,
+            "inverted": True,
+            "causes": {"slip_to_stick": 2, "start": 1},
+            "strikes": [],
+        },
+        "units": {"drift_velocity": "m/s", "first_rest": "s", "largest_gap": "m", "tiny_force": "N", "strikes": "s"},
+    }
+    lines = [" ".join(line.split()) for line in as_text(report).splitlines()]
+    assert lines[0] == "toy: done at t = 4 s in 0.01 s of wall time; 3 events, 2 impacts, 5 steps"
+    assert lines[1:8] == [
+        "drift velocity 0, -0.0022 m/s",
+        "first rest none",
+        "largest gap 0 m",
+        "tiny force 2e-09 N",
+        "inverted yes",
+        "causes slip to stick 2, start 1",
+        "strikes none",
+    ]
+    assert lines[8] == "energy residual 1.2e-16"
+    assert lines[9] == "time in modes {000} 50.00%"
+    assert lines[-1] == "and 3 more"
+    assert len(lines) == 15
+    assert "null" not in "".join(lines)

@@ -26,6 +26,7 @@ KEYS = {
     "energy_residual",
     "final",
     "summary",
+    "units",
 }
 
 

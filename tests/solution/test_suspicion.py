@@ -20,15 +20,21 @@ def _account(unexplained: float, potential: float = 0.0) -> EnergyAccount:
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_an_account_open_by_more_than_a_thousand_tolerances_is_named(sign: float) -> None:
     """The exchange is 2 J, so that 2e-6 J are explained at a tolerance of 1e-9."""
-    assert open_run(_account(sign * 1.9e-6), 1e-9) == ""
-    assert "open by 2.1e-06 J" in open_run(_account(sign * 2.1e-6), 1e-9)
-    assert open_run(_account(sign * 2.1e-6), 1e-8) == ""
+    assert open_run(_account(sign * 1.9e-6), 1e-9, 10) == ""
+    assert "open by 2.1e-06 J" in open_run(_account(sign * 2.1e-6), 1e-9, 10)
+    assert open_run(_account(sign * 2.1e-6), 1e-8, 10) == ""
+
+
+def test_every_step_may_leave_its_tolerance() -> None:
+    """Of a long run more is explained, in proportion: 1e-4 of the exchange of 2 J by 100 000 steps."""
+    assert open_run(_account(1.9e-4), 1e-9, 100_000) == ""
+    assert "open by 0.00021 J" in open_run(_account(2.1e-4), 1e-9, 100_000)
 
 
 def test_round_off_of_a_large_potential_energy_is_none() -> None:
     """At 1e9 J above zero 1 J is known to some 1e-7 J only."""
-    assert open_run(_account(1e-4, 1e9), 1e-9) == ""
-    assert open_run(_account(1e-2, 1e9), 1e-9) != ""
+    assert open_run(_account(1e-4, 1e9), 1e-9, 10) == ""
+    assert open_run(_account(1e-2, 1e9), 1e-9, 10) != ""
 
 
 def test_an_event_is_named_with_time_and_energy() -> None:
@@ -56,7 +62,7 @@ def test_all_that_is_found_is_said() -> None:
     """Nothing for nothing."""
     t: Any = np.zeros(0)
     samples = t, np.zeros((0, 0))
-    assert suspicions((0.0, 0.0, 0.0), _account(0.0), [], samples, (1e-9, 1e-8)) == ""
-    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), [], samples, (1e-9, 1e-8))
+    assert suspicions((0.0, 0.0, 0.0), _account(0.0), [], samples, (1e-9, 1e-8), 10) == ""
+    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), [], samples, (1e-9, 1e-8), 10)
     assert "at the event" in both
     assert "; the energy account" in both
