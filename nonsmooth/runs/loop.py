@@ -41,8 +41,8 @@ class Ending:
     told: int
 
 
-def run_engine(model: Model, records: Records, progress: Progress | None) -> Ending:
-    """Run to the end time, to a failure, or until somebody interrupts.
+def run_engine(model: Model, records: Records, begun: Image, progress: Progress | None) -> Ending:
+    """Run to the end time, to a failure, or until somebody interrupts; ``begun`` is the image of where it starts.
 
     Raises
     ------
@@ -53,7 +53,7 @@ def run_engine(model: Model, records: Records, progress: Progress | None) -> End
     t_end = float(memory.scalars["t_end"][0])
     report = None if progress is None else lambda t: progress(t, t_end)
     status, interrupted = PAUSED, False
-    image, before = Image.of(memory), records.n_passed
+    image, before = begun, records.n_passed
     try:
         with Watch(memory, report) as watch:
             while status == PAUSED:

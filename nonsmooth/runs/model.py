@@ -169,9 +169,10 @@ class Model:
         self, t_end: float, state: State, interval: float, is_default: bool, progress: Progress | None
     ) -> Solution:
         laid, records = self._laid, Records(self._laid)
-        scalars = laid.memory.scalars
+        scalars, begun = laid.memory.scalars, None
         if state is self._start:
-            self._begun.put(laid.memory)
+            begun = self._begun
+            begun.put(laid.memory)
             energy = self._energy
         elif self._left(state):
             go_on(laid, self._blank, state)
@@ -188,7 +189,8 @@ class Model:
         room = _SAMPLES_AT_ONCE * float(scalars["sample_capacity"][0])
         scalars["h_sampled"] = math.inf if is_default else room * interval
         began = time.perf_counter()
-        ending = run_engine(laid, records, progress)
+        # to copy a memory takes milliseconds where there are many contacts
+        ending = run_engine(laid, records, begun or Image.of(laid.memory), progress)
         said = reason(laid, self._guards, ending)
         wall = time.perf_counter() - began
         left = state_of(laid, self._blank, self._key, energy, ending)
