@@ -10,12 +10,12 @@ from nonsmooth.engine.kernel import room_addresses
 from nonsmooth.engine.modes import POLICIES
 from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
 from nonsmooth.model.checks import check_guards, check_start
+from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import initial_state, lay_contacts
 from nonsmooth.model.layout import COUNTS, N_ACCOUNTS
 from nonsmooth.model.linkages import linkages
 from nonsmooth.model.memory import Heap, allocate
-from nonsmooth.model.model import Model, map_width
 from nonsmooth.model.options import Options
 from nonsmooth.model.pools import lay_pools
 from nonsmooth.model.solvers import pivoted_contacts, solver_number
@@ -29,7 +29,7 @@ _TYPICAL = 32
 _SAMPLE_ROWS = 4096
 
 
-def assemble(system: System, options: Options) -> Model:
+def assemble(system: System, options: Options) -> LaidOut:
     """Lay out a validated system.
 
     Raises
@@ -42,7 +42,7 @@ def assemble(system: System, options: Options) -> Model:
     return model
 
 
-def lay_out(system: System, options: Options) -> Model:
+def lay_out(system: System, options: Options) -> LaidOut:
     """Lay out a system, and list the contacts that are near each other at its start; look at nothing else there.
 
     Raises
@@ -56,7 +56,7 @@ def lay_out(system: System, options: Options) -> Model:
     return model
 
 
-def lay(system: System, options: Options) -> Model:
+def lay(system: System, options: Options) -> LaidOut:
     """Lay out a system that stands nowhere yet.
 
     Raises
@@ -106,12 +106,12 @@ def lay(system: System, options: Options) -> Model:
     lay_units(memory, units, {(i, f): at for i, place in places.items() for f, at in enumerate(place.frames)})
     lay_pools(memory, heap, units.pools, units.frames)
     lay_guards(system, memory, heap)
-    model = Model(system, heap.close(), n_q, n_u, n_states)
+    model = LaidOut(system, heap.close(), n_q, n_u, n_states)
     _set_scalars(model, options)
     return model
 
 
-def _set_scalars(model: Model, options: Options) -> None:
+def _set_scalars(model: LaidOut, options: Options) -> None:
     scalars = model.memory.scalars
     step = min(options.largest_step, model.system.time_scale / options.steps_per_period)
     values = {

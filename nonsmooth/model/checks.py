@@ -10,8 +10,8 @@ from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.linkages import linkages
-from nonsmooth.model.model import Model
 from nonsmooth.plugins.blocks import written_past
 from nonsmooth.solids.start import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
@@ -20,7 +20,7 @@ from nonsmooth.system.system import System
 _OPEN = 1e-9
 
 
-def check_start(model: Model) -> None:
+def check_start(model: LaidOut) -> None:
     """Look at gaps and joints at the start.
 
     Raises
@@ -51,7 +51,7 @@ def check_start(model: Model) -> None:
     check_guards(model.system, t, y[: model.n_q], y[model.n_q :])
 
 
-def _ask_shapes(model: Model, number: int) -> None:
+def _ask_shapes(model: LaidOut, number: int) -> None:
     """Ask the shapes of a contact for points along each other's axes: one whose function is wrong there says so."""
     (p, a), (q, b) = ((frame[:3], frame[3:].reshape(3, 3)) for frame in frames_of(model, number))
     ways = np.array([*a.T, *b.T, q - p])
@@ -62,7 +62,7 @@ def _ask_shapes(model: Model, number: int) -> None:
                 shape.solid.support(way @ axes)
 
 
-def _check_joints(model: Model) -> None:
+def _check_joints(model: LaidOut) -> None:
     """Look at residual and rate of every row of every joint."""
     memory = model.memory
     # speeds of a joint are judged by those of its bodies
@@ -74,7 +74,7 @@ def _check_joints(model: Model) -> None:
             number += 1
 
 
-def _check_joint(model: Model, tie: Tie, number: int, linkage: int, allowed: float) -> None:
+def _check_joint(model: LaidOut, tie: Tie, number: int, linkage: int, allowed: float) -> None:
     memory = model.memory
     rows = int(memory.array("joint_rows", number + 1)[number])
     first = int(memory.array("joint_first", number + 1)[number])

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import COLUMN, by_kind, kind_of, lay_floats
 from nonsmooth.model.layout import CATALOGUE
-from nonsmooth.model.model import Model
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
 _OF_GEOMETRY = ("geometry_parameters", "candidate")
 
 
-def lay_laws(model: Model, system: System) -> Model:
+def lay_laws(model: LaidOut, system: System) -> LaidOut:
     """Return the model of a system with other laws, in the memory of a model that stands nowhere.
 
     Raises
@@ -37,7 +37,7 @@ def lay_laws(model: Model, system: System) -> Model:
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
     lay_floats(memory, contacts)
-    return Model(system, memory, model.n_q, model.n_u, model.n_states)
+    return LaidOut(system, memory, model.n_q, model.n_u, model.n_states)
 
 
 def _check_same(one: System, other: System) -> None:

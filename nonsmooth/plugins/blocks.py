@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.layout import (
     CATALOGUE,
     FORCE_AND_MOMENT,
@@ -21,7 +22,6 @@ from nonsmooth.model.layout import (
     UNTOUCHED,
 )
 from nonsmooth.model.linkages import linkages
-from nonsmooth.model.model import Model
 from nonsmooth.model.pools import find_pools
 from nonsmooth.plugins.source import described
 from nonsmooth.system.contact import Contact, Tie
@@ -49,14 +49,14 @@ class Block(NamedTuple):
     written: int
 
 
-def blocks(model: Model) -> Iterator[Block]:
+def blocks(model: LaidOut) -> Iterator[Block]:
     """Yield the blocks of loads, bodies and listed contacts; bodies feel loads, contacts both."""
     yield from _blocks_of_bodies(model)
     for slot in range(int(model.memory.scalars["n_contacts"][0])):
         yield _block_of_slot(model, slot)
 
 
-def _blocks_of_bodies(model: Model) -> Iterator[Block]:
+def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
     system = model.system
     for i, tie in enumerate(system.loads):
         assert isinstance(tie.component, Load)
@@ -69,13 +69,13 @@ def _blocks_of_bodies(model: Model) -> Iterator[Block]:
         yield Block(functools.partial(repr, body), body.evaluator, start, rates + body.n_u**2 + 2, written)
 
 
-def _block_of_slot(model: Model, slot: int) -> Block:
+def _block_of_slot(model: LaidOut, slot: int) -> Block:
     contact = model.system.contacts[_entry(model, "identity", slot)]
     function, first = contact.kinematics.evaluator, int(model.memory.scalars["geometry"][0])
     return Block(_label(contact, function), function, first + GEOMETRY * slot, PAIR, PAIR)
 
 
-def _blocks_of_joints_and_laws(model: Model) -> Iterator[Block]:
+def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
     ties = [tie for linkage in linkages(model.system) for tie in linkage.joints]
     for number, tie in enumerate(ties):
         assert isinstance(tie.component, Joint)
@@ -93,7 +93,7 @@ def _blocks_of_joints_and_laws(model: Model) -> Iterator[Block]:
         yield Block(_label(contacts[i], function), function, start, size, size)
 
 
-def _blocks_of_searches(model: Model) -> Iterator[Block]:
+def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
     for number, pool in enumerate(find_pools(model.system.contacts)):
         function = pool.search.function
         label = functools.partial(_words, pool.owner, function)
@@ -108,11 +108,11 @@ def _words(owner: str, function: Callable[..., None]) -> str:
     return f"{owner}: {described(function)},"
 
 
-def _entry(model: Model, name: str, i: int) -> int:
+def _entry(model: LaidOut, name: str, i: int) -> int:
     return int(model.memory.array(name, i + 1)[i])
 
 
-def written_past(model: Model) -> str:
+def written_past(model: LaidOut) -> str:
     """Return a sentence that names a function that has written past its block; nothing if none has."""
     memory = model.memory
     slots, listed = (int(memory.scalars[name][0]) for name in ("n_slots", "n_contacts"))

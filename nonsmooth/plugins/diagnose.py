@@ -17,8 +17,8 @@ from nonsmooth.engine.modes import (
 )
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.interfaces.guard import guard_value
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.layout import CATALOGUE, N_ACCOUNTS
-from nonsmooth.model.model import Model
 from nonsmooth.model.pools import failed_search
 from nonsmooth.plugins import interpreted
 from nonsmooth.plugins.blocks import blocks
@@ -28,7 +28,7 @@ from nonsmooth.plugins.source import described, raised
 from nonsmooth.plugins.unexplained import unexplained
 
 
-def culprit(model: Model, status: int) -> str:
+def culprit(model: LaidOut, status: int) -> str:
     """Return a sentence that names the first function found to raise or to return a non-finite number.
 
     It raises nothing: what was computed matters more than why it ended, and functions that fail are called here.
@@ -39,7 +39,7 @@ def culprit(model: Model, status: int) -> str:
         return f"Looking for the cause came to nothing: {error!r}."
 
 
-def _culprit(model: Model, status: int) -> str:
+def _culprit(model: LaidOut, status: int) -> str:
     if status in (GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return unexplained(model, status)
     found = (_in_the_map(model) if status == NOT_FINITE else "") or failed_search(model.memory, model.system.contacts)
@@ -55,7 +55,7 @@ def _culprit(model: Model, status: int) -> str:
     return ""
 
 
-def _law_findings(model: Model) -> Iterator[Finding | None]:
+def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
     first_state = model.n_q + model.n_u + N_ACCOUNTS
     for number, contact in enumerate(model.system.contacts):
         row = model.memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
@@ -66,7 +66,7 @@ def _law_findings(model: Model) -> Iterator[Finding | None]:
             yield without_value(model.memory.floats[parameters:], part, state, contact.name)
 
 
-def _in_the_blocks(model: Model) -> str:
+def _in_the_blocks(model: LaidOut) -> str:
     """Evaluate bodies, loads and contacts at the last state, at its time, at the end of the step and shortly after."""
     scalars = model.memory.scalars
     t = float(scalars["t"][0])
@@ -81,7 +81,7 @@ def _in_the_blocks(model: Model) -> str:
     return ""
 
 
-def _in_the_map(model: Model) -> str:
+def _in_the_map(model: LaidOut) -> str:
     """Run the impact map, as plain Python, on the set that collided last."""
     memory = model.memory
     n = int(memory.scalars["n_active"][0])
@@ -105,7 +105,7 @@ def _in_the_map(model: Model) -> str:
     )
 
 
-def _guard_without_value(model: Model) -> str:
+def _guard_without_value(model: LaidOut) -> str:
     """Look at the guards at the end of the step that failed."""
     scalars, state = model.memory.scalars[0], model.memory.array("y_new", model.n_y)
     q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from nonsmooth.engine.modes import GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED
-from nonsmooth.model.model import Model
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.plugins.source import described
 
 _REMEDY = "`nonsmooth check` looks at it by itself; if it comes with nonsmooth, the poses before are a bug to report."
 
 
-def unexplained(model: Model, status: int) -> str:
+def unexplained(model: LaidOut, status: int) -> str:
     """Return a sentence that names the contact or body and the figure that the run stumbled over; "" if it is none."""
     scalars = model.memory.scalars[0]
     found, allowed, number = float(scalars["found"]), float(scalars["allowed"]), int(scalars["blamed"])

@@ -7,15 +7,15 @@ import hashlib
 import numpy as np
 
 from nonsmooth.model.image import Image
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.layout import CATALOGUE, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
-from nonsmooth.model.model import Model
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
 _COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]
 _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,), CATALOGUE)).encode()).digest()
 
 
-def digest(model: Model, blank: Image) -> str:
+def digest(model: LaidOut, blank: Image) -> str:
     """Return a digest of all numbers of a model that stands nowhere yet, and of the kinds of its parts.
 
     ``blank`` is its image.  Models with one digest run alike, in whatever process.
@@ -43,7 +43,7 @@ def _size(record: np.ndarray, name: str) -> int:
     return int(INTEGER_ARRAYS[name]({count: int(record[count][0]) for count in COUNTS}))
 
 
-def _kinds(model: Model) -> bytes:
+def _kinds(model: LaidOut) -> bytes:
     """Return the names of the classes of all parts of a system, and which part is of which."""
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]

@@ -8,7 +8,7 @@ from typing import final
 
 from nonsmooth.engine.modes import PAUSED, STOPPED
 from nonsmooth.model.image import Image
-from nonsmooth.model.model import Model
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.records import Records
 from nonsmooth.watch import Watch
 
@@ -41,7 +41,7 @@ class Ending:
     told: int
 
 
-def run_engine(model: Model, records: Records, begun: Image, progress: Progress | None) -> Ending:
+def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progress | None) -> Ending:
     """Run to the end time, to a failure, or until somebody interrupts; ``begun`` is the image of where it starts.
 
     Raises

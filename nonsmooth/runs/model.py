@@ -15,7 +15,7 @@ from nonsmooth.model.assembly import lay
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.copying import copied
 from nonsmooth.model.image import Guards, Image
-from nonsmooth.model.model import Model as LaidOut
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.options import Options
 from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.runs.identity import digest

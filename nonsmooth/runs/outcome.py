@@ -6,8 +6,8 @@ import numpy as np
 
 from nonsmooth.engine.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.model.image import Difference, Guards, Image
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
-from nonsmooth.model.model import Model
 from nonsmooth.plugins.blocks import written_past
 from nonsmooth.plugins.diagnose import culprit
 from nonsmooth.runs.loop import Ending
@@ -21,7 +21,7 @@ from nonsmooth.solution.suspicion import suspicions
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
 
-def reason(model: Model, guards: Guards, ending: Ending) -> tuple[str, str]:
+def reason(model: LaidOut, guards: Guards, ending: Ending) -> tuple[str, str]:
     """Return the status of a run that has ended, in a word, and why it did; ``guards`` are those of the model."""
     past_map = int(model.memory.scalars["map_past"][0]) > 0
     past = "" if guards.hold(model.memory) and not past_map else written_past(model)
@@ -33,7 +33,7 @@ def reason(model: Model, guards: Guards, ending: Ending) -> tuple[str, str]:
 
 
 def solution_of(
-    model: Model,
+    model: LaidOut,
     records: Records,
     start: tuple[float, float],
     said: tuple[str, str],
@@ -44,7 +44,7 @@ def solution_of(
 
     Parameters
     ----------
-    model : Model
+    model : LaidOut
         What ran.
     records : Records
         What the engine recorded.
@@ -94,7 +94,7 @@ def solution_of(
     )
 
 
-def state_of(model: Model, blank: Image, key: str, start: tuple[float, float], ending: Ending) -> State:
+def state_of(model: LaidOut, blank: Image, key: str, start: tuple[float, float], ending: Ending) -> State:
     """Return the state in which a run left its model, whose image before any run is ``blank``, its digest ``key``."""
     memory, n_q, n_u = model.memory, model.n_q, model.n_u
     n, slots = len(model.system.contacts), int(memory.scalars["n_contacts"][0])
@@ -125,7 +125,7 @@ def state_of(model: Model, blank: Image, key: str, start: tuple[float, float], e
     return state.with_continuation(Continuation(key, Difference.between(blank, ending.image), ending.told))
 
 
-def _account(model: Model, start: tuple[float, float]) -> EnergyAccount:
+def _account(model: LaidOut, start: tuple[float, float]) -> EnergyAccount:
     record, first = model.memory.scalars[0], model.n_q + model.n_u
     driven, rubbed, exchanged, loads = model.memory.array("y", first + N_ACCOUNTS)[first:].tolist()
     return EnergyAccount(

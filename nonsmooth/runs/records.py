@@ -9,7 +9,7 @@ import numpy as np
 
 from nonsmooth.engine.modes import OPEN, SLIDE, START
 from nonsmooth.engine.record import EVENT_HEAD
-from nonsmooth.model.model import Model
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats, Integers, State
 
 _BEFORE_THE_FIRST = -1
@@ -24,11 +24,11 @@ class Records:
 
     Parameters
     ----------
-    model : Model
+    model : LaidOut
         What runs.
     """
 
-    model: Model
+    model: LaidOut
     _parts: dict[int, tuple[Floats, Integers, Floats]] = field(default_factory=dict)
     _events: int = 0
 

@@ -9,8 +9,8 @@ import numpy as np
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.image import Image
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
-from nonsmooth.model.model import Model
 from nonsmooth.solution.state import State
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
@@ -20,7 +20,7 @@ _NOT_CLOSED = 1e3
 """A contact that is closed may have a gap of so many gap tolerances."""
 
 
-def check_state(model: Model, state: State) -> None:
+def check_state(model: LaidOut, state: State) -> None:
     """Look whether a state can be one of the model.
 
     Raises
@@ -63,7 +63,7 @@ def check_state(model: Model, state: State) -> None:
         first += body.n_q
 
 
-def begin(model: Model, blank: Image, state: State) -> None:
+def begin(model: LaidOut, blank: Image, state: State) -> None:
     """Put a model where a run begins, and list the contacts that are near each other there.
 
     Raises
@@ -87,7 +87,7 @@ def begin(model: Model, blank: Image, state: State) -> None:
     model.list_contacts()
 
 
-def check_closed(model: Model, state: State) -> None:
+def check_closed(model: LaidOut, state: State) -> None:
     """Look whether the contacts that a start calls closed are.
 
     Raises
@@ -111,7 +111,7 @@ def check_closed(model: Model, state: State) -> None:
             )
 
 
-def go_on(model: Model, blank: Image, state: State) -> None:
+def go_on(model: LaidOut, blank: Image, state: State) -> None:
     """Put a model in the midst of the run that left a state, and goes on."""
     continuation = state.continuation
     assert continuation is not None

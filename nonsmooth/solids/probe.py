@@ -11,8 +11,8 @@ from nonsmooth.engine.kernel import call_room
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.assembly import lay_out
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.layout import FRAME
-from nonsmooth.model.model import Model
 from nonsmooth.model.options import Options
 from nonsmooth.solids.start import frames_of
 from nonsmooth.system.contact import Contact
@@ -26,7 +26,7 @@ class Probe:
 
     Attributes
     ----------
-    model : Model
+    model : LaidOut
         A system without other contacts, laid out.
     body : Body
         The body.
@@ -34,7 +34,7 @@ class Probe:
         Its number in the system.
     """
 
-    model: Model
+    model: LaidOut
     body: Body
     number: int
 

@@ -15,7 +15,7 @@ from nonsmooth.system.contact import Contact
 
 if TYPE_CHECKING:
     from nonsmooth.interfaces.solid import Vector
-    from nonsmooth.model.model import Model
+    from nonsmooth.model.laid_out import LaidOut
 
 _ENDS = 12
 """Numbers of a frame that say where it is."""
@@ -26,7 +26,7 @@ def overlap_allowed(contact: Contact) -> float:
     return max(1e-9, 1e-6 * contact.size)
 
 
-def check_overlaps(model: Model) -> None:
+def check_overlaps(model: LaidOut) -> None:
     """Look at the solids of all contacts near each other, whose bodies have been evaluated.
 
     Compliant bodies may overlap where that is felt: where they have a gap that is negative.
@@ -60,13 +60,13 @@ def check_overlaps(model: Model) -> None:
 
 
 def solid_pairs(
-    model: Model, numbers: Sequence[int], within: float = np.inf
+    model: LaidOut, numbers: Sequence[int], within: float = np.inf
 ) -> Iterator[tuple[list[int], Placed, Placed]]:
     """Yield, for every two shapes that have solids, their contacts and the solids where they stand.
 
     Parameters
     ----------
-    model : Model
+    model : LaidOut
         Laid out, its bodies evaluated.
     numbers : sequence of int
         Contacts of the system.
@@ -92,7 +92,7 @@ def solid_pairs(
             yield same, one, two
 
 
-def frames_of(model: Model, number: int) -> tuple[Vector, Vector]:
+def frames_of(model: LaidOut, number: int) -> tuple[Vector, Vector]:
     """Return position [m] and rotation matrix, row by row, of both frames of a contact, shape [12] each."""
     width = len(CATALOGUE)
     row = model.memory.array("catalogue", width * (number + 1))[width * number :]

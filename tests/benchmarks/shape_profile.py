@@ -31,8 +31,9 @@ from nonsmooth.engine.kernel import address_of, room_addresses
 from nonsmooth.engine.native import call_pair
 from nonsmooth.interfaces import Body
 from nonsmooth.model.assembly import assemble
+from nonsmooth.model.image import Image
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.layout import CATALOGUE
-from nonsmooth.model.model import Model
 from nonsmooth.model.rooms import ROOMS
 from nonsmooth.plugins.compile import bind
 from nonsmooth.runs.loop import run_engine
@@ -138,7 +139,7 @@ class Profile:
         return sum(seconds for seconds, _ in self.pairs.values())
 
 
-def _instrument(model: Model, accounts: dict[str, np.ndarray], searches: list[float]) -> Any:
+def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[float]) -> Any:
     """Put the clock about the pairs and the search of a model; return what has to live as long as it."""
     memory = model.memory
     shims: dict[int, int] = {}
@@ -177,7 +178,7 @@ def profile(build: Callable[[], ns.System], t_end: float, options: ns.Options | 
         model.memory.scalars["t_end"], model.memory.scalars["sample_interval"] = t_end, t_end / 10.0
         kept = _instrument(model, accounts, searches) if instrumented else None
         began = time.perf_counter()
-        run_engine(model, Records(model), None)
+        run_engine(model, Records(model), Image.of(model.memory), None)
         wall = time.perf_counter() - began
         del kept
         return wall, searches, accounts

@@ -1,4 +1,4 @@
-"""Model: a system laid out in the engine's memory."""
+"""LaidOut: a system laid out in the engine's memory."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from nonsmooth.system.system import System
 
 
 @dataclass(frozen=True)
-class Model:
+class LaidOut:
     """A system laid out in memory, ready to run.
 
     Attributes
