@@ -34,7 +34,8 @@ def test_the_file_that_hides_a_package_is_named(
     assert f"The file {own} hides the package {package!r} that comes with nonsmooth: rename it." in errors
     assert "Traceback" not in errors
     assert process.returncode == (0 if words[0] == "list" else 1)
-    listed = [line.split()[0] for line in output.splitlines()]
+    # what is said of a name goes on in the lines below it, farther in
+    listed = [line.split()[0] for line in output.splitlines() if not line.startswith("   ")]
     left = {"laws": ["spinning_coulomb"], "bodies": ["none"]}  # what does not come from the hidden package
     assert listed == ([f"{package}:", *left[package]] if words[0] == "list" else [])
 
