@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, final
-
-import numpy as np
 
 from bodies.contacts.apex_mesh import ApexMesh
 from bodies.contacts.flank_mesh import FlankMesh
 from bodies.contacts.frustum_corner import FrustumCorner
 from bodies.contacts.frustum_pairs import FrustumPairs
+from bodies.contacts.frustum_parts import apex_of, feet_of, set_back
 from bodies.contacts.frustum_swept import FrustumSwept
 from bodies.contacts.mesh_mesh import are_many
-from bodies.contacts.mesh_point import Corner, PointMesh
+from bodies.contacts.mesh_point import PointMesh
 from bodies.contacts.rim_mesh import RimMesh
 from bodies.contacts.surface_rim import rim_in_surface, rim_under, write_rim
 from bodies.contacts.surface_tables import Numbers, star_of, surface_numbers
@@ -24,14 +22,11 @@ from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.cylinder import Cylinder
-from bodies.shapes.frustum import AXIS, CENTER, COS, SIDE, SIN, SWEEP, Frustum, Point, frustum_numbers
+from bodies.shapes.frustum import SIDE, SWEEP, Frustum, Point
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
-
-_WAYS = 12
-"""Lines round a cone, or across a cap, of which none may point far into the face that an apex or a foot touches."""
 
 
 def _evaluate(
@@ -104,13 +99,12 @@ class FrustumMesh(ContactKinematics):
         """Return the contacts of rims, feet and apex over patches, of corners, and of edges with side and rims."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
-        own, numbers = second.features, _set_back(first)
+        own, numbers = second.features, set_back(first)
         sweep, size = first.frustum[SWEEP], max(own.size, 2.0 * first.extent)
         if are_many(len(own.edges) * _crossings(numbers) + len(own.corners)):
-            points = [*_feet(first), *(_apex(first) if sweep == 0.0 else ())]
-            return FrustumPairs.of_points(first, numbers, points, own, size, (first.extent, second.extent))
+            return FrustumPairs.between(first, second)
         rims = tuple(itertools.chain(*(cls._of_rim(first, numbers, i, own) for i in range(len(first.standing_rims)))))
-        feet = PointMesh.of_vertices(_feet(first), own, sweep)
+        feet = PointMesh.of_vertices(feet_of(first), own, sweep)
         crossings = *FlankMesh.of_edges(numbers, own, size), *RimMesh.of_edges(numbers, own, size)
         vertices = _rounded_vertices if sweep > 0.0 else _sharp_vertices
         return *rims, *feet, *vertices(first, numbers, own, size), *crossings
@@ -155,7 +149,7 @@ def _sharp_vertices(
     first: Frustum, numbers: Numbers, second: Features, size: float
 ) -> tuple[PointMesh | FrustumCorner, ...]:
     """Return the contacts of the apex, a point, and of the corners of the second body."""
-    return *PointMesh.of_vertices(_apex(first), second, 0.0), *FrustumCorner.of_corners(numbers, second, size)
+    return *PointMesh.of_vertices(apex_of(first), second, 0.0), *FrustumCorner.of_corners(numbers, second, size)
 
 
 def _rounded_vertices(
@@ -170,45 +164,8 @@ def _rounded_vertices(
     return *ApexMesh.of_patches(numbers, second, size), *corners
 
 
-def _set_back(first: Frustum) -> Numbers:
-    """Return the numbers of the body within its rims as they are set back, out of which only the feet stand.
-
-    So a rim that rolls over the edge of a face goes on at the same height.
-    """
-    own = first.frustum
-    center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
-    rims = first.standing_rims if len(first.standing_rims) > 1 else 2 * first.standing_rims
-    heights = [float((np.array(place) - center) @ axis) for _, place in rims]
-    x, y, z = center.tolist()
-    return frustum_numbers(
-        [radius for radius, _ in rims], heights, (x, y, z), (axis[0], axis[1], axis[2]), 0.0, own[SWEEP]
-    )
-
-
 def _crossings(numbers: Numbers) -> int:
     """Return how many contacts an edge has with the side and the halves of the rims."""
     if numbers[SIDE] == 0.0:
         return 2
     return 5 if numbers[1] > 0.0 else 3
-
-
-def _apex(first: Frustum) -> Iterator[Corner]:
-    """Yield place, lines of the side and name of the apex of a cone."""
-    sine, cosine = first.frustum[SIN], first.frustum[COS]
-    for radius, place in first.standing_rims:
-        if radius == 0.0:
-            yield place, _round(first, sine, -cosine), "apex"
-
-
-def _feet(first: Frustum) -> Iterator[Corner]:
-    """Yield place, lines of the cap about it and name of the feet."""
-    for i, foot in enumerate(first.feet):
-        yield foot, _round(first, 1.0, 0.0), f"foot {i}"
-
-
-def _round(first: Frustum, away: float, along: float) -> Numbers:
-    """Return unit vectors round the axis, one after the other."""
-    axes = np.array(first.frustum[AXIS - 2 : AXIS + 7]).reshape(3, 3)
-    angles = [2.0 * math.pi * i / _WAYS for i in range(_WAYS)]
-    ways = [axes @ np.array([away * math.cos(angle), away * math.sin(angle), along]) for angle in angles]
-    return tuple(float(x) for way in ways for x in way)

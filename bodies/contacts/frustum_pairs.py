@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
@@ -21,8 +21,9 @@ from bodies.contacts.frustum_find import (
     UNDER,
     find_near_frustum,
 )
+from bodies.contacts.frustum_parts import apex_of, feet_of, set_back
 from bodies.contacts.frustum_swept import write_vertex_ball
-from bodies.contacts.mesh_point import Corner, write_over_second
+from bodies.contacts.mesh_point import write_over_second
 from bodies.contacts.rim_mesh import write_half_rim
 from bodies.contacts.surface_near import NARROW
 from bodies.contacts.surface_pairs import MOST_NEAR
@@ -37,7 +38,6 @@ from bodies.contacts.surface_tables import (
     star_lengths,
     surface_numbers,
 )
-from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.frustum import SIDE, SWEEP, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
@@ -118,50 +118,27 @@ class FrustumPairs(ContactKinematics):
     number: int
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return none: :class:`bodies.FrustumMesh` makes them where there are many features."""
-        return ()
-
-    @classmethod
-    def of_points(
-        cls,
-        first: Frustum,
-        numbers: Numbers,
-        points: Iterable[Corner],
-        second: Features,
-        size: float,
-        extents: tuple[float, float],
-    ) -> tuple[FrustumPairs, ...]:
-        """Return the contacts of a frustum and a surface.
-
-        Parameters
-        ----------
-        first, numbers : Frustum, tuple of float
-            The frustum, and its numbers within its rims as they are set back.
-        points : iterable of Corner
-            Its feet, and its apex if that is sharp.
-        second : Features
-            The surface.
-        size : float
-            Size of the larger body [m].
-        extents : tuple of float
-            Radii about the frames of the bodies [m].
-        """
+    def between(cls, first: Shape, second: Shape) -> tuple[FrustumPairs, ...]:
+        """Return the contacts of a frustum and a mesh."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, TriangleMesh)
+        numbers, own, extents = set_back(first), second.features, (first.extent, second.extent)
+        points = [*feet_of(first), *(apex_of(first) if numbers[SWEEP] == 0.0 else ())]
         rows = [(*place, len(star) // 3, *star) for place, star, _ in points]
-        lengths = [x for i in range(len(second.corners)) for x in star_lengths(second, i)] if not numbers[SIDE] else []
+        lengths = [x for i in range(len(own.corners)) for x in star_lengths(own, i)] if not numbers[SIDE] else []
         values: dict[str, Value] = {
             "frustum": numbers,
             "n_points": float(len(rows)),
             "points": Table([*itertools.chain(*rows)] or [0.0]),
-            "surface": surface_numbers(second, patches_for_ball(second, numbers[SWEEP])),
-            "size": size,
+            "surface": surface_numbers(own, patches_for_ball(own, numbers[SWEEP])),
+            "size": max(own.size, 2.0 * first.extent),
             "most": float(MOST_NEAR),
             "turning": 0.5 / extents[0] + 0.5 / extents[1],
             "narrow": NARROW * min(extents),
         }
         search = CandidateSearch(find_near_frustum, values)
         rims = tuple(x for radius, center in first.standing_rims for x in (radius, *center))
-        n, table = len(second.planes) + len(second.edges) + len(second.corners), Table(lengths or [0.0])
+        n, table = len(own.planes) + len(own.edges) + len(own.corners), Table(lengths or [0.0])
         return tuple(cls(search, rims, table, n, number) for number in range(MOST_NEAR))
 
     @property

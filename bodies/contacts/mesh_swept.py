@@ -12,15 +12,13 @@ from bodies.contacts.polytope_tables import edge_rows
 from bodies.contacts.polytope_tables import star_of as star_of_vertex
 from bodies.contacts.surface_edges import evaluate_edges
 from bodies.contacts.surface_pairs import features_of_core
-from bodies.contacts.surface_tables import NOTHING, star_of, surface_numbers
-from bodies.contacts.swept_pairs import SweptPairs
+from bodies.contacts.surface_tables import star_of
+from bodies.contacts.swept_pairs import SweptPairs, surface_of_core
 from bodies.contacts.swept_vertex import SweptVertex
-from bodies.meshes.patches import patches_for_body
-from bodies.shapes.polytope import Polytope
 from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import Value
 
 
 @final
@@ -52,14 +50,14 @@ class MeshSwept(ContactKinematics):
             return sharp_contacts(cls, own, features_of_core(core), (first.extent, second.extent))
         size = max(own.size, core.size + 2.0 * second.sweep)
         if are_many(len(own.edges) * len(core.edges) + len(own.corners)):
-            return SweptPairs.of_core(own, second, _surface(core), size, (first.extent, second.extent))
+            return SweptPairs.between(first, second)
         own_star = [(place, star_of_vertex(core, i), f"vertex {i}") for i, place in enumerate(core.vertices)]
         balls = MeshSphere.of_balls(own, own_star, second.sweep, size)
         tips = own.vertices[list(own.corners)].tolist()
         stars = [((x, y, z), tuple(star_of(own, i)), f"corner {i}") for i, (x, y, z) in enumerate(tips)]
         corners = SweptVertex.over(second, stars, 0.0, size, True)
         names = [f"edge {j}" for j in range(len(core.edges))] if core.faces else ["side"]
-        crossings = MeshEdges.crossings(own, edge_rows(core), names, _surface(core), second.sweep, size)
+        crossings = MeshEdges.crossings(own, edge_rows(core), names, surface_of_core(core), second.sweep, size)
         return *(cls(pair) for pair in crossings), *balls, *corners
 
     def parameters(self) -> dict[str, Value]:
@@ -75,11 +73,3 @@ class MeshSwept(ContactKinematics):
     def features(self) -> tuple[str, ...]:
         """The only pair."""
         return self.edges.features
-
-
-def _surface(core: Polytope) -> Table:
-    """Return the surface of a core; a segment has none."""
-    if not core.faces:
-        return NOTHING
-    features = features_of_core(core)
-    return surface_numbers(features, patches_for_body(features, 0.0))

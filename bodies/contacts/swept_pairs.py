@@ -14,12 +14,11 @@ from bodies.contacts.polytope_tables import edge_rows, end_table, face_table, st
 from bodies.contacts.surface_ball import write_ball
 from bodies.contacts.surface_edges import write_edges
 from bodies.contacts.surface_near import NARROW, patches_near, room_ahead, seen_from
-from bodies.contacts.surface_pairs import MOST_NEAR
-from bodies.contacts.surface_tables import CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
+from bodies.contacts.surface_pairs import MOST_NEAR, features_of_core
+from bodies.contacts.surface_tables import CORNER, CORNERS, EDGE, EDGES, NOTHING, STARS, surface_numbers
 from bodies.contacts.swept_near import corners_over
 from bodies.contacts.swept_vertex import write_vertex
-from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_ball
+from bodies.meshes.patches import patches_for_ball, patches_for_body
 from bodies.shapes.polytope import Polytope
 from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
@@ -129,27 +128,11 @@ class SweptPairs(ContactKinematics):
     number: int
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return none: :class:`bodies.MeshSwept` makes them where there are many features."""
-        return ()
-
-    @classmethod
-    def of_core(
-        cls, own: Features, second: SweptPolytope, surface: Table, size: float, extents: tuple[float, float]
-    ) -> tuple[SweptPairs, ...]:
-        """Return the contacts of a surface and a shape with a radius.
-
-        Parameters
-        ----------
-        own, second : Features, SweptPolytope
-            The surface and the other shape.
-        surface : Table
-            That of the core of the latter, for edges that are inside.
-        size : float
-            Size of the larger body [m].
-        extents : tuple of float
-            Radii about the frames of the bodies [m].
-        """
+    def between(cls, first: Shape, second: Shape) -> tuple[SweptPairs, ...]:
+        """Return the contacts of a mesh and a shape with a radius."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, SweptPolytope)
+        own, extents = first.features, (first.extent, second.extent)
         core, sweep = second.core, second.sweep
         numbers = surface_numbers(own, patches_for_ball(own, sweep))
         values: dict[str, Value] = {
@@ -169,7 +152,8 @@ class SweptPairs(ContactKinematics):
         counts = [len(own.planes) + len(own.edges) + len(own.corners)]
         counts.append(len(core.planes) + len(core.edges) + len(core.vertices))
         search = CandidateSearch(_find, values)
-        return tuple(cls(search, (numbers, surface), size, max(counts), number) for number in range(MOST_NEAR))
+        surfaces, size = (numbers, surface_of_core(core)), max(own.size, core.size + 2.0 * sweep)
+        return tuple(cls(search, surfaces, size, max(counts), number) for number in range(MOST_NEAR))
 
     @property
     def candidates(self) -> CandidateSearch:
@@ -197,3 +181,11 @@ def _vertices(core: Polytope) -> Table:
     begins = itertools.accumulate((len(star) for star in stars), initial=_ROW * len(stars))
     rows = [(*place, len(star) // 3, begin) for place, star, begin in zip(core.vertices, stars, begins, strict=False)]
     return Table([*itertools.chain(*rows), *itertools.chain(*stars)])
+
+
+def surface_of_core(core: Polytope) -> Table:
+    """Return the surface of a core; a segment has none."""
+    if not core.faces:
+        return NOTHING
+    features = features_of_core(core)
+    return surface_numbers(features, patches_for_body(features, 0.0))
