@@ -21,14 +21,13 @@ _cross = compiled(evaluate_flank_edge)
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
-    write_flank(a, b, out, frustum, edge, surface, size)
-
-
-@compiled
-def write_flank(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
     """Write the geometry block of an edge of a surface across the side."""
     _cross(a, b, out, frustum, edge, 0.0, 0.0, edge, size)
     judge_crossing(a, b, out, frustum, edge, surface, size)
+
+
+write_flank = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
 
 
 @final

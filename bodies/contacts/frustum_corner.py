@@ -73,24 +73,6 @@ def _evaluate(
     surface: Floats,
     size: float,
 ) -> None:
-    write_corner(a, b, out, frustum, corner_x, corner_y, corner_z, n_star, star, lengths, surface, size)
-
-
-@compiled
-def write_corner(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    frustum: Floats,
-    corner_x: float,
-    corner_y: float,
-    corner_z: float,
-    n_star: float,
-    star: Floats,
-    lengths: Floats,
-    surface: Floats,
-    size: float,
-) -> None:
     """Write the geometry block of a corner; parameters as the attributes of :class:`FrustumCorner`."""
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
@@ -139,6 +121,10 @@ def write_corner(
     write_tangent(a, out)
     write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
     write_round(out, SIDE_B, 0.0)
+
+
+write_corner = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
 
 
 @final

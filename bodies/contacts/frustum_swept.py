@@ -40,28 +40,15 @@ def _evaluate(
     star: Floats,
     size: float,
 ) -> None:
-    write_vertex_ball(a, b, out, first, radius, x, y, z, n_star, star, size)
-
-
-@compiled
-def write_vertex_ball(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    first: Floats,
-    radius: float,
-    x: float,
-    y: float,
-    z: float,
-    n_star: float,
-    star: Floats,
-    size: float,
-) -> None:
     """Write the geometry block of a vertex, with a radius; parameters as the attributes of :class:`FrustumSwept`."""
     x, y, z, distance = write_frustum_ball(a, b, out, first, radius, x, y, z)
     past = past_star(b, star, n_star, distance, out[1], out[2], out[3], size)
     gap, out[30] = ended_gap(out[0], past, size)
     place_sphere(a, out, x, y, z, gap + radius, radius)
+
+
+write_vertex_ball = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
 
 
 def check_number(edges: int) -> None:

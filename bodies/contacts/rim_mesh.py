@@ -31,24 +31,13 @@ def _evaluate(
     surface: Floats,
     size: float,
 ) -> None:
-    write_half_rim(a, b, out, frustum, rim, half, edge, surface, size)
-
-
-@compiled
-def write_half_rim(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    frustum: Floats,
-    rim: float,
-    half: float,
-    edge: Floats,
-    surface: Floats,
-    size: float,
-) -> None:
     """Write the geometry block of an edge of a surface across one half of a rim."""
     _cross(a, b, out, frustum, rim, half, edge, 0.0, 0.0, edge, size)
     judge_crossing(a, b, out, frustum, edge, surface, size)
+
+
+write_half_rim = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
 
 
 @final

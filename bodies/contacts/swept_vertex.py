@@ -115,31 +115,6 @@ def _evaluate(
     radius: float,
     size: float,
 ) -> None:
-    write_vertex(
-        a, b, out, swap, n_faces, faces, n_edges, edges, ends, sweep, x_v, y_v, z_v, n_star, star, radius, size
-    )
-
-
-@compiled
-def write_vertex(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    n_faces: float,
-    faces: Floats,
-    n_edges: float,
-    edges: Floats,
-    ends: Floats,
-    sweep: float,
-    x_v: float,
-    y_v: float,
-    z_v: float,
-    n_star: float,
-    star: Floats,
-    radius: float,
-    size: float,
-) -> None:
     """Write the geometry block of a vertex over a core; parameters as the attributes of :class:`SweptVertex`."""
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
@@ -148,6 +123,10 @@ def write_vertex(
     nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
     past = past_star(own, star, n_star, found[1], nx, ny, nz, size)
     write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
+
+
+write_vertex = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
 
 
 def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
