@@ -5,7 +5,7 @@ call_support is for shapes that are known by a function.
 
 from __future__ import annotations
 
-from nonsmooth.engine.kernel import block_at, call_support
-from nonsmooth.engine.kernel import shared as compiled
+from nonsmooth.engine.native.kernel import block_at, call_support
+from nonsmooth.engine.native.kernel import shared as compiled
 
 __all__ = ["block_at", "call_support", "compiled"]

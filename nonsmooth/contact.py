@@ -7,16 +7,16 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from nonsmooth.binding.compile import bind
+from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.contact_result import MODES, ContactResult
-from nonsmooth.engine.kernel import room_addresses
+from nonsmooth.engine.memory.layout import COUNTS
+from nonsmooth.engine.memory.memory import Heap, Memory, allocate
+from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
+from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.model.delassus import write_delassus
-from nonsmooth.model.layout import COUNTS
-from nonsmooth.model.memory import Heap, Memory, allocate
-from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
-from nonsmooth.plugins.compile import bind
-from nonsmooth.plugins.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.watch import Watch
 
 
@@ -55,7 +55,7 @@ def solve_contact(
         Accelerations of the contacts while u' = 0, S of Eq. (13) [m/s^2], shape [n, 3]; zero by default.
     solver : str
         "auto", "enumeration" (at most eight contacts), "lemke", "gauss_seidel" or "newton"; see
-        :mod:`nonsmooth.model.solvers` for the rule of "auto".
+        :mod:`nonsmooth.engine.memory.solvers` for the rule of "auto".
 
     Raises
     ------

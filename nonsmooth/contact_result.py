@@ -8,12 +8,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.kernel import call_room
-from nonsmooth.engine.linear import SINGULAR
-from nonsmooth.engine.modes import OPEN, SLIDE
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.modes import OPEN, SLIDE
+from nonsmooth.engine.memory.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
+from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.model.delassus import read_delassus
-from nonsmooth.model.memory import Memory
-from nonsmooth.model.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
 
 Floats = NDArray[np.float64]
 MODES = ("open", "stick", "slide")

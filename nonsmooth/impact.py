@@ -8,16 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nonsmooth.binding.compile import bind
+from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.contact import check_friction
-from nonsmooth.engine.impact_problem import FINISHED
-from nonsmooth.engine.kernel import room_addresses
+from nonsmooth.engine.impact.problem import FINISHED
+from nonsmooth.engine.memory.layout import COUNTS
+from nonsmooth.engine.memory.memory import Heap, Memory, allocate
+from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.model.delassus import write_delassus
-from nonsmooth.model.layout import COUNTS
-from nonsmooth.model.memory import Heap, Memory, allocate
-from nonsmooth.plugins.compile import bind
-from nonsmooth.plugins.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.watch import Watch
 
 Floats = NDArray[np.float64]

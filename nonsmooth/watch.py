@@ -9,9 +9,9 @@ from collections.abc import Callable, Generator
 from types import FrameType, TracebackType
 from typing import Any
 
-from nonsmooth.engine.kernel import call_room, forget_watch, watch_address
-from nonsmooth.model.memory import Memory
-from nonsmooth.plugins import interpreted
+from nonsmooth.binding import interpreted
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.native.kernel import call_room, forget_watch, watch_address
 
 _FIRST = 256
 """Work that the engine does before it lets the watch look for the first time, in evaluations of a contact,"""

@@ -24,7 +24,7 @@ from xdist import is_xdist_worker
 import nonsmooth as ns
 from bodies import Dumbbell, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.kernel import room_addresses
+from nonsmooth.engine.native.kernel import room_addresses
 
 settings.register_profile("tests", deadline=None, derandomize=True, print_blob=False)
 settings.load_profile("tests")

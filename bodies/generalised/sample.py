@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies.generalised.equations import GUARD, LEADING, Equations, own_names, places, probe
+from nonsmooth.binding.call import body_caller
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.parameters import Value
-from nonsmooth.plugins.call import body_caller
 
 Vector = NDArray[np.float64]
 

@@ -13,10 +13,10 @@ from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import OF_FUNCTION
 from bodies.shapes.support_integrals import integrals_over, largest_radius, least_radius, spiral
+from nonsmooth.binding.methods import bind_support
+from nonsmooth.binding.source import described, line_of
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.plugins.methods import bind_support
-from nonsmooth.plugins.source import described, line_of
 
 _SHARPEST, _FLATTEST = 1e-3, 1e3
 """Radii of curvature that a shape may have, in units of its size."""

@@ -6,19 +6,19 @@ import math
 
 import numpy as np
 
-from nonsmooth.engine.kernel import room_addresses
-from nonsmooth.engine.modes import POLICIES
-from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
+from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
+from nonsmooth.engine.memory.layout import COUNTS, N_ACCOUNTS
+from nonsmooth.engine.memory.memory import Heap, allocate
+from nonsmooth.engine.memory.modes import POLICIES
+from nonsmooth.engine.memory.solvers import pivoted_contacts, solver_number
+from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import initial_state, lay_contacts
-from nonsmooth.model.layout import COUNTS, N_ACCOUNTS
 from nonsmooth.model.linkages import linkages
-from nonsmooth.model.memory import Heap, allocate
 from nonsmooth.model.options import Options
 from nonsmooth.model.pools import lay_pools
-from nonsmooth.model.solvers import pivoted_contacts, solver_number
 from nonsmooth.model.units import find_units, lay_units
 from nonsmooth.system.system import System
 

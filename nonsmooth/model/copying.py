@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.model.memory import Memory
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.native.kernel import PLAIN
 
 
 def copied(memory: Memory) -> Memory:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory.layout import MOST_BLOCKS
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.layout import MOST_BLOCKS
-from nonsmooth.model.memory import Memory
 
 Floats = NDArray[np.float64]
 

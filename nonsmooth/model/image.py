@@ -8,8 +8,8 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.model.layout import CATALOGUE, UNTOUCHED
-from nonsmooth.model.memory import Memory
+from nonsmooth.engine.memory.layout import CATALOGUE, UNTOUCHED
+from nonsmooth.engine.memory.memory import Memory
 
 Integers = NDArray[np.int64]
 _WIDTH = len(CATALOGUE)
@@ -24,7 +24,7 @@ class Image:
     Attributes
     ----------
     parts : tuple of array
-        Copies of the scalars and of :attr:`nonsmooth.model.memory.Memory.kept`, as integers of the same bits.
+        Copies of the scalars and of :attr:`nonsmooth.engine.memory.memory.Memory.kept`, as integers of the same bits.
     """
 
     parts: tuple[Integers, ...]

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nonsmooth.engine.kernel import call_room
-from nonsmooth.engine.modes import NOT_FINITE, RUNNING
+from nonsmooth.binding.compile import parameter_names
+from nonsmooth.engine.memory.layout import GEOMETRY, N_ACCOUNTS
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import ImpactMap
-from nonsmooth.model.layout import GEOMETRY, N_ACCOUNTS
-from nonsmooth.model.memory import Memory
 from nonsmooth.model.pools import failed_search
-from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from nonsmooth.binding.bounds import FRAMES, try_out
+from nonsmooth.binding.compile import bind
+from nonsmooth.engine.memory.layout import FRAME, JOINT_ROW, LOAD
+from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import Joint, Load
-from nonsmooth.model.layout import FRAME, JOINT_ROW, LOAD
 from nonsmooth.model.linkages import Linkage
-from nonsmooth.model.memory import Heap, Memory
-from nonsmooth.plugins.bounds import FRAMES, try_out
-from nonsmooth.plugins.compile import bind
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 

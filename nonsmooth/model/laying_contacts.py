@@ -9,7 +9,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from nonsmooth.engine.modes import OPEN
+from nonsmooth.binding.bounds import try_out
+from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, FORCE_AND_MOMENT, PAIR
+from nonsmooth.engine.memory.memory import Heap, Memory, output_block
+from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     AnisotropicFrictionLaw,
@@ -22,11 +26,7 @@ from nonsmooth.interfaces import (
     TractionLaw,
 )
 from nonsmooth.model.laying import Places
-from nonsmooth.model.layout import CATALOGUE, CATALOGUE_FLOATS, FORCE_AND_MOMENT, PAIR
-from nonsmooth.model.memory import Heap, Memory, output_block
 from nonsmooth.parameters import Table, Value
-from nonsmooth.plugins.bounds import try_out
-from nonsmooth.plugins.compile import bind, parameter_names, parameter_place, vector_place
 from nonsmooth.system.contact import Contact
 
 COLUMN = {name: number for number, name in enumerate(CATALOGUE)}

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.engine.modes import POLICIES
-from nonsmooth.model.solvers import SOLVERS
+from nonsmooth.engine.memory.modes import POLICIES
+from nonsmooth.engine.memory.solvers import SOLVERS
 from nonsmooth.parameters import Component, parameter
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import COLUMN, by_kind, kind_of, lay_floats
-from nonsmooth.model.layout import CATALOGUE
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 

@@ -7,15 +7,15 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from nonsmooth.binding import interpreted
+from nonsmooth.binding.bounds import try_out
+from nonsmooth.binding.compile import bind, parameter_place
+from nonsmooth.binding.source import described
+from nonsmooth.engine.memory.layout import CANDIDATE
+from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch
-from nonsmooth.model.layout import CANDIDATE
-from nonsmooth.model.memory import Heap, Memory
 from nonsmooth.parameters import Table
-from nonsmooth.plugins import interpreted
-from nonsmooth.plugins.bounds import try_out
-from nonsmooth.plugins.compile import bind, parameter_place
-from nonsmooth.plugins.source import described
 from nonsmooth.system.contact import Contact
 
 

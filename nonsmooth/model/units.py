@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from nonsmooth.model.memory import Memory
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.model.pools import Pool, find_pools
 from nonsmooth.system.contact import Contact
 

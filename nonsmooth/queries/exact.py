@@ -7,14 +7,14 @@ from typing import final
 
 import numpy as np
 
+from nonsmooth.binding.call import candidate_caller, pair_caller
+from nonsmooth.binding.source import described
+from nonsmooth.engine.memory.layout import CANDIDATE, FRAME, GEOMETRY, PAST_END
 from nonsmooth.errors import PluginError
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
-from nonsmooth.model.layout import CANDIDATE, FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
-from nonsmooth.plugins.call import candidate_caller, pair_caller
-from nonsmooth.plugins.source import described
 from nonsmooth.queries.result import EXACT, DistanceResult
 from nonsmooth.system.pairing import nearest_pair
 

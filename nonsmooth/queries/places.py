@@ -7,12 +7,12 @@ from typing import Any, final
 
 import numpy as np
 
+from nonsmooth.binding.call import body_caller
+from nonsmooth.engine.memory.layout import FRAME
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
-from nonsmooth.model.layout import FRAME
-from nonsmooth.plugins.call import body_caller
 from nonsmooth.rotations import rotation
 from nonsmooth.vectors import unit_vector, vector
 

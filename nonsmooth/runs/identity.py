@@ -6,9 +6,9 @@ import hashlib
 
 import numpy as np
 
+from nonsmooth.engine.memory.layout import CATALOGUE, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.layout import CATALOGUE, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
 _COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.engine.modes import PAUSED, STOPPED
+from nonsmooth.engine.memory.modes import PAUSED, STOPPED
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.records import Records

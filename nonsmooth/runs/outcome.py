@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.engine.modes import DONE, PAUSED, REASONS, STOPPED
+from nonsmooth.engine.memory.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
+from nonsmooth.engine.memory.modes import DONE, PAUSED, REASONS, STOPPED
+from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Difference, Guards, Image
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
-from nonsmooth.plugins.blocks import written_past
-from nonsmooth.plugins.diagnose import culprit
+from nonsmooth.runs.diagnose import culprit
 from nonsmooth.runs.loop import Ending
 from nonsmooth.runs.records import Records
 from nonsmooth.solution.energy import EnergyAccount

@@ -7,8 +7,8 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.engine.modes import OPEN, SLIDE, START
-from nonsmooth.engine.record import EVENT_HEAD
+from nonsmooth.engine.events.record import EVENT_HEAD
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats, Integers, State
 

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
+from nonsmooth.engine.memory.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
 from nonsmooth.solution.state import State
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")

@@ -7,12 +7,12 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.layout import FRAME
 from nonsmooth.model.options import Options
 from nonsmooth.solids.start import frames_of
 from nonsmooth.system.contact import Contact
@@ -68,7 +68,7 @@ class Probe:
         return self._state(self.model.n_q, "u", self.body.n_u)
 
     def frame(self, number: int) -> Vector:
-        """Return the motion of a frame (:mod:`nonsmooth.model.layout`)."""
+        """Return the motion of a frame (:mod:`nonsmooth.engine.memory.layout`)."""
         call_room("evaluate_at", self.model.memory)
         return self._part("out", number * (FRAME + 6 * self.body.n_u), FRAME).copy()
 

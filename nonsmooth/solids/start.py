@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nonsmooth.engine.memory.layout import CATALOGUE, GEOMETRY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
-from nonsmooth.model.layout import CATALOGUE, GEOMETRY
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
 

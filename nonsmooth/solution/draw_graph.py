@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from nonsmooth.engine.modes import CAUSES
+from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.solution.graph import Mode, TransitionGraph
 from nonsmooth.solution.graph_layout import Point, places_of
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.modes import CAUSES, word
-from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
+from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD
+from nonsmooth.engine.memory.modes import CAUSES, word
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -25,7 +25,7 @@ class Events:
     time : array
         [s], shape [n].
     cause : array
-        Index into :data:`nonsmooth.engine.modes.CAUSES`, shape [n].
+        Index into :data:`nonsmooth.engine.memory.modes.CAUSES`, shape [n].
     contact : array
         The contact that caused it, counted from 0, -1 at the start; the number of the guard where that is the
         cause; shape [n].

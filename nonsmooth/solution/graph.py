@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from nonsmooth.engine.modes import START, word
+from nonsmooth.engine.memory.modes import START, word
 from nonsmooth.solution.events import Events
 
 Mode: TypeAlias = tuple[tuple[int, int], ...]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.modes import IMPACT, JAM, PAINLEVE
+from nonsmooth.engine.memory.modes import IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nonsmooth.engine.modes import OPEN
+from nonsmooth.engine.memory.layout import CANDIDATE
+from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.interfaces import StatefulFrictionLaw, TractionLaw
-from nonsmooth.model.layout import CANDIDATE
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.system.system import System
 

@@ -9,8 +9,8 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory.layout import FRAME
 from nonsmooth.interfaces import Body
-from nonsmooth.model.layout import FRAME
 from nonsmooth.rotations import turned
 from nonsmooth.testing.callers import Caller, compiled_caller, plain_caller
 from nonsmooth.testing.draws import Case, Variable
@@ -25,7 +25,7 @@ OBLIQUE = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
 @final
 @dataclass(frozen=True)
 class Block:
-    """What a body writes; shapes of the parts as in :mod:`nonsmooth.model.layout`."""
+    """What a body writes; shapes of the parts as in :mod:`nonsmooth.engine.memory.layout`."""
 
     body: Body
     numbers: Array

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, final
 
-from nonsmooth.engine.kernel import unshared
+from nonsmooth.engine.native.kernel import unshared
 
 SECONDS = 1.0
 """What one call of a law's function in plain Python may take [s]."""

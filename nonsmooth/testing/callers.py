@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.kernel import PLAIN, at
+from nonsmooth.binding.compile import bind, parameter_names
+from nonsmooth.engine.native.kernel import PLAIN, at
 from nonsmooth.parameters import Value
-from nonsmooth.plugins.compile import bind, parameter_names
 
 Array = NDArray[np.float64]
 Caller = Callable[..., Any]

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import UnusualValue, rules
 from nonsmooth.testing.draws import Case, Space, draws, shrink

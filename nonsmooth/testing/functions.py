@@ -10,9 +10,9 @@ from typing import Any, final
 
 import numpy as np
 
-from nonsmooth.engine.kernel import room_addresses
+from nonsmooth.binding.compile import parameter_names
+from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.errors import UnknownName
-from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.testing.budget import Call, OutOfTime, make_all, where
 from nonsmooth.testing.examine import described
 from nonsmooth.testing.property import Broken, NotChecked, Row
@@ -40,7 +40,7 @@ class Function:
     function : callable
         The function.
     form : str
-        Its form (:data:`nonsmooth.plugins.compile.ROLES`).
+        Its form (:data:`nonsmooth.binding.compile.ROLES`).
     offered : mapping
         The parameters that it may ask for.
     plain, compiled : callable

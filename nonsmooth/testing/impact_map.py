@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.binding.compile import parameter_names
 from nonsmooth.interfaces import ImpactLaw, ImpactMap
-from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.testing.callers import compiled_map
 from nonsmooth.testing.component import variants
 from nonsmooth.testing.draws import Case, Variable, draws

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from nonsmooth.engine.memory.layout import JOINT_ROW
 from nonsmooth.interfaces import Joint
-from nonsmooth.model.layout import JOINT_ROW
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing import moving
 from nonsmooth.testing.callers import compiled_caller, plain_caller

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory.layout import FRAME, PAIR, PAST_END
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.model.layout import FRAME, PAIR, PAST_END
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.callers import compiled_caller, plain_caller
 from nonsmooth.testing.component import component_rows

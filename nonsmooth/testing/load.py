@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from nonsmooth.engine.memory.layout import LOAD
 from nonsmooth.interfaces import Load
-from nonsmooth.model.layout import LOAD
 from nonsmooth.rotations import cross
 from nonsmooth.testing import moving
 from nonsmooth.testing.callers import compiled_caller, plain_caller

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from nonsmooth.engine.memory.layout import FRAME
 from nonsmooth.interfaces import Motion
-from nonsmooth.model.layout import FRAME
 from nonsmooth.testing import moving
 from nonsmooth.testing.callers import compiled_caller, plain_caller
 from nonsmooth.testing.component import component_rows

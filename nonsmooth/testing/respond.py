@@ -9,9 +9,9 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.binding.compile import parameter_names
 from nonsmooth.impact import solve_impact
 from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
-from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.testing.callers import compiled_map
 from nonsmooth.testing.reference import Constant, Problem
 

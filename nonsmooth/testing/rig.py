@@ -10,10 +10,10 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.memory.layout import PAIR
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.model.assembly import lay_out
-from nonsmooth.model.layout import PAIR
 from nonsmooth.model.options import Options
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from nonsmooth.binding.compile import parameter_names
 from nonsmooth.interfaces import StatefulFrictionLaw
-from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.testing.callers import compiled_caller, plain_caller
 from nonsmooth.testing.coefficient import FORCE, HEADING, SPEED, along, mu
 from nonsmooth.testing.component import variants

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import ConstantVelocity, PlanarBody, Plate, Point, Rest, Spring
 from laws import EnergeticImpact, Stribeck, Unilateral
-from nonsmooth.engine.modes import SLIP_TO_STICK, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import SLIP_TO_STICK, STICK_TO_SLIP
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate

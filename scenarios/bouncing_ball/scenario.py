@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import Ball, Harmonic, Plate
 from laws import EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.modes import CLOSING, IMPACT
+from nonsmooth.engine.memory.modes import CLOSING, IMPACT
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules

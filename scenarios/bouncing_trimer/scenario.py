@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import Ball, Compound, Harmonic, Part, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules

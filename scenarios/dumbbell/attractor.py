@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.solution.events import Events
 
 Floats = NDArray[np.float64]

@@ -14,7 +14,7 @@ from bodies import MeshBody, MeshFile, Plate
 from bodies.meshes.surface import Surface
 from bodies.meshes.units import METRES
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.placing import at_height

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Dumbbell, RigidBody, TriangleMesh
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.rocking_block import housner

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import PlanarBody, Plate, Point, Rest
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.modes import JAM, LIFT_OFF, PAINLEVE, SLIP_TO_STICK
+from nonsmooth.engine.memory.modes import JAM, LIFT_OFF, PAINLEVE, SLIP_TO_STICK
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.sliding_rod.scenario import SlidingRod

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import Plate, Rest, RigidBody, Sphere
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.modes import JAM, LIFT_OFF, PAINLEVE
+from nonsmooth.engine.memory.modes import JAM, LIFT_OFF, PAINLEVE
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.engine.modes import PAINLEVE
+from nonsmooth.engine.memory.modes import PAINLEVE
 from nonsmooth.solution.solution import Solution
 from scenarios.two_link_arm import painleve
 from scenarios.two_link_arm.scenario import TwoLinkArm

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Plane, Point, PointFrame
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.modes import IMPACT, PAINLEVE
+from nonsmooth.engine.memory.modes import IMPACT, PAINLEVE
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bodies import Coordinate, GeneralisedBody, Plate, Point, PointFrame, Rest
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate

@@ -19,8 +19,8 @@ import numpy as np
 import nonsmooth as ns
 from bodies import Ball, BoxBody, DrivenBody, MeshBody, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.kernel import room_addresses
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.interfaces import Body
 from tests.bodies.meshes.parts import hills, torus
 

@@ -20,9 +20,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from bodies import Box, MeshMesh, MeshSwept, TriangleMesh, Triangles
+from nonsmooth.binding.call import pair_caller
+from nonsmooth.engine.memory.layout import FRAME
 from nonsmooth.interfaces import Shape
-from nonsmooth.model.layout import FRAME
-from nonsmooth.plugins.call import pair_caller
 from tests.bodies.meshes.parts import box, hills, torus
 
 _POSES, _REACH = 40, 0.005

@@ -25,11 +25,11 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 import nonsmooth as ns
+from nonsmooth.binding.compile import bind
+from nonsmooth.engine.memory.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.errors import InvalidInput, NoDistance
 from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
-from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
-from nonsmooth.plugins.compile import bind
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.system.pairing import nearest_pair
 from nonsmooth.testing.rig import Rig

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from nonsmooth import simulate
-from nonsmooth.engine.record import CODE_HEAD, EVENT_HEAD
+from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 

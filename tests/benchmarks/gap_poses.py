@@ -25,10 +25,10 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from nonsmooth.binding.compile import bind
+from nonsmooth.engine.memory.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.interfaces import ConvexShape
-from nonsmooth.model.layout import FRAME, GEOMETRY, PAST_END
 from nonsmooth.plugins import registry
-from nonsmooth.plugins.compile import bind
 from nonsmooth.system.pairing import nearest_pair
 from tests.benchmarks.gap_draws import MODES, PAIRS, Array, Pose, back, directions, shapes_of
 from tests.benchmarks.outlines import Outline, outline_of

@@ -18,8 +18,8 @@ import warnings
 import nonsmooth as ns
 from bodies import Ball, DrivenBody, EllipsoidBody, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.kernel import room_addresses
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.native.kernel import room_addresses
 from tests.bodies.meshes.parts import hills
 
 

@@ -20,9 +20,9 @@ from pathlib import Path
 from numba.core import event
 
 from nonsmooth import System, simulate, with_laws
-from nonsmooth.engine.kernel import room_addresses
+from nonsmooth.binding.compile import bind
+from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.interfaces import FrictionLaw
-from nonsmooth.plugins.compile import bind
 from nonsmooth.plugins.file import load
 from scenarios.dumbbell.scenario import DumbbellScenario
 

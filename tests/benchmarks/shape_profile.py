@@ -27,15 +27,15 @@ from numba.extending import intrinsic
 import nonsmooth as ns
 from bodies import BoxBody, Dumbbell, Ellipsoid, EllipsoidBody, Harmonic, HullBody, Plate, RigidBody
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.kernel import address_of, room_addresses
-from nonsmooth.engine.native import call_pair
+from nonsmooth.binding.compile import bind
+from nonsmooth.engine.memory.layout import CATALOGUE
+from nonsmooth.engine.memory.rooms import ROOMS
+from nonsmooth.engine.native.kernel import address_of, room_addresses
+from nonsmooth.engine.native.native import call_pair
 from nonsmooth.interfaces import Body
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.layout import CATALOGUE
-from nonsmooth.model.rooms import ROOMS
-from nonsmooth.plugins.compile import bind
 from nonsmooth.runs.loop import run_engine
 from nonsmooth.runs.records import Records
 from scenarios.dice_throw.scenario import DiceThrow

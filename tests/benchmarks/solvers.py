@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.kernel import call_room, room_addresses
+from nonsmooth.engine.memory.layout import COUNTS
+from nonsmooth.engine.memory.memory import Memory, allocate
+from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
+from nonsmooth.engine.native.kernel import call_room, room_addresses
 from nonsmooth.model.delassus import write_delassus
-from nonsmooth.model.layout import COUNTS
-from nonsmooth.model.memory import Memory, allocate
-from nonsmooth.model.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
 
 Floats = NDArray[np.float64]
 FRICTION = 0.3

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 import nonsmooth as ns
 from bodies import FreeBody, Rest
-from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.memory.layout import GEOMETRY
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.layout import GEOMETRY
 from nonsmooth.model.options import Options
 from nonsmooth.parameters import Value
 

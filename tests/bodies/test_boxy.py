@@ -18,7 +18,7 @@ from bodies.contacts.boxy_newton import place_on
 from bodies.contacts.smooth_newton import widest
 from bodies.shapes.support_function import boxy_gauge_of, support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.carriers import Rig, Stand
 from tests.bodies.meshes import parts
 

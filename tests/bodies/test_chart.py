@@ -15,7 +15,7 @@ from bodies import Superellipsoid
 from bodies.contacts.chart import chart_of, start_of
 from bodies.contacts.smooth_newton import widest
 from bodies.shapes.support_function import gauge_of, support_of
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 Array = NDArray[np.float64]
 BOTH_WAYS = [(0.3, 1.3), (1.4, 0.5)]

@@ -27,7 +27,7 @@ from bodies import (
     Superellipsoid,
 )
 from bodies.contacts.tangents import tangent_of
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Shape
 from tests.bodies.carriers import Rig
 from tests.bodies.said_again import outside, random_poses, separation

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bodies import Capsule, Cone, Cylinder, Disc, Superellipsoid
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.rotations import rotation
 from tests.benchmarks.gap_draws import Pose, directions

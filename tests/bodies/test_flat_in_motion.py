@@ -13,7 +13,7 @@ import nonsmooth as ns
 from bodies import BoxBody, CapsuleBody, EllipsoidBody, Plate, SuperellipsoidBody
 from bodies.inertia import tensor_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 Array = NDArray[np.float64]
 

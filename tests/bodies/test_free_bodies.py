@@ -33,7 +33,7 @@ from bodies import (
     Sphere,
 )
 from bodies.inertia import tensor_of
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import Shape
 
 TURNED = (math.cos(0.4), 0.6 * math.sin(0.4), 0.0, 0.8 * math.sin(0.4))

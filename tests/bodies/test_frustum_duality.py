@@ -13,7 +13,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from bodies import Box, Capsule, Cone, ConvexHull, Cylinder, Disc, Ellipsoid, Sphere, Superellipsoid
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.rotations import rotation
 from tests.bodies.carriers import Rig
 from tests.bodies.polytopes import random_hull

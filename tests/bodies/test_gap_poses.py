@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bodies import Cylinder, Disc, Ellipsoid
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.rotations import rotation
 from tests.benchmarks.gap_draws import SMOOTH_PAIRS, Pose

@@ -14,8 +14,8 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from bodies import Coordinate, Dumbbell, GeneralisedBody, Plate, Point, PointFrame, Sphere, TurningFrame
+from nonsmooth.binding.call import body_caller
 from nonsmooth.compiled import compiled
-from nonsmooth.plugins.call import body_caller
 from nonsmooth.types import Floats
 from tests.bodies.planar_functions import (
     END,

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from bodies import Ball, BallJoint, Distance, Dumbbell, Fixed, FreeBody, Harmonic, Hinge, Plate, Slider
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.model.options import Options
 

@@ -28,11 +28,11 @@ from bodies import (
 from bodies.contacts import patch_near
 from bodies.contacts.apex_mesh import ApexMesh
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.binding.call import pair_caller
+from nonsmooth.engine.memory.layout import FRAME, GEOMETRY
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Shape
-from nonsmooth.model.layout import FRAME, GEOMETRY
 from nonsmooth.parameters import Table
-from nonsmooth.plugins.call import pair_caller
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, bracket, hills, torus

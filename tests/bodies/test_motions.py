@@ -24,8 +24,8 @@ from bodies import (
     Sphere,
     Table,
 )
-from nonsmooth.engine.kernel import call_room
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.interfaces import Motion
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.model.options import Options

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from bodies import Cone, Cylinder, Disc, Frustum, TriangleMesh, Triangles
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import bracket
 from tests.bodies.round_distances import core_distance

@@ -11,7 +11,7 @@ import pytest
 
 from bodies import Cone, ConeBody, Cylinder, CylinderBody, Disc, DiscBody
 from nonsmooth import InvalidInput
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from tests.benchmarks.touches import ROUND, hull, on, rounded
 from tests.bodies.carriers import Rig
 from tests.bodies.rounds import PosedRound, tangent, touch_round

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import Ball, Box, Capsule, Cylinder, Disc, Ellipsoid, Plate, Rest, Sphere
-from nonsmooth.engine.modes import CAUSES
+from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.interfaces import Body, Shape
 from tests.bodies.carriers import Carrier, Stand
 

@@ -26,7 +26,7 @@ from bodies import (
 )
 from bodies.shapes.support_function import gauge_of, support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 Array = NDArray[np.float64]
 ELASTIC: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(1.0)}

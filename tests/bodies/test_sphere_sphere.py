@@ -12,7 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 
 RADIUS = 0.01
 

@@ -39,8 +39,8 @@ from bodies.meshes.triangles import Triangles
 from bodies.shapes.drawing import solid_of
 from bodies.shapes.support_integrals import spiral
 from laws import EnergeticImpact, Frictionless, HertzCompliant, Unilateral
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter

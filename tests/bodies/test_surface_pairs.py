@@ -32,12 +32,12 @@ from bodies.contacts import mesh_mesh, patch_near, surface_pairs
 from bodies.contacts.frustum_mesh import FrustumMesh
 from bodies.contacts.mesh_mesh import MeshMesh
 from bodies.contacts.mesh_swept import MeshSwept
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.engine.modes import FEATURE_CHANGE, FEATURE_END, IMPACT
+from nonsmooth.binding.call import candidate_caller, pair_caller
+from nonsmooth.binding.compile import parameter_names
+from nonsmooth.engine.memory.layout import CANDIDATE, FRAME, GEOMETRY
+from nonsmooth.engine.memory.modes import FEATURE_CHANGE, FEATURE_END, IMPACT
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, ConvexShape, Shape
-from nonsmooth.model.layout import CANDIDATE, FRAME, GEOMETRY
-from nonsmooth.plugins.call import candidate_caller, pair_caller
-from nonsmooth.plugins.compile import parameter_names
 from nonsmooth.queries.exact import Contacts
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, channel, hills, torus

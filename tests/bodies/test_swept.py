@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from bodies import Capsule
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.carriers import Rig
 from tests.bodies.swept_poses import KINDS, Posed, random_shapes
 

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from bodies import Superellipsoid
 from bodies.contacts.smooth_newton import widest
 from bodies.shapes.support_function import support_of
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)
 """[m]"""

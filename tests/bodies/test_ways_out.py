@@ -17,7 +17,7 @@ from bodies.contacts.inscribed import no_shorter_way
 from bodies.contacts.smooth_newton import widest
 from bodies.contacts.smooth_starts import gap_along, starts_of, uphill
 from bodies.shapes.support_function import support_of
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 Array = NDArray[np.float64]
 SAME = 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0

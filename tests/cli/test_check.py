@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.plugins import registry
 
 Call = Callable[..., tuple[int, str, str]]

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 Call = Callable[..., tuple[int, str, str]]
 

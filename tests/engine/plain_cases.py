@@ -45,8 +45,9 @@ from laws import (
     RateAndState,
     Unilateral,
 )
-from nonsmooth.engine.modes import POLICIES
-from nonsmooth.model.solvers import SOLVERS
+from nonsmooth import engine
+from nonsmooth.engine.memory.modes import POLICIES
+from nonsmooth.engine.memory.solvers import SOLVERS
 from tests.bodies.meshes.parts import hills
 from tests.physics.test_own_guards import Level
 
@@ -309,7 +310,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
 
 
 def entered(run: Callable[[], Any]) -> tuple[Any, set[str]]:
-    """Return what a function returns and the functions of the engine that it entered, as "module.function"."""
+    """Return what a function returns and the functions of the engine that it entered, as "folder/module.function"."""
     codes = set()
 
     def note(frame: FrameType, event: str, argument: Any) -> None:
@@ -322,7 +323,12 @@ def entered(run: Callable[[], Any]) -> tuple[Any, set[str]]:
     finally:
         sys.setprofile(None)
     paths = {(Path(code.co_filename), code.co_name) for code in codes}
-    return result, {f"{path.stem}.{name}" for path, name in paths if path.parent.name == "engine"}
+    folder = Path(engine.__path__[0])
+    return result, {
+        f"{path.relative_to(folder).with_suffix('').as_posix()}.{name}"
+        for path, name in paths
+        if path.is_relative_to(folder)
+    }
 
 
 if __name__ == "__main__":

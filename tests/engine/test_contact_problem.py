@@ -11,11 +11,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from laws import Coulomb, Unilateral
-from nonsmooth.engine.kernel import call_room, room_addresses
-from nonsmooth.engine.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.layout import COUNTS
+from nonsmooth.engine.memory.memory import Memory, allocate
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.native.kernel import call_room, room_addresses
 from nonsmooth.model.delassus import write_delassus
-from nonsmooth.model.layout import COUNTS
-from nonsmooth.model.memory import Memory, allocate
 
 
 def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:

@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
-from nonsmooth.engine.modes import IMPACT, word
+from nonsmooth.engine.memory.modes import IMPACT, word
 
 G = 9.81
 

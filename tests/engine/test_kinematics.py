@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Plate
-from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.interfaces import Motion
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.options import Options

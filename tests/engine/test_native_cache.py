@@ -13,12 +13,12 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 if PLAIN:
     pytest.skip("nothing is compiled", allow_module_level=True)
 
-from nonsmooth.engine.native_cache import Store, build_name, folders
+from nonsmooth.engine.native.cache import Store, build_name, folders
 from nonsmooth.notices import say
 
 needs_users = pytest.mark.skipif(sys.platform == "win32", reason="a status does not say whose a file is")
@@ -92,8 +92,8 @@ def test_what_is_damaged_is_not_loaded(
 
 _RUN = """
 import sys
-from nonsmooth.engine.kernel import room_addresses
-from nonsmooth.model.rooms import ROOMS
+from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.memory.rooms import ROOMS
 from numba.core import event
 with event.install_recorder("numba:run_pass") as passes:
     assert len(room_addresses()) == len(ROOMS)

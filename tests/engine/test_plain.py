@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import pickle
-import pkgutil
 import subprocess
 import sys
 from pathlib import Path
@@ -18,23 +17,23 @@ import numpy as np
 import pytest
 
 from nonsmooth import engine
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from tests.engine.plain_cases import CASES
 
 NOT_ENTERED = {
-    "contact_search": {"_accept_raw", "_rubs"},
-    "contact_spread": {"_add_disc_curve", "_disc_excess"},
-    "hybrid": {"_up_to_end"},
-    "impact_clock": {"_restore_phases"},
-    "impact_end": {"cut_short", "faded"},
-    "location": {"_advance", "_behind_jump", "_sampled", "_soonest"},
-    "self_check": {"blame"},
-    "settle": {"_force_gone"},
-    "solver_enumeration": {"_sweep_slips"},
+    "contact/search": {"_accept_raw", "_rubs"},
+    "contact/spread": {"_add_disc_curve", "_disc_excess"},
+    "events/hybrid": {"_up_to_end"},
+    "impact/clock": {"_restore_phases"},
+    "impact/end": {"cut_short", "faded"},
+    "flow/location": {"_advance", "_behind_jump", "_sampled", "_soonest"},
+    "flow/self_check": {"blame"},
+    "events/settle": {"_force_gone"},
+    "contact/enumeration": {"_sweep_slips"},
 }
 """By module, what no case enters: ways out of rare difficulties and of faults, run compiled by other tests."""
-COMPILING = {"kernel", "modes", "native", "native_build", "native_cache", "native_types", "plain"}
-"""Modules of the engine that compile, or run in Python only."""
+COMPILING = ("native", "memory")
+"""Folders of the engine whose modules compile, or run in Python only."""
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="nothing is compiled")
 
@@ -75,13 +74,14 @@ def _compare(name: str, plain: dict[str, Any], compiled: dict[str, Any]) -> None
 def _missed(entered: set[str]) -> dict[str, set[str]]:
     """Return the functions of the engine, by module, that no case enters, but for those listed."""
     missed: dict[str, set[str]] = {}
-    for module in pkgutil.iter_modules(engine.__path__):
-        if module.name not in COMPILING:
-            path = Path(engine.__path__[0], f"{module.name}.py")
+    folder = Path(engine.__path__[0])
+    for path in folder.rglob("*.py"):
+        module = path.relative_to(folder).with_suffix("").as_posix()
+        if not module.startswith(COMPILING):
             names = {line[4 : line.index("(")] for line in path.read_text().splitlines() if line.startswith("def ")}
-            names -= NOT_ENTERED.get(module.name, set())
-            if left := {name for name in names if f"{module.name}.{name}" not in entered}:
-                missed[module.name] = left
+            names -= NOT_ENTERED.get(module, set())
+            if left := {name for name in names if f"{module}.{name}" not in entered}:
+                missed[module] = left
     return missed
 
 

@@ -27,7 +27,7 @@ from bodies import (
 from bodies.contacts.plane_point import evaluate_ball_over_plane
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.interfaces import Body, ContactKinematics, Joint, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.assembly import assemble

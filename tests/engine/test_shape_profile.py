@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 
 @pytest.mark.skipif(PLAIN, reason="reads the processor's clock")

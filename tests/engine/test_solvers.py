@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import nonsmooth as ns
 from laws import Coulomb, Frictionless, Unilateral
-from nonsmooth.model.solvers import MOST_ENUMERATED, SOLVERS, solver_number
+from nonsmooth.engine.memory.solvers import MOST_ENUMERATED, SOLVERS, solver_number
 
 Floats = NDArray[np.float64]
 NAMED = SOLVERS[1:]

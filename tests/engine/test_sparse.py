@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import System
-from nonsmooth.engine.kernel import call_room, room_addresses
-from nonsmooth.engine.modes import NO_SLOT, STICK
+from nonsmooth.engine.memory.layout import COUNTS
+from nonsmooth.engine.memory.memory import Memory, allocate
+from nonsmooth.engine.memory.modes import NO_SLOT, STICK
+from nonsmooth.engine.native.kernel import call_room, room_addresses
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.delassus import read_delassus, write_delassus
-from nonsmooth.model.layout import COUNTS
-from nonsmooth.model.memory import Memory, allocate
 from nonsmooth.model.options import Options
 
 RADIUS = 0.01

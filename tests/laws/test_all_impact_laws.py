@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, MoreauImpact, NewtonImpact, PoissonImpact, StrongeImpact, Unilateral
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import ImpactLaw
 from tests.laws.impact_problems import LAWS, E, Problem, apply, draw, solve
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import nonsmooth as ns
 from bodies import Ball, Dumbbell
 from laws import Coulomb, EnergeticImpact, NewtonImpact
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 
 RNG = st.integers(0, 10**6)
 

@@ -24,7 +24,7 @@ from laws import (
     viscoelastic_restitution,
     viscoelastic_speed,
 )
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 
 MASS, RADIUS, MODULUS = 3.5e-3, 4.76e-3, 1.15e11
 

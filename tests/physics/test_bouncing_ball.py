@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Harmonic
-from nonsmooth.engine.modes import CLOSING, IMPACT, LIFT_OFF
+from nonsmooth.engine.memory.modes import CLOSING, IMPACT, LIFT_OFF
 
 G = 9.81
 RADIUS = 0.01

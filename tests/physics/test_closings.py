@@ -10,10 +10,10 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BoxBody, CapsuleBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.kernel import PLAIN, call_room
-from nonsmooth.engine.modes import CAUSES
+from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.modes import CAUSES
+from nonsmooth.engine.native.kernel import PLAIN, call_room
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.layout import GEOMETRY, PAST_END
 from nonsmooth.model.options import Options
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="compiled runs take seconds, plain ones minutes")

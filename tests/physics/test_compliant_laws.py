@@ -27,8 +27,8 @@ from laws import (
     LinearCompliant,
     Unilateral,
 )
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.engine.modes import LIFT_OFF, SLIP_TO_STICK, TOUCH
+from nonsmooth.engine.memory.modes import LIFT_OFF, SLIP_TO_STICK, TOUCH
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw
 
 RADIUS = 0.01

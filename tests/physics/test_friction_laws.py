@@ -27,7 +27,7 @@ from laws import (
     RateAndState,
     Unilateral,
 )
-from nonsmooth.engine.modes import STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import STICK_TO_SLIP
 from nonsmooth.parameters import UnusualValue
 from tests.physics.moved_systems import quaternion
 

@@ -15,8 +15,8 @@ from bodies import Cone, Cylinder, CylinderBody, Disc, DrivenBody, Frustum, Rest
 from bodies.contacts.frustum import nearest_part
 from bodies.shapes.frustum import AXIS, CENTER, FEET
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.engine.modes import CAUSES
+from nonsmooth.engine.memory.modes import CAUSES
+from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.meshes.parts import bracket, channel
 from tests.bodies.round_distances import core_distance
 from tests.bodies.surfaces import distances, is_inside

@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from bodies import ConeBody, DrivenBody, EllipsoidBody, Rod, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, PoissonImpact, Unilateral, Viscous
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.meshes.parts import hills
 
 

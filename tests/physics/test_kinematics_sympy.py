@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bodies import Dumbbell, Harmonic
-from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.layout import FRAME
 from nonsmooth.model.options import Options
 
 NAMES = ("x1", "y1", "z1", "theta", "beta", "gamma")

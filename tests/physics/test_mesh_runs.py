@@ -26,8 +26,8 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.engine.modes import CAUSES
+from nonsmooth.engine.memory.modes import CAUSES
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, Shape
 from tests.bodies.carriers import Carrier
 from tests.bodies.meshes.parts import box, bracket, channel

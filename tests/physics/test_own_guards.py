@@ -12,7 +12,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball
-from nonsmooth.engine.modes import GUARD
+from nonsmooth.engine.memory.modes import GUARD
 from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from bodies import Dumbbell
-from nonsmooth.engine.modes import IMPACT, JAM, PAINLEVE
+from nonsmooth.engine.memory.modes import IMPACT, JAM, PAINLEVE
 
 BODY = Dumbbell(rod_mass_fraction=0.9)
 GRAVITY = 9.81

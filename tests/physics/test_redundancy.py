@@ -17,7 +17,7 @@ import nonsmooth as ns
 from bodies import ConstantVelocity, Plate, Rest, RigidBody, Sphere
 from laws import Coulomb
 from nonsmooth import ContactResult
-from nonsmooth.engine.modes import IMPACT, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import IMPACT, STICK_TO_SLIP
 from tests.physics.moved_systems import quaternion
 
 G = 9.81

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from bodies import EllipsoidBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="minutes in plain mode")
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 
 G = 9.81
 OMEGA = 2.0 * math.pi * 25.0

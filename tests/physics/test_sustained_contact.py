@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Harmonic, Rest
-from nonsmooth.engine.modes import LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP
 
 G = 9.81
 TIGHT = ns.Options(tolerance=1e-12)

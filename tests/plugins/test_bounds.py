@@ -13,10 +13,10 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, LinearCompliant, NewtonImpact, Unilateral
+from nonsmooth.binding import bounds
+from nonsmooth.engine.memory.layout import GUARD
 from nonsmooth.interfaces import Load
-from nonsmooth.model.layout import GUARD
 from nonsmooth.parameters import parameter
-from nonsmooth.plugins import bounds
 from nonsmooth.system.contact import Contact
 from tests.testing import (
     body_dummies,

@@ -13,10 +13,10 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BallJoint, Harmonic, Plate, Rest, RigidBody, Sphere, Spring
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
-from nonsmooth.engine.kernel import PLAIN, address_of
+from nonsmooth.binding import compile as compiling
+from nonsmooth.binding.compile import bind
+from nonsmooth.engine.native.kernel import PLAIN, address_of
 from nonsmooth.interfaces import FrictionLaw
-from nonsmooth.plugins import compile as compiling
-from nonsmooth.plugins.compile import bind
 
 
 @contextlib.contextmanager

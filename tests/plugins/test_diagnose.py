@@ -11,7 +11,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Frictionless, Unilateral
-from nonsmooth.plugins import diagnose
+from nonsmooth.runs import diagnose
 from tests.plugins.failing_laws import Map
 
 

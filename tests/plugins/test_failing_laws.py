@@ -12,7 +12,7 @@ import pytest
 
 import nonsmooth as ns
 from laws import Coulomb, EnergeticImpact
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from tests.plugins import failing_laws as dummies
 
 FRICTION: dict[Callable[..., float], tuple[int, str]] = {

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from nonsmooth.binding.fingerprint import fingerprint
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.plugins.fingerprint import fingerprint
+from nonsmooth.engine.native.kernel import PLAIN
 
 _SOURCE = """
 import math
@@ -97,7 +97,7 @@ _RUN = """
 import sys
 import numba
 from numba.core import event
-from nonsmooth.plugins.compile import bind, evaluate
+from nonsmooth.binding.compile import bind, evaluate
 from own_law import law
 with event.install_recorder("numba:run_pass") as passes:
     print(evaluate(*bind(law, "scalar", {"p": 4.0}, "test"), 3.0), len(passes.buffer))

@@ -16,9 +16,9 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Coordinate, FunctionLoad, FunctionMotion, GeneralisedBody, Plate, Point, PointFrame, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.binding.compile import bind, evaluate
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.plugins.compile import bind, evaluate
+from nonsmooth.engine.native.kernel import PLAIN
 from scenarios.dumbbell.scenario import DumbbellScenario
 from tests.plugins import failing_laws as dummies
 

@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from laws import Coulomb
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.plugins.file import load
 from scenarios.dumbbell.scenario import DumbbellScenario

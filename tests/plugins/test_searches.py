@@ -14,10 +14,10 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Plane, Sphere
 from laws import Coulomb, NewtonImpact, Unilateral
+from nonsmooth.binding import bounds
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.parameters import Value
-from nonsmooth.plugins import bounds
 from nonsmooth.system.contact import Contact
 from nonsmooth.testing import check_contact_kinematics
 from nonsmooth.types import Floats

@@ -15,7 +15,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Harmonic
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
 from nonsmooth.plugins import registry

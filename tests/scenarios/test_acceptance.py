@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.plugins import registry
 

@@ -12,7 +12,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
-from nonsmooth.engine.modes import CAUSES
+from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.interfaces import Guard
 from nonsmooth.solution.draw_graph import draw
 from nonsmooth.solution.graph import TransitionGraph

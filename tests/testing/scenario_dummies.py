@@ -13,7 +13,7 @@ import numpy as np
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.testing import check_scenario

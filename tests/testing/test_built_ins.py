@@ -83,7 +83,7 @@ from laws import (
     ViscoelasticImpact,
     Viscous,
 )
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import (
     Body,
     ContactKinematics,

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import FrictionLaw, ImpactLaw, NormalLaw, TractionLaw
 from nonsmooth.testing import (
     PropertyFailed,

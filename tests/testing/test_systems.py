@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, ContactKinematics, DistanceBackend, Guard, Joint, Load, Motion, Scenario, Shape
 from nonsmooth.testing import (
     Departs,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.solution.solution import Solution
 from scenarios.dumbbell import coordinates
 from scenarios.dumbbell.scenario import DumbbellScenario

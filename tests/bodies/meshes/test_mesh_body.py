@@ -29,8 +29,8 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from nonsmooth.engine.kernel import PLAIN
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import MissingPackagesError
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.model.assembly import assemble

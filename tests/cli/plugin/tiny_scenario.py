@@ -12,7 +12,7 @@ import numpy as np
 from bodies import Ball, Harmonic, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import Solution, System, simulate
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import Criterion, FrictionLaw, RigidNormalLaw, Scenario
 from nonsmooth.parameters import parameter
 

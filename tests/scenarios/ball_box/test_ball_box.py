@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.kernel import call_room
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.model import units
 from nonsmooth.model.assembly import assemble
 from scenarios.ball_box.scenario import BallBox

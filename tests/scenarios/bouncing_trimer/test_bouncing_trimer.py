@@ -11,7 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from nonsmooth.engine.modes import IMPACT, LIFT_OFF
+from nonsmooth.engine.memory.modes import IMPACT, LIFT_OFF
 from scenarios.bouncing_ball.scenario import BouncingBall
 from scenarios.bouncing_trimer import figures
 from scenarios.bouncing_trimer.motion import Motion, repetition, summary

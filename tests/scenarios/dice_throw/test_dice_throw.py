@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from scenarios.dice_throw.scenario import DiceThrow
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from scenarios.egg_on_table.scenario import GRAVITY, EggOnTable
 
 Array = NDArray[np.float64]

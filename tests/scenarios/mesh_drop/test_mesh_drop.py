@@ -9,7 +9,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies.meshes.repair import MeshRepaired
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from scenarios.mesh_drop.scenario import MeshDrop
 from tests.bodies.meshes import parts
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from scenarios.mesh_dumbbell.ball import ball
 from scenarios.mesh_dumbbell.scenario import MeshDumbbell
 

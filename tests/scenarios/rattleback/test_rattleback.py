@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.kernel import PLAIN
+from nonsmooth.engine.native.kernel import PLAIN
 from scenarios.rattleback.rolling import roll
 from scenarios.rattleback.scenario import GRAVITY, Rattleback
 

@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from scenarios.rocking_block import housner
 from scenarios.rocking_block.scenario import RockingBlock
 

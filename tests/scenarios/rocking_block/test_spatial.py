@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from scenarios.rocking_block import housner
 from scenarios.rocking_block.scenario import RockingBlock
 from scenarios.rocking_block.spatial import RockingBlock3D

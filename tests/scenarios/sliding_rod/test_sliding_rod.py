@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 import nonsmooth as ns
-from nonsmooth.engine.modes import IMPACT, JAM, LIFT_OFF, PAINLEVE, SLIP_TO_STICK
+from nonsmooth.engine.memory.modes import IMPACT, JAM, LIFT_OFF, PAINLEVE, SLIP_TO_STICK
 from scenarios.sliding_rod import figures
 from scenarios.sliding_rod.paradox import Rod
 from scenarios.sliding_rod.scenario import GRAVITY, SlidingRod

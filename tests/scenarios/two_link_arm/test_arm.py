@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.modes import PAINLEVE
+from nonsmooth.engine.memory.modes import PAINLEVE
 from scenarios.two_link_arm.painleve import (
     critical_friction,
     least_critical_friction,

@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from laws import StrongeImpact
-from nonsmooth.engine.modes import IMPACT
+from nonsmooth.engine.memory.modes import IMPACT
 from scenarios.woodpecker.scenario import _LAWS, Woodpecker
 from tests.scenarios.woodpecker.time_stepping import cycle
 

@@ -1,0 +1,1 @@
+"""From functions of plug-ins to addresses that the engine calls."""

@@ -1,0 +1,89 @@
+"""Calling from Python what the engine calls by address: functions of bodies and of contact pairs outside of a run."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.binding.compile import bind, vector_place
+from nonsmooth.engine.native.kernel import PLAIN, call_body, call_pair
+from nonsmooth.parameters import Value
+
+Vector = NDArray[np.float64]
+
+
+def body_caller(
+    function: Callable[..., None], values: Mapping[str, Value], owner: str
+) -> Callable[[float, Vector, Vector, Vector], None]:
+    """Return ``call(t, q, u, out)`` that runs a function of the form "body" just as the engine runs it.
+
+    Its vectors are contiguous arrays of floats, and nobody checks their lengths.
+
+    Raises
+    ------
+    UnknownName
+        If the function asks for a parameter that nobody gives.
+    """
+    address, heap = bind(function, "body", values, owner)
+    numbers = np.array([*heap, 0.0])
+    if PLAIN:
+        return lambda t, q, u, out: call_body(address, t, q, u, numbers, out)
+    native: Any = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.c_void_p] * 4)(address)
+
+    def call(t: float, q: Vector, u: Vector, out: Vector) -> None:
+        native(t, q.ctypes.data, u.ctypes.data, numbers.ctypes.data, out.ctypes.data)
+
+    return call
+
+
+def pair_caller(
+    function: Callable[..., None], values: Mapping[str, Value], owner: str
+) -> Callable[[Vector, Vector, Vector], None]:
+    """Return ``call(a, b, out)`` that runs a function of the form "pair" just as the engine runs it.
+
+    Its vectors are contiguous arrays of floats, and nobody checks their lengths.
+
+    Raises
+    ------
+    UnknownName
+        If the function asks for a parameter that nobody gives.
+    """
+    return _pair_caller(function, values, owner)[0]
+
+
+def candidate_caller(
+    function: Callable[..., None], values: Mapping[str, Value], owner: str
+) -> Callable[[Vector, Vector, Vector, Vector], None]:
+    """Return ``call(a, b, out, candidate)`` for the evaluator of contacts whose features are searched for.
+
+    As :func:`pair_caller`; the candidate is what :class:`nonsmooth.interfaces.CandidateSearch` says, shape [4].
+    """
+    call, numbers = _pair_caller(function, values, owner)
+    place = vector_place(function, "pair", numbers.tolist(), "candidate")
+
+    def call_with(a: Vector, b: Vector, out: Vector, candidate: Vector) -> None:
+        numbers[place : place + len(candidate)] = candidate
+        call(a, b, out)
+
+    return call_with
+
+
+def _pair_caller(
+    function: Callable[..., None], values: Mapping[str, Value], owner: str
+) -> tuple[Callable[[Vector, Vector, Vector], None], Vector]:
+    """Return the call, and the numbers of its parameters."""
+    address, heap = bind(function, "pair", values, owner)
+    numbers = np.array([*heap, 0.0])
+    if PLAIN:
+        return lambda a, b, out: call_pair(address, a, b, numbers, out), numbers
+    native: Any = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address)
+    heap_address = numbers.ctypes.data
+
+    def call(a: Vector, b: Vector, out: Vector, _kept: Vector = numbers) -> None:
+        native(a.ctypes.data, b.ctypes.data, heap_address, out.ctypes.data)
+
+    return call, numbers

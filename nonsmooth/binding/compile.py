@@ -1,0 +1,284 @@
+"""From a plain Python function with named parameters to an address that the engine calls."""
+
+from __future__ import annotations
+
+import ctypes
+import dis
+import functools
+import inspect
+import math
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from nonsmooth.binding import interpreted
+from nonsmooth.binding.fingerprint import fingerprint
+from nonsmooth.binding.refusal import Refusal, refusal
+from nonsmooth.binding.source import described, name_of, place_of
+from nonsmooth.engine.native.kernel import PLAIN, address_of, at, call_scalar, jit
+from nonsmooth.errors import RunsInPython, UnknownName
+from nonsmooth.parameters import Table, Value
+
+ROLES = {
+    "scalar": ("x",),
+    "compliance": ("indentation", "rate", "closing_rate"),
+    "traction": ("normal_force", "motion", "state", "out"),
+    "rates": ("speed", "state", "out"),
+    "guard": ("t", "q", "u"),
+    "body": ("t", "q", "u", "out"),
+    "load": ("t", "a", "b", "out"),
+    "pair": ("a", "b", "out"),
+    "map": ("n", "delassus", "rates", "out"),
+    "support": ("direction", "out"),
+}
+"""What the engine passes to a function of each form, before the function's own parameters."""
+
+_CALLS = {
+    "scalar": ("x, p", "v = float(law(x{unpacked}))", "v = nan"),
+    "compliance": ("x, y, z, p", "v = float(law(x, y, z{unpacked}))", "v = nan"),
+    "traction": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
+    "rates": ("t, a, b, p, out", "law(t, b, out{unpacked})", "out[0] = nan"),
+    "guard": ("t, q, u, p", "return float(law(t, q, u{unpacked}))", "return nan"),
+    "body": ("t, q, u, p, out", "law(t, q, u, out{unpacked})", "out[0] = nan"),
+    "load": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
+    "pair": ("a, b, p, out", "law(a, b, out{unpacked})", "out[0] = nan"),
+    "map": ("n, delassus, rates, p, out", "law(n, delassus, rates, out{unpacked})", "out[0] = nan"),
+    "support": ("a, p, out", "law(a, out{unpacked})", "out[0] = nan"),
+}
+"""What the engine calls with, the call of the function, and what stands for an exception."""
+_ENDINGS = {
+    "scalar": " if v - v != 0.0 and x - x == 0.0: p[0] = x\n return v\n",
+    "compliance": (" if v - v != 0.0 and x - x + y - y + z - z == 0.0: p[0], p[1], p[2] = x, y, z\n return v\n"),
+    "traction": (
+        " v = out[0] + out[1] + out[2] + out[3] + out[4]\n"
+        " if v - v != 0.0:\n"
+        "  s = t + a[0] + a[1] + a[2] + a[3] + a[4]\n"
+        "  if s - s == 0.0:\n"
+        "   p[0] = t\n"
+        "   for i in range(5): p[1 + i] = a[i]\n"
+    ),
+    "rates": " if out[0] - out[0] != 0.0 and t - t == 0.0: p[0] = t\n",
+}
+"""What follows the call of a law: the numbers for which it has no value, before its parameters, for messages."""
+RECORDED = {"scalar": 1, "compliance": 3, "traction": 6, "rates": 1}
+"""How many numbers that are; none for other forms."""
+_SHIM = "def shim({arguments}):\n {call}\n{ending}"
+_GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
+"""A compiled function cannot raise into the engine: an exception becomes a number that is not finite.
+
+Compiling the guard takes as long as compiling the function, so that it is left out where nothing raises.
+"""
+_PYTHON_SHIM = """def shim({arguments}):
+ try: {call}
+ except (Exception, SystemExit) as error:
+  note(error)
+  {failure}
+"""
+_CALLED_SHIM = """ except KeyboardInterrupt:
+  if not hold(): return shim({arguments})
+  {failure}
+"""
+"""Behind the lines above, where the engine is compiled and an interruption cannot pass it."""
+
+
+class _Entry(NamedTuple):
+    """Where the engine calls a function; why it is not compiled and what a call costs, if it runs in Python."""
+
+    address: int
+    refusal: Refusal | None = None
+    shim: Callable[..., Any] | None = None
+
+
+@functools.cache
+def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
+    """Return the names of a function's own parameters, in order."""
+    return tuple(inspect.signature(function).parameters)[len(ROLES[form]) :]
+
+
+def bind(
+    function: Callable[..., Any], form: str, values: Mapping[str, Value], owner: str
+) -> tuple[int, tuple[float, ...]]:
+    """Compile a law function and pick its parameters out of ``values`` by name.
+
+    A function that cannot be compiled runs in Python.  It makes a warning, once, with the reason.
+
+    Parameters
+    ----------
+    function : callable
+        A plain function whose first arguments are those of ``ROLES[form]``.
+    form : str
+        One of ``ROLES``.
+    values : mapping of str to float, tuple of float or Table
+        The parameters that the law's object and its surroundings offer; the function gets tuples and tables as heaps.
+    owner : str
+        The law, for messages.
+
+    Returns
+    -------
+    tuple of int and tuple of float
+        The address, and what the function's parameters need on the heap: places for numbers that it has no value
+        for (``RECORDED``); one number for each parameter, in the order of the signature, then the tuples; the number
+        of a tuple says where it begins.
+
+    Raises
+    ------
+    UnknownName
+        If the function asks for a parameter that nobody gives.
+    """
+    names = parameter_names(function, form)
+    for name in names:
+        if name not in values:
+            raise UnknownName(f"{owner}: {described(function)}, asks for a parameter whose", name, values)
+    vectors = _vectors(values, names)
+    first = RECORDED.get(form, 0)
+    heap: list[float] = [math.nan] * first + [0.0] * len(names)
+    for i, name in enumerate(names, start=first):
+        value = values[name]
+        if isinstance(value, Table):
+            heap[i] = float(len(heap))
+            heap += value.numbers.tolist()
+        elif isinstance(value, tuple):
+            heap[i] = float(len(heap))
+            heap += [float(x) for x in value]
+        else:
+            heap[i] = float(value)
+    entry = _entry(function, form, vectors)
+    if entry.refusal is not None and entry.shim is not None and entry.address not in _warned:
+        _warned.add(entry.address)
+        _warn(function, owner, entry.refusal, interpreted.cost(entry.shim, tuple(heap)))
+    return entry.address, tuple(heap)
+
+
+def _vectors(values: Mapping[str, Value], names: tuple[str, ...]) -> tuple[bool, ...]:
+    return tuple(isinstance(values[name], (tuple, Table)) for name in names)
+
+
+def refused(function: Callable[..., Any], form: str) -> Refusal | None:
+    """Return why a function of numbers cannot be compiled; None if it can."""
+    return _entry(function, form, (False,) * len(parameter_names(function, form))).refusal
+
+
+def bind_in_python(
+    function: Callable[..., Any], form: str, owner: str, method: Callable[..., Any], why: Refusal
+) -> tuple[int, tuple[float, ...]]:
+    """Return what :func:`bind` does for a function without parameters, which calls a method that cannot be compiled."""
+    shim = _made((_PYTHON_SHIM + _CALLED_SHIM).format(**_parts(form, ())), _scope_in_python(function))
+    address = interpreted.address(shim)
+    _warn(method, owner, why, interpreted.cost(shim, ()))
+    return address, ()
+
+
+def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float], name: str) -> int:
+    """Return where a tuple begins in what :func:`bind` wants on the heap."""
+    return int(heap[parameter_place(function, form, name)])
+
+
+def parameter_place(function: Callable[..., Any], form: str, name: str) -> int:
+    """Return where the number of a parameter stands in what :func:`bind` wants on the heap."""
+    return RECORDED.get(form, 0) + parameter_names(function, form).index(name)
+
+
+_warned: set[int] = set()
+
+
+def _warn(function: Callable[..., Any], owner: str, why: Refusal, cost: str) -> None:
+    file, line = place_of(function)
+    warnings.warn_explicit(
+        f"{owner}: {described(function)}, runs in Python, as numba cannot compile {why.describe(file)}. {cost}. "
+        "Numbers, tuples, math, branches, loops and functions under @compiled can be compiled.",
+        RunsInPython,
+        file or name_of(function),
+        line,
+    )
+
+
+@functools.cache
+def _entry(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> _Entry:
+    parts = _parts(form, vectors)
+    ending = _ENDINGS.get(form, "")
+    if PLAIN:
+        shim = _made(_PYTHON_SHIM.format(**parts) + ending, _scope_in_python(function))
+        return _Entry(address_of(shim, form, ""))
+    text = (_GUARDED_SHIM if _may_raise(function) else _SHIM).format(**parts, ending=ending)
+    try:
+        shim = _made(text, {"law": jit(function), "at": at})
+        return _Entry(address_of(shim, form, fingerprint(function, form + text)))
+    except Exception as error:  # the compiler's errors have no base of their own
+        shim = _made((_PYTHON_SHIM + _CALLED_SHIM).format(**parts) + ending, _scope_in_python(function))
+        return _Entry(interpreted.address(shim), refusal(function, error), shim)
+
+
+def _parts(form: str, vectors: tuple[bool, ...]) -> dict[str, str]:
+    """Return the parts of a shim: what it takes, how it calls the function, what stands for an exception."""
+    item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
+    items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
+    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items, start=RECORDED.get(form, 0)))
+    arguments, call, failure = _CALLS[form]
+    return {"arguments": arguments, "call": call.format(unpacked=unpacked), "failure": failure}
+
+
+def in_python(
+    function: Callable[..., Any], form: str, values: Mapping[str, Value], move: Callable[..., Any]
+) -> Callable[..., Any]:
+    """Return what the engine would call, as plain Python that raises what the function raises.
+
+    ``move(heap, offset)`` stands in the place of moved pointers.
+    """
+    vectors = _vectors(values, parameter_names(function, form))
+    scope = {"law": interpreted.in_python(function, move), "at": move}
+    return _made(_SHIM.format(**_parts(form, vectors), ending=""), scope)
+
+
+def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
+    scope |= {"__name__": __name__, "nan": math.nan}
+    exec(text, scope)  # the shim's text is ours, never the user's
+    shim: Callable[..., Any] = scope["shim"]
+    return shim
+
+
+def _scope_in_python(function: Callable[..., Any]) -> dict[str, Any]:
+    return {
+        "law": interpreted.in_python(function, interpreted.move),
+        "at": interpreted.move,
+        "note": functools.partial(interpreted.note, function),
+        "hold": interpreted.hold,
+    }
+
+
+_RAISING = ("RAISE_VARARGS", "BUILD_LIST", "BUILD_MAP", "BUILD_SET")
+"""Statements that raise, and containers: what is not in them raises, too."""
+
+
+def _may_raise(function: Callable[..., Any]) -> bool:
+    """Return whether a function, or one that it names, may raise."""
+    waiting, seen = [inspect.unwrap(function)], set()
+    while waiting:
+        one = waiting.pop()
+        if not inspect.isfunction(one) or one in seen:
+            continue
+        seen.add(one)
+        closure = inspect.getclosurevars(one)
+        named = (*closure.globals.values(), *closure.nonlocals.values())
+        # an index into a tuple may be out of its range
+        if any(_is_table(value) for value in (*named, *one.__code__.co_consts)) or any(
+            instruction.opname in _RAISING for instruction in dis.get_instructions(one)
+        ):
+            return True
+        waiting += [inspect.unwrap(value) for value in named if callable(value)]
+    return False
+
+
+def _is_table(value: Any) -> bool:
+    """Return whether a value is a tuple to look something up in; those of strings alone name arguments."""
+    return type(value) is tuple and any(not isinstance(item, str) for item in value)
+
+
+def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:
+    """Return what the function of the form "scalar" at an address, as :func:`bind` gives both, makes of ``x``."""
+    heap = np.array(parameters, dtype=float)
+    if PLAIN:
+        return float(call_scalar(address, x, memoryview(heap.data)))
+    function = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.c_void_p)(address)
+    return float(function(x, heap.ctypes.data))

@@ -1,0 +1,78 @@
+"""What the machine code of a plain function depends on, as the key under which the code may be kept on disk."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import math
+import sys
+from collections.abc import Callable
+from types import CodeType
+from typing import Any
+
+import numpy as np
+
+from nonsmooth.engine.native.kernel import block_at, call_support, unshared
+
+_MODULES = (math, np)
+_OWN = (block_at, call_support)
+
+
+def fingerprint(function: Callable[..., Any], context: str) -> str:
+    """Return a digest of a function's bytecode, of the constants and of the functions that it names, and of a context.
+
+    The digest is of what runs, not of files, which may be newer.  It covers numbers, strings, tuples of them,
+    functions at module level, :mod:`math` and :mod:`numpy`; where a function names anything else there is none.  Nor
+    is there one for a closure: a program may make any number of them, and what is kept on disk would grow with it.
+
+    Parameters
+    ----------
+    function : callable
+        The function.
+    context : str
+        All else that the machine code depends on.
+
+    Returns
+    -------
+    str
+        The digest, or nothing.
+    """
+    parts = [context]
+    reached = [unshared(function)]
+    for one in reached:  # grows as functions name further ones
+        if not inspect.isfunction(one) or one.__closure__ is not None:
+            return ""
+        if one.__module__ not in sys.modules:  # numba imports it when it loads the code
+            return ""
+        constants = (one.__code__.co_consts, one.__defaults__, *sorted((one.__kwdefaults__ or {}).items()))
+        if not _is_constant(constants):
+            return ""
+        parts.append(repr((one.__module__, one.__qualname__, *_shape(one.__code__), constants)))
+        for name, value in sorted(inspect.getclosurevars(one).globals.items()):
+            named = unshared(value)
+            if any(value is own for own in _OWN):
+                # the engine's, whose sources are part of where code is kept
+                parts.append(f"{name} = {value.__name__}")
+            elif _is_constant(value) or any(value is module for module in _MODULES):
+                parts.append(f"{name} = {value!r}")
+            elif inspect.isfunction(named):
+                reached += [] if named in reached else [named]
+                parts.append(f"{name} = function {reached.index(named)}")
+            else:
+                return ""
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]
+
+
+def _shape(code: CodeType) -> tuple[Any, ...]:
+    """Return what makes two codes equal, constants apart."""
+    arguments = (code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags)
+    # a table of its own since Python 3.11
+    handlers = getattr(code, "co_exceptiontable", b"")
+    return *arguments, code.co_code, handlers, code.co_names, code.co_varnames
+
+
+def _is_constant(value: Any) -> bool:
+    """Return whether the printed form of a value says all about it."""
+    if type(value) is tuple:
+        return all(_is_constant(item) for item in value)
+    return value is None or type(value) in (bool, int, float, str)

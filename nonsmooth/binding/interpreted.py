@@ -1,0 +1,130 @@
+"""Functions that stay in Python: the engine, compiled or not, calls them by address like all others.
+
+What they raise cannot pass the engine.  It becomes a number that is not finite, and is kept here for the message.
+Ctrl-C within one is held back until the engine has come to a safe point: the call is made again, and a second Ctrl-C
+gives it up.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import inspect
+import statistics
+import time
+import types
+from collections.abc import Callable
+from typing import Any
+
+from nonsmooth.binding.source import raised
+from nonsmooth.engine.native.kernel import PLAIN, at, unshared
+
+_Pointer = ctypes.POINTER(ctypes.c_double)
+_C_TYPES: dict[str, Any] = {"n": ctypes.c_int64, **dict.fromkeys("txyz", ctypes.c_double)}
+"""Of the arguments that are no pointers."""
+_SECONDS = 5e-3
+"""How long a function is timed."""
+_CALLS = 100
+_alive: list[Any] = []
+_raised: dict[Callable[..., Any], str] = {}
+_held: list[bool] = []
+
+
+def note(function: Callable[..., Any], error: BaseException) -> None:
+    """Keep what a function has raised."""
+    _raised[function] = raised(function, error)
+
+
+def noted(function: Callable[..., Any]) -> str:
+    """Return what a function raised last, and where; nothing if it did not."""
+    return _raised.get(function, "")
+
+
+def forget() -> None:
+    """Begin anew: nothing was raised, nobody asked to stop."""
+    _raised.clear()
+    _held.clear()
+
+
+def hold() -> bool:
+    """Keep a Ctrl-C for later; tell whether there was one before."""
+    _held.append(True)
+    return len(_held) > 1
+
+
+def let_go() -> bool:
+    """Tell whether there was a Ctrl-C while the engine ran, once."""
+    asked = bool(_held)
+    _held.clear()
+    return asked
+
+
+def address(shim: Callable[..., Any]) -> int:
+    """Return the address of a C function that calls a Python one; its arguments go by their names."""
+    callback = _prototype(shim)(shim)
+    _alive.append(callback)
+    return int(ctypes.cast(callback, ctypes.c_void_p).value or 0)
+
+
+def cost(shim: Callable[..., Any], numbers: tuple[float, ...]) -> str:
+    """Return in words what a call by address takes: of a function of numbers itself, of any other an empty one."""
+    names = tuple(inspect.signature(shim).parameters)
+    heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)
+    if all(name in _C_TYPES for name in names[:-1]):
+        seconds = _time(_prototype(shim)(shim), (*[0.0] * (len(names) - 1), heap))
+        return f"A call takes {1e6 * seconds:.1f} us, timed just now"
+    callback = _prototype(shim)(lambda *arguments: 0.0)
+    given = [0 if name == "n" else 0.0 if name in _C_TYPES else heap for name in names]
+    seconds = _time(callback, tuple(given))
+    return f"A call takes more than {1e6 * seconds:.1f} us, the time of an empty function, measured just now"
+
+
+def _prototype(shim: Callable[..., Any]) -> Any:
+    names = tuple(inspect.signature(shim).parameters)
+    result = ctypes.c_double if "out" not in names else None
+    return ctypes.CFUNCTYPE(result, *[_C_TYPES.get(name, _Pointer) for name in names])
+
+
+def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:
+    """Return the median time of a call [s]."""
+    took: list[float] = []
+    began = time.perf_counter()
+    while len(took) < _CALLS and time.perf_counter() - began < _SECONDS:
+        start = time.perf_counter()
+        function(*arguments)
+        took.append(time.perf_counter() - start)
+    return statistics.median(took)
+
+
+def in_python(function: Callable[..., Any], move: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the function as Python can run it: where it moves pointers, ``move(heap, offset)`` does it."""
+    return function if PLAIN else _moving(unshared(function), move)
+
+
+def _moving(
+    function: Callable[..., Any], move: Callable[..., Any], above: tuple[Callable[..., Any], ...] = ()
+) -> Callable[..., Any]:
+    if not inspect.isfunction(function) or function in above:
+        return function
+    scope, new = function.__globals__, {}
+    for name in function.__code__.co_names:
+        value = scope.get(name)
+        inner = unshared(value)
+        if value is at:
+            new[name] = move
+        elif inner is not value and (moved := _moving(inner, move, (*above, function))) is not inner:
+            new[name] = moved
+    if not new:
+        return function
+    copy = types.FunctionType(
+        function.__code__, {**scope, **new}, function.__name__, function.__defaults__, function.__closure__
+    )
+    copy.__kwdefaults__, copy.__qualname__ = function.__kwdefaults__, function.__qualname__
+    return copy
+
+
+def move(heap: Any, offset: int) -> Any:
+    """Return a pointer, or a view, moved by ``offset`` numbers."""
+    if PLAIN:
+        return at(heap, offset)
+    start = ctypes.addressof(heap.contents) + offset * ctypes.sizeof(ctypes.c_double)
+    return ctypes.cast(start, _Pointer)

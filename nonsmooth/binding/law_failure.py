@@ -1,0 +1,115 @@
+"""Which function of a law had no finite value, for which input, as the engine kept it before the parameters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.binding import interpreted
+from nonsmooth.binding.compile import RECORDED, ROLES, parameter_names
+from nonsmooth.binding.source import described, returned
+from nonsmooth.interfaces import (
+    CompliantNormalLaw,
+    FrictionLaw,
+    ImpactLaw,
+    ImpactProcess,
+    NormalLaw,
+    StatefulFrictionLaw,
+    TangentialLaw,
+    TractionLaw,
+)
+from nonsmooth.parameters import Component
+
+REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can step through it."
+
+
+class Finding(NamedTuple):
+    """A sentence on a function of a law without a value; whether it has none for that input again."""
+
+    text: str
+    again: bool
+
+
+class LawFunction(NamedTuple):
+    """A function of a law: its name in the engine's memory, the law, the function, its form."""
+
+    name: str
+    law: Component
+    function: Callable[..., Any]
+    form: str
+
+
+def law_functions(
+    friction: TangentialLaw, impact: ImpactLaw | None = None, normal: NormalLaw | None = None
+) -> Iterator[LawFunction]:
+    """Yield the functions of the laws of a contact, impact maps apart."""
+    if isinstance(friction, TractionLaw):
+        yield LawFunction("traction", friction, friction.traction, "traction")
+    if isinstance(friction, FrictionLaw):
+        yield LawFunction("friction", friction, friction.coefficient, "scalar")
+    if isinstance(friction, StatefulFrictionLaw):
+        yield LawFunction("rates", friction, friction.rates, "rates")
+    if isinstance(normal, CompliantNormalLaw):
+        yield LawFunction("normal", normal, normal.force, "compliance")
+    if isinstance(impact, ImpactProcess):
+        yield LawFunction("force", impact, impact.force, "scalar")
+        yield LawFunction("efficiency", impact, impact.efficiency, "scalar")
+
+
+def first_without_value(findings: Iterable[Finding | None]) -> str:
+    """Return the first sentence of what has no value again, else the first of all, nothing without any."""
+    found = [finding for finding in findings if finding is not None]
+    return next((finding.text for finding in found if finding.again), found[0].text if found else "")
+
+
+def without_value(
+    heap: NDArray[np.float64], part: LawFunction, state: Sequence[float] | NDArray[np.float64] = (), where: str = ""
+) -> Finding | None:
+    """Return what is known of the last input for which a function had no finite value in the engine, if there is one.
+
+    Parameters
+    ----------
+    heap : array
+        The engine's, from the parameters of the function on.
+    part : LawFunction
+        The function.
+    state : sequence of float
+        The inner states of the law.
+    where : str
+        The contact, for the sentence.
+    """
+    numbers = heap[: RECORDED[part.form]].tolist()
+    if not np.all(np.isfinite(numbers)):
+        return None
+    offered = {**part.law.parameters(), "state": np.array(state)}
+    values = {name: offered[name] for name in parameter_names(part.function, part.form)}
+    vectors = {"motion": np.array(numbers[1:]), "state": np.array(state)}
+    roles = [role for role in ROLES[part.form] if role != "out"]
+    inputs = {role: vectors[role] if role in vectors else numbers[i] for i, role in enumerate(roles)}
+    words, again = _outcome(part, inputs, values, len(state))
+    given = {name: _plain(value) for name, value in values.items()}
+    at = ", ".join(f"{name} = {_plain(value)}" for name, value in inputs.items())
+    at = _plain(numbers[0]) if part.form == "scalar" else at
+    owner = f"{type(part.law).__name__}: {described(part.function)},"
+    return Finding(f"{owner} {words} at {at} with {given}. {REMEDY} ({where})", again)
+
+
+def _outcome(part: LawFunction, inputs: dict[str, Any], values: dict[str, Any], n_state: int) -> tuple[str, bool]:
+    """Return what a function does, and whether that is no finite number."""
+    if noted := interpreted.noted(part.function):
+        return noted, True
+    if "out" not in ROLES[part.form]:
+        words, value = returned(part.function, *inputs.values(), **values)
+        return words, not (isinstance(value, (int, float)) and math.isfinite(value))
+    out = np.zeros(5 + n_state)
+    words, _ = returned(part.function, *inputs.values(), out, **values)
+    words = words.replace("returns None", f"writes {out.tolist()}")
+    return words, words.startswith("raises") or not bool(np.all(np.isfinite(out)))
+
+
+def _plain(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value

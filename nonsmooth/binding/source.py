@@ -1,0 +1,96 @@
+"""Where a function stands, and where in it something was raised, for messages."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import linecache
+import sys
+import traceback
+from collections.abc import Callable, Iterable
+from types import CodeType, FrameType
+from typing import Any
+
+from nonsmooth.engine.native.kernel import unshared
+
+
+def name_of(function: Callable[..., Any]) -> str:
+    """Return the name of a function, or of what stands in the place of one."""
+    return str(getattr(function, "__qualname__", repr(function)))
+
+
+def place_of(function: Callable[..., Any]) -> tuple[str, int]:
+    """Return file and first line of a function, decorators apart; no file and 0 for what is not written in Python."""
+    code = _code(function)
+    if code is None:
+        return "", 0
+    line = code.co_firstlineno
+    while linecache.getline(code.co_filename, line).lstrip().startswith("@"):
+        line += 1
+    return code.co_filename, line
+
+
+def described(function: Callable[..., Any]) -> str:
+    """Return name, file and line of a function in words."""
+    file, line = place_of(function)
+    return f"{name_of(function)} in {file}, line {line}" if file else f"{name_of(function)}, which has no source"
+
+
+def raised(function: Callable[..., Any], error: BaseException) -> str:
+    """Return what a function has raised, and at which line, with its text; where it is far from there, that place, too.
+
+    The line is the last one in the function's own file.
+    """
+    frames = traceback.extract_tb(error.__traceback__)
+    last = _last_own(function, frames)
+    beyond = f", from {frames[-1].filename}" if last is not None and frames[-1] is not last else ""
+    return f"raises {error!r}{line_of(function, error)}{beyond}"
+
+
+def line_of(function: Callable[..., Any], error: BaseException) -> str:
+    """Return in brackets the last line of a function's own file that an error has passed, with its text."""
+    file, line = place_of(function)
+    last = _last_own(function, traceback.extract_tb(error.__traceback__))
+    return _line(file, last.lineno if last is not None and last.lineno is not None else line)
+
+
+def _last_own(function: Callable[..., Any], frames: Iterable[traceback.FrameSummary]) -> traceback.FrameSummary | None:
+    file = place_of(function)[0]
+    own = [frame for frame in frames if frame.filename == file and frame.lineno is not None]
+    return own[-1] if own else None
+
+
+def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> tuple[str, Any]:
+    """Call a function; return what it returns, and in which line, or what it raises, in words, and the value."""
+    code, lines = _code(function), [0]
+
+    def follow(frame: FrameType, event: str, argument: Any) -> Any:
+        if frame.f_code is code:
+            lines[0] = frame.f_lineno
+            return follow
+        return None
+
+    before = sys.gettrace()
+    sys.settrace(follow)
+    try:
+        value = function(*arguments, **more)
+    except Exception as error:
+        return raised(function, error), None
+    finally:
+        sys.settrace(before)
+    return f"returns {value!r}{_line(place_of(function)[0], lines[0])}", value
+
+
+def _line(file: str, line: int) -> str:
+    text = linecache.getline(file, line).strip()
+    return f" (line {line}{f', `{text}`' if text and not text.startswith('raise ') else ''})" if line else ""
+
+
+def _code(function: Callable[..., Any]) -> CodeType | None:
+    inner = inspect.unwrap(unshared(function))
+    while isinstance(inner, functools.partial):
+        inner = inspect.unwrap(unshared(inner.func))
+    if inspect.isfunction(inner) or inspect.ismethod(inner):
+        return inner.__code__
+    called = type(inner).__call__
+    return called.__code__ if inspect.isfunction(called) else None

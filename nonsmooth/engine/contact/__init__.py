@@ -1,0 +1,1 @@
+"""Forces of closed contacts: the complementarity problem, its solvers, and forces that are not unique."""

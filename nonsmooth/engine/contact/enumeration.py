@@ -1,0 +1,102 @@
+"""Enumeration: every combination of modes is tried, and the first that fulfils the laws is taken."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact.cone import gauss_seidel
+from nonsmooth.engine.contact.polish import polish
+from nonsmooth.engine.contact.trial import hold_tried, verify
+from nonsmooth.engine.delassus.delassus import add_product
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.solvers import MOST_ENUMERATED
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.watch import interrupted
+
+_SWEEPS = 100
+_ENDLESS = 1e30
+
+
+@kernel("i8(S, F, I, i8)")
+def _lay_modes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Write the modes that the digits of ``number`` to base 3 mean; return 1 if they make sense."""
+    for a in range(S.n_active):
+        choice = number % 3
+        number //= 3
+        mode = STICK if choice == 0 else (SLIDE if choice == 1 else OPEN)
+        k[S.mode_tried + a] = mode
+        if mode == STICK and k[S.at_rest + a] == 0:
+            return 0
+    return 1
+
+
+@kernel("i8(S, F, I)")
+def _start_slips(S: Scalars, w: Floats, k: Integers) -> int:
+    """Point the incipient slips along the accelerations without their friction; return how many there are."""
+    count = 0
+    for a in range(S.n_active):
+        if k[S.at_rest + a] == 1 and k[S.mode_tried + a] == SLIDE:
+            count += 1
+    if count == 0:
+        return 0
+    for a in range(S.n_active):
+        w[S.mu_kept + a] = w[S.mu + a]
+        if k[S.at_rest + a] == 1:
+            w[S.mu + a] = 0.0
+    hold_tried(S, w, k)
+    for a in range(S.n_active):
+        w[S.mu + a] = w[S.mu_kept + a]
+    for a in range(S.n_active):
+        if k[S.at_rest + a] == 0 or k[S.mode_tried + a] != SLIDE:
+            continue
+        a1 = add_product(S, w, k, w[S.b + 3 * a + 1], a, 1, S.f)
+        a2 = add_product(S, w, k, w[S.b + 3 * a + 2], a, 2, S.f)
+        norm = math.sqrt(a1 * a1 + a2 * a2)
+        w[S.d + 2 * a] = a1 / norm if norm > 0.0 else 1.0
+        w[S.d + 2 * a + 1] = a2 / norm if norm > 0.0 else 0.0
+    return count
+
+
+@kernel("void(S, F, I)")
+def _sweep_slips(S: Scalars, w: Floats, k: Integers) -> None:
+    """Point the incipient slips by sweeps with the modes held: Newton's method may have gone to a slip backwards."""
+    for a in range(S.n_active):
+        mode = k[S.mode_tried + a]
+        k[S.normal_held + a] = 0 if mode == OPEN else 1
+        w[S.static_kept + a] = w[S.mu_static + a]
+        w[S.mu_static + a] = _ENDLESS if mode == STICK else 0.0
+        for r in range(3):
+            w[S.f + 3 * a + r] = 0.0
+    gauss_seidel(S, w, k, _SWEEPS)
+    for a in range(S.n_active):
+        w[S.mu_static + a] = w[S.static_kept + a]
+
+
+@room("i8(S, F, I, i8)")
+def enumerate_modes(S: Scalars, w: Floats, k: Integers, first: int) -> int:
+    """Try every combination of modes from number ``first`` on; return the number behind the first verified, or 0.
+
+    The directions of incipient slip start from those without friction and, where Newton's method leads astray from
+    there, from sweeps.
+    """
+    if S.n_active > MOST_ENUMERATED:
+        return 0
+    combinations = 1
+    for _a in range(S.n_active):
+        combinations *= 3
+    for number in range(first, combinations):
+        if interrupted(S, S.n_active) == 1:
+            return 0
+        if _lay_modes(S, w, k, number) == 0:
+            continue
+        slips = _start_slips(S, w, k)
+        if slips > 0:
+            polish(S, w, k)
+        if verify(S, w, k) == 1:
+            return number + 1
+        if slips > 0:
+            _sweep_slips(S, w, k)
+            polish(S, w, k)
+            if verify(S, w, k) == 1:
+                return number + 1
+    return 0

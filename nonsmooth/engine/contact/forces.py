@@ -1,0 +1,254 @@
+"""Forces of the active contacts when it is known what each of them does.
+
+One linear problem serves sustained contact and impact.  For every active contact the normal force is
+either unknown (``normal_held``: its normal row of G f + b must vanish) or given in ``f``; the
+tangential force is either unknown (``tangent_held``: sticking) or follows the slip, -mu f_N d.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.delassus.delassus import add_product, own_block
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.band import open_band
+from nonsmooth.engine.numerics.linear import (
+    SINGULAR,
+    band_row,
+    band_width,
+    eliminate,
+    minimum_norm,
+    rank_of_semidefinite,
+)
+from nonsmooth.engine.numerics.null_band import least_norm_in_band
+
+_DOUBTFUL = 1e-5
+"""A pivot below this part of the largest entry may be that of contacts of which one is redundant."""
+_COUPLED = 1e-7
+"""Null-space entries above this tie a contact to the group whose forces are not unique."""
+DEAR = 500
+"""Elementary operations that count as one evaluation of a contact."""
+
+
+@room()
+def resolve(S: Scalars, w: Floats, k: Integers) -> None:
+    """Complete ``f``; where the forces are not unique, take those of least norm and mark the contacts."""
+    n = _collect(S, w, k)
+    interrupted(S, n + n * n * n // DEAR)
+    if open_band(S, w, k, n, S.reduced) == 0:
+        return
+    for a in range(S.n_active):
+        for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+            _lay_row(S, w, k, a, i, n)
+    if solve_unknowns(S, w, k, n) == 0:
+        for a in range(S.n_active):
+            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+                _lay_held_row(S, w, k, a, i, n)
+        solve_doubtful(S, w, k, n)
+    for i in range(n):
+        w[S.f + k[S.column + i]] = w[S.x + i]
+    for a in range(S.n_active):
+        if k[S.normal_held + a] == 1 and k[S.tangent_held + a] == 0:
+            friction_of_slip(S, w, a)
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
+    r = k[S.column + i] - 3 * a
+    w[S.right + i] = -add_product(S, w, k, w[S.b + 3 * a + r], a, r, S.f)
+    line = band_row(S.reduced, i, n, S.half_band)
+    row = S.block_start + S.first_grouped + a
+    for block in range(k[row], k[row + 1]):
+        d = k[S.block_column + block]
+        g = S.delassus + 9 * block + 3 * r
+        out = line + k[S.first_unknown + d]
+        if k[S.normal_held + d] == 1:
+            w[out] = w[g]
+            if k[S.tangent_held + d] == 0:
+                # the friction of a sliding contact moves with its normal force
+                w[out] -= w[S.mu + d] * (w[S.d + 2 * d] * w[g + 1] + w[S.d + 2 * d + 1] * w[g + 2])
+            out += 1
+        if k[S.tangent_held + d] == 1:
+            w[out], w[out + 1] = w[g + 1], w[g + 2]
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write row ``i`` of what the unknowns would do without the friction of sliding contacts to ``matrix``."""
+    r = k[S.column + i] - 3 * a
+    line = band_row(S.matrix, i, n, S.half_band)
+    row = S.block_start + S.first_grouped + a
+    for block in range(k[row], k[row + 1]):
+        d = k[S.block_column + block]
+        for j in range(k[S.first_unknown + d], k[S.first_unknown + d + 1]):
+            w[line + j] = w[S.delassus + 9 * block + 3 * r + k[S.column + j] - 3 * d]
+
+
+@kernel("i8(S, F, I, i8)")
+def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+    """Solve ``reduced . x = right`` of the unknowns in ``column``; return 0 if the matrix is doubtfully regular.
+
+    Then zeros are written over the band of ``matrix``, for :func:`solve_doubtful`.
+    """
+    S.n_unknown = n
+    S.deficient = S.null_banded = 0
+    if n == 1 and w[S.reduced] != 0.0:
+        w[S.x] = w[S.right] / w[S.reduced]
+        return 1
+    if eliminate_reduced(S, w, n, _DOUBTFUL) == 1:
+        return 1
+    for i in range(n * band_width(n, S.half_band)):
+        w[S.matrix + i] = 0.0
+    return 0
+
+
+@kernel("void(S, F, I, i8)")
+def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+    """Solve ``reduced . x = right`` for least norm if singular.
+
+    In ``matrix`` stands what the unknowns would do if nothing slid with friction.  Its rank is that of the contacts'
+    geometry, and not to be judged by the reduced matrix: next to a position in which contacts become redundant
+    friction gives that a small pivot of its own.  Least norm stays in the band, or is treated in full where the band
+    fills it.
+    """
+    full = band_width(n, S.half_band) == n
+    rank = rank_of_semidefinite(w, S.matrix, n) if full else n
+    if rank == n and eliminate_reduced(S, w, n, SINGULAR) == 1:
+        return
+    S.deficient = 1
+    if not full:
+        S.null_banded = 1
+        least_norm_in_band(S, w, n)
+    else:
+        _least_norm(S, w, n, rank)
+    for i in range(n):
+        a = k[S.column + i] // 3
+        if null_entry(S, w, i, i) > _COUPLED:
+            k[S.redundant + a] = 1
+
+
+@kernel("void(S, F, i8, i8)")
+def _least_norm(S: Scalars, w: Floats, n: int, most: int) -> None:
+    """Solve the singular system, stored in full, for least norm; keep the projector on its null space."""
+    for i in range(n * n):
+        w[S.matrix + i] = w[S.reduced + i]
+    rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, most)
+    for i in range(n):
+        for j in range(n):
+            total = 1.0 if i == j else 0.0
+            for c in range(rank):
+                total -= w[S.basis + c * n + i] * w[S.basis + c * n + j]
+            w[S.null + i * n + j] = total
+
+
+@kernel("i8(S, F, i8, f8)")
+def eliminate_reduced(S: Scalars, w: Floats, n: int, least: float) -> int:
+    """Solve ``reduced . x = right`` by elimination; return 0 if singular."""
+    for i in range(n):
+        w[S.x + i] = w[S.right + i]
+    for i in range(n * band_width(n, S.half_band)):
+        w[S.matrix + i] = w[S.reduced + i]
+    return eliminate(w, S.matrix, n, S.half_band, S.x, least)
+
+
+@kernel("f8(S, F, i8, i8)")
+def null_entry(S: Scalars, w: Floats, i: int, j: int) -> float:
+    """Return an entry of the projector on the null space; those outside of a band count as zero."""
+    if S.null_banded == 0:
+        return w[S.null + i * S.n_unknown + j]
+    if abs(i - j) > S.null_half:
+        return 0.0
+    return w[band_row(S.reduced, i, S.n_unknown, S.null_half) + j]
+
+
+@kernel("i8(S, F, I)")
+def _collect(S: Scalars, w: Floats, k: Integers) -> int:
+    """List the unknown components and write the given ones; return how many are unknown."""
+    n = 0
+    for a in range(S.n_active):
+        k[S.redundant + a] = 0
+        k[S.first_unknown + a] = n
+        if k[S.normal_held + a] == 1:
+            k[S.column + n] = 3 * a
+            n += 1
+            w[S.f + 3 * a] = 0.0
+        w[S.f + 3 * a + 1] = 0.0
+        w[S.f + 3 * a + 2] = 0.0
+        if k[S.tangent_held + a] == 1:
+            k[S.column + n] = 3 * a + 1
+            k[S.column + n + 1] = 3 * a + 2
+            n += 2
+        else:
+            friction_of_slip(S, w, a)
+    k[S.first_unknown + S.n_active] = n
+    return n
+
+
+@kernel("void(S, F, i8)")
+def friction_of_slip(S: Scalars, w: Floats, a: int) -> None:
+    """Write the friction of the sliding active contact ``a``, -mu f_N d."""
+    w[S.f + 3 * a + 1] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a]
+    w[S.f + 3 * a + 2] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + 1]
+
+
+@kernel("f8(S, F, I, i8)")
+def reduced_coefficient(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+    """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
+    g = own_block(S, k, a)
+    return float(w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2]))
+
+
+@kernel()
+def evaluate_margins(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write, for every sticking active contact, how far its friction is from the static bound [N].
+
+    A contact whose tangential force is not unique obeys two bounds: the sum rule of its group, Eq. (38),
+    and the plain bound for the part of its force that is unique.
+    """
+    for a in range(S.n_active):
+        if k[S.tangent_held + a] == 0:
+            w[S.margin + a] = 0.0
+            continue
+        t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+        if k[S.redundant + a] == 1:
+            _group_margin(S, w, k, a)
+        else:
+            w[S.margin + a] = w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2)
+
+
+@kernel("void(S, F, I, i8)")
+def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+    own = k[S.first_unknown + a] + k[S.normal_held + a]
+    first, end = 0, S.n_unknown - 1
+    if S.null_banded == 1:
+        first, end = max(0, own - S.null_half), min(end, own + S.null_half)
+    bound = sum1 = sum2 = 0.0
+    for i in range(first, end):
+        other = k[S.column + i] // 3
+        if k[S.column + i] != 3 * other + 1 or k[S.redundant + other] == 0:
+            continue
+        coupling = (
+            abs(null_entry(S, w, own, i))
+            + abs(null_entry(S, w, own, i + 1))
+            + abs(null_entry(S, w, own + 1, i))
+            + abs(null_entry(S, w, own + 1, i + 1))
+        )
+        if coupling > _COUPLED or other == a:
+            bound += w[S.mu_static + other] * w[S.f + 3 * other]
+            sum1 += w[S.f + 3 * other + 1]
+            sum2 += w[S.f + 3 * other + 2]
+    group = bound - math.sqrt(sum1 * sum1 + sum2 * sum2)
+    # the part of the force orthogonal to this contact's share of the null space
+    p11, p12 = null_entry(S, w, own, own), null_entry(S, w, own, own + 1)
+    p22 = null_entry(S, w, own + 1, own + 1)
+    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    unique = 0.0
+    if p11 * p22 - p12 * p12 < _COUPLED * (p11 + p22) * (p11 + p22):
+        if p11 >= p22:
+            e1, e2 = p11, p12
+        else:
+            e1, e2 = p12, p22
+        unique = abs(e1 * t2 - e2 * t1) / math.sqrt(e1 * e1 + e2 * e2)
+    w[S.margin + a] = min(group, w[S.mu_static + a] * w[S.f + 3 * a] - unique)

@@ -1,0 +1,169 @@
+"""Forces that hold the closed contacts in their modes during smooth motion.
+
+Every closed contact contributes rows, what it holds, and columns, along what it pushes: a sticking one holds and
+pushes along n, t1, t2; a sliding one holds n and pushes along n - mu d, friction included.  Rows times K
+times columns is the reduced matrix whose unknowns are the forces; no more of G than that is needed.  A compliant
+contact pushes along n as its law says, holds t1, t2 where it sticks, and nothing where it rubs.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.compliance import lay_wrench
+from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
+from nonsmooth.engine.contact.forces import friction_of_slip, solve_doubtful, solve_unknowns
+from nonsmooth.engine.contact.shares import add_share, choose_share
+from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.numerics.band import open_band
+from nonsmooth.engine.numerics.linear import band_row
+
+
+@kernel("void(S, F, I, i8)")
+def lay_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+    """Write rows and columns of the active contact ``a``: Jacobian rows 0 to 2, or 0 and that of the column, 1."""
+    c = k[S.active + a]
+    axes = S.axes + 9 * c
+    if k[S.tangent_held + a] == 1:
+        for r in range(3):
+            evaluate_row(S, w, k, c, r, w[axes + 3 * r], w[axes + 3 * r + 1], w[axes + 3 * r + 2])
+            evaluate_row_response(S, w, k, c, r, r)
+        return
+    if k[S.normal_held + a] == 0:
+        lay_wrench(S, w, k, c, S.f + 3 * a)
+        return
+    m1, m2 = w[S.mu + a] * w[S.d + 2 * a], w[S.mu + a] * w[S.d + 2 * a + 1]
+    evaluate_row(S, w, k, c, 0, w[axes], w[axes + 1], w[axes + 2])
+    evaluate_row(
+        S,
+        w,
+        k,
+        c,
+        1,
+        w[axes] - m1 * w[axes + 3] - m2 * w[axes + 6],
+        w[axes + 1] - m1 * w[axes + 4] - m2 * w[axes + 7],
+        w[axes + 2] - m1 * w[axes + 5] - m2 * w[axes + 8],
+    )
+    evaluate_row_response(S, w, k, c, 1, 0)
+
+
+@kernel("f8(S, F, I, i8, i8, i8, i8)")
+def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int) -> float:
+    """Return what a unit force in column ``s`` of contact ``d`` does to row ``r`` of contact ``c``."""
+    total = 0.0
+    for side in range(2):
+        linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
+        n_u = k[S.linkage_nu + linkage]
+        jacobian = (k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]) + r * n_u
+        if n_u > 0 and k[S.linkage_a + d] == linkage:
+            for i in range(n_u):
+                total += w[jacobian + i] * w[k[S.response_a + d] + s * n_u + i]
+        if n_u > 0 and k[S.linkage_b + d] == linkage:
+            for i in range(n_u):
+                total += w[jacobian + i] * w[k[S.response_b + d] + s * n_u + i]
+    return total
+
+
+@kernel("i8(S, F, I)")
+def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
+    """List the rows of the active contacts; return how many there are."""
+    n = 0
+    for a in range(S.n_active):
+        k[S.redundant + a] = 0
+        k[S.first_unknown + a] = n
+        for r in range(1 - k[S.normal_held + a], 1 + 2 * k[S.tangent_held + a]):
+            k[S.column + n] = 3 * a + r
+            n += 1
+    k[S.first_unknown + S.n_active] = n
+    return n
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _reduce(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write row ``i`` of the reduced matrix, one of contact ``a``, and what it lacks to vanish without forces."""
+    c, r = k[S.active + a], k[S.column + i] - 3 * a
+    w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
+    line = band_row(S.reduced, i, n, S.half_band)
+    blocks = S.block_start + S.first_grouped + a
+    for block in range(k[blocks], k[blocks + 1]):
+        other = k[S.block_column + block]
+        first = k[S.first_unknown + other]
+        for s in range(k[S.first_unknown + other + 1] - first):
+            w[line + first + s] = _coupling(S, w, k, c, r, k[S.active + other], k[S.column + first + s] - 3 * other)
+    # a sliding contact on which more force gives more approach
+    if r == 0 and k[S.mode + c] == SLIDE and w[line + i] <= 0.0:
+        S.singular = c
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write row ``i`` of what the unknowns would do without friction to ``matrix``, response 1 of slips being that."""
+    c, r = k[S.active + a], k[S.column + i] - 3 * a
+    line = band_row(S.matrix, i, n, S.half_band)
+    blocks = S.block_start + S.first_grouped + a
+    for block in range(k[blocks], k[blocks + 1]):
+        other = k[S.block_column + block]
+        first, sticks = k[S.first_unknown + other], k[S.tangent_held + other]
+        for s in range(k[S.first_unknown + other + 1] - first):
+            column = k[S.column + first + s] - 3 * other
+            w[line + first + s] = _coupling(S, w, k, c, r, k[S.active + other], column + 1 - sticks)
+
+
+@kernel()
+def _push_given(S: Scalars, w: Floats, k: Integers) -> None:
+    """Add to ``du`` what the active compliant contacts are known to do, and note the powers."""
+    for a in range(S.n_active):
+        if k[S.normal_held + a] == 1:
+            continue
+        c, sticks = k[S.active + a], k[S.tangent_held + a]
+        force = w[S.f + 3 * a] if sticks == 1 else 1.0
+        push_response(S, w, k, c, 0, force, S.du)
+        S.driven_power += force * row(S, w, k, c, 1 - sticks, S.own) - w[S.turned + c]
+        S.load_power += w[S.f + 3 * a] * w[S.rate + 3 * c]
+
+
+@kernel("i8(S, F, I)")
+def _solve_held(S: Scalars, w: Floats, k: Integers) -> int:
+    """Write the unknown forces to ``x``; return 0 if there is no room for that."""
+    n = _list_rows(S, w, k)
+    if open_band(S, w, k, n, S.reduced) == 0:
+        return 0
+    for a in range(S.n_active):
+        for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+            _reduce(S, w, k, a, i, n)
+    if solve_unknowns(S, w, k, n) == 0:
+        for a in range(S.n_active):
+            if k[S.tangent_held + a] == 0 and k[S.normal_held + a] == 1:
+                evaluate_row_response(S, w, k, k[S.active + a], 0, 1)
+        for a in range(S.n_active):
+            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+                _lay_held_row(S, w, k, a, i, n)
+        solve_doubtful(S, w, k, n)
+    if S.deficient == 1:
+        if S.choosing == 1 and choose_share(S, w, k) == 0:
+            S.shares_hold = 0
+        add_share(S, w, k)
+    return 1
+
+
+@kernel()
+def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write the forces ``f`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
+
+    Rows and columns must be laid, and the given forces; the free accelerations stand in ``du``.
+    """
+    _push_given(S, w, k)
+    if _solve_held(S, w, k) == 0:
+        return
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        sticks = k[S.tangent_held + a]
+        for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+            r, force = k[S.column + i] - 3 * a, w[S.x + i]
+            w[S.f + 3 * a + r] = force
+            push_response(S, w, k, c, r, force, S.du)
+            # the power of what the coordinates do not move: that of the force less that on them
+            S.driven_power += force * row(S, w, k, c, r + 1 - sticks, S.own)
+        if sticks == 0 and k[S.normal_held + a] == 1:
+            friction_of_slip(S, w, a)
+        for r in range(3):
+            S.driven_power -= w[S.f + 3 * a + r] * w[S.rate + 3 * c + r]

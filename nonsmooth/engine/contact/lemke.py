@@ -1,0 +1,196 @@
+"""Lemke's method on the faceted problem, the facets then laid along the friction that it finds.
+
+With the disc of Coulomb replaced by a polygon whose corners are the unit vectors d_j, the laws are a linear
+complementarity problem (Stewart and Trinkle 1996; Anitescu and Potra 1997) in the forces f_N and beta,
+f_T = sum of d_j beta_j, and one slip acceleration lambda per contact at rest:
+
+    a_N                          >= 0   complementary to   f_N
+    d_j . a_T + lambda           >= 0   complementary to   beta_j
+    mu f_N - (sum of beta_j)     >= 0   complementary to   lambda
+
+A corner that points along the exact friction makes the exact solution one of the faceted problem: solved again
+with the corners so laid, the facets leave no trace.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact.forces import DEAR
+from nonsmooth.engine.delassus.delassus import write_dense
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.watch import interrupted
+
+STAGES = 12
+CORNERS = 4
+_ZERO = 1e-11
+
+
+@kernel("f8(S, F, i8, i8, i8)")
+def _corner(S: Scalars, w: Floats, a: int, j: int, r: int) -> float:
+    """Return component ``r`` of corner ``j``; corner 0 points along the friction."""
+    turn = 2.0 * math.pi * j / CORNERS
+    if r == 1:
+        return -w[S.d + 2 * a] * math.cos(turn) + w[S.d + 2 * a + 1] * math.sin(turn)
+    return -w[S.d + 2 * a + 1] * math.cos(turn) - w[S.d + 2 * a] * math.sin(turn)
+
+
+@kernel("f8(S, F, I, i8, i8)")
+def _push(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
+    """Return what the unknown of a column does to row ``line`` of G f, G standing in full in ``matrix``."""
+    a, j = k[S.lemke_contact + column], k[S.lemke_corner + column]
+    g = S.matrix + line * 3 * S.n_active + 3 * a
+    if j >= 0:
+        return w[g + 1] * _corner(S, w, a, j, 1) + w[g + 2] * _corner(S, w, a, j, 2)
+    if j == -2:
+        return 0.0
+    if k[S.at_rest + a] == 1:
+        return w[g]
+    return w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2])
+
+
+@kernel("i8(S, F, I)")
+def _list_unknowns(S: Scalars, w: Floats, k: Integers) -> int:
+    """List contact and corner of every unknown: -1 is a normal force, -2 a slip acceleration; return their number."""
+    n = 0
+    for a in range(S.n_active):
+        for j in range(-2 if k[S.at_rest + a] == 1 else -1, CORNERS if k[S.at_rest + a] == 1 else 0):
+            k[S.lemke_contact + n], k[S.lemke_corner + n] = a, j
+            n += 1
+    return n
+
+
+@kernel("void(S, F, I, i8, f8, f8)")
+def _lay(S: Scalars, w: Floats, k: Integers, n: int, g: float, size: float) -> None:
+    """Write the tableau: complementary quantities by unknowns, covering column, constant; ``g``, ``size``: scales."""
+    for i in range(n):
+        a, corner = k[S.lemke_contact + i], k[S.lemke_corner + i]
+        row = S.tableau + i * (n + 2)
+        # a cover that differs from row to row keeps pivots from being equal
+        w[row + n] = 1.0 + 0.3 * ((0.6180339887498949 * (i + 1)) % 1.0)
+        w[row + n + 1] = 0.0
+        k[S.lemke_row + i], k[S.lemke_column + i] = i, n + i
+        for j in range(n):
+            other, its = k[S.lemke_contact + j], k[S.lemke_corner + j]
+            entry = 0.0
+            if corner == -1:
+                entry = _push(S, w, k, 3 * a, j) / g
+            elif corner == -2:
+                if other == a and its >= 0:
+                    entry = -1.0
+                elif other == a and its == -1:
+                    entry = w[S.mu + a]
+            else:
+                for r in range(1, 3):
+                    entry += _corner(S, w, a, corner, r) * _push(S, w, k, 3 * a + r, j) / g
+                if other == a and its == -2:
+                    entry = 1.0
+            w[row + j] = entry
+        if corner == -1:
+            w[row + n + 1] = w[S.b + 3 * a] / size
+        elif corner >= 0:
+            for r in range(1, 3):
+                w[row + n + 1] += _corner(S, w, a, corner, r) * w[S.b + 3 * a + r] / size
+    k[S.lemke_column + n] = 2 * n
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _pivot(S: Scalars, w: Floats, k: Integers, n: int, r: int, s: int) -> None:
+    """Exchange the quantity of row ``r`` for that of column ``s``."""
+    row = S.tableau + r * (n + 2)
+    pivot = w[row + s]
+    for j in range(n + 2):
+        w[row + j] = -w[row + j] / pivot
+    w[row + s] = 1.0 / pivot
+    for i in range(n):
+        if i == r:
+            continue
+        other = S.tableau + i * (n + 2)
+        t = w[other + s]
+        if t != 0.0:
+            for j in range(n + 2):
+                w[other + j] += t * w[row + j]
+            w[other + s] = t / pivot
+    k[S.lemke_row + r], k[S.lemke_column + s] = k[S.lemke_column + s], k[S.lemke_row + r]
+
+
+@kernel("i8(S, F, I, i8)")
+def _first_row(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+    """Return the row that the covering variable enters at, or -1 if none is needed."""
+    row, worst = -1, 0.0
+    for i in range(n):
+        ratio = w[S.tableau + i * (n + 2) + n + 1] / w[S.tableau + i * (n + 2) + n]
+        if ratio < worst:
+            row, worst = i, ratio
+    return row
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def _leaving(S: Scalars, w: Floats, k: Integers, n: int, s: int) -> int:
+    """Return the row that reaches zero first when column ``s`` grows, or -1; among equals the covering variable."""
+    best, chosen = 1e300, -1
+    for i in range(n):
+        entry = w[S.tableau + i * (n + 2) + s]
+        if entry < -_ZERO:
+            ratio = max(0.0, w[S.tableau + i * (n + 2) + n + 1]) / -entry
+            if ratio < best:
+                best = ratio
+    pivot = 0.0
+    for i in range(n):
+        entry = w[S.tableau + i * (n + 2) + s]
+        if entry < -_ZERO and max(0.0, w[S.tableau + i * (n + 2) + n + 1]) / -entry <= best + _ZERO:
+            if k[S.lemke_row + i] == 2 * n:
+                return i
+            if -entry > pivot:
+                pivot, chosen = -entry, i
+    return chosen
+
+
+@room("i8(S, F, I, i8)")
+def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
+    """Write the forces of the faceted problem to ``f``; return 1 if there are none, its path ending in a ray."""
+    m = S.n_active
+    if m > S.n_pivoted:
+        return 1
+    write_dense(S, w, k)
+    g = size = 0.0
+    for i in range(3 * m):
+        g = max(g, w[S.matrix + i * 3 * m + i])
+        size = max(size, abs(w[S.b + i]))
+        w[S.f + i] = 0.0
+    if size == 0.0:
+        return 0
+    n = _list_unknowns(S, w, k)
+    _lay(S, w, k, n, g, size)
+    row, column = _first_row(S, w, k, n), n
+    for _pivots in range(50 * n):
+        if row < 0 or interrupted(S, 1 + n * n // DEAR) == 1:
+            break
+        left = k[S.lemke_row + row]
+        _pivot(S, w, k, n, row, column)
+        if left == 2 * n:
+            break
+        # what enters next is the partner of what has left
+        partner = left - n if left >= n else left + n
+        for j in range(n + 1):
+            if k[S.lemke_column + j] == partner:
+                column = j
+        row = _leaving(S, w, k, n, column)
+        if row < 0:
+            return 1
+    for i in range(n):
+        unknown = k[S.lemke_row + i] - n
+        if unknown < 0 or unknown >= n:
+            continue
+        value = w[S.tableau + i * (n + 2) + n + 1] * size / g
+        a, j = k[S.lemke_contact + unknown], k[S.lemke_corner + unknown]
+        if j == -1:
+            w[S.f + 3 * a] = value
+        elif j >= 0:
+            for r in range(1, 3):
+                w[S.f + 3 * a + r] += value * _corner(S, w, a, j, r)
+    for a in range(m):
+        if k[S.at_rest + a] == 0:
+            for r in range(2):
+                w[S.f + 3 * a + 1 + r] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + r]
+    return 0

@@ -1,0 +1,321 @@
+"""A search for modes and forces by one solver, with the static and the kinetic bound told apart.
+
+The contract of a solver: it reads G, b, who is ``at_rest``, the coefficients ``mu`` and, of sliding contacts, ``d``;
+it improves the forces ``f`` stage by stage and returns 1 where a further stage would not help.  Every contact at rest
+has one cone, that of ``mu``.  Which modes the forces mean, and whether these are right, is found here alike for all.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact import gauss_seidel, lemke, newton
+from nonsmooth.engine.contact.enumeration import enumerate_modes
+from nonsmooth.engine.contact.gauss_seidel import search_by_sweeps
+from nonsmooth.engine.contact.lemke import search_by_pivots
+from nonsmooth.engine.contact.newton import search_by_newton
+from nonsmooth.engine.contact.polish import polish
+from nonsmooth.engine.contact.trial import identify, judge, set_scales, verify
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.watch import interrupted
+
+_ROUNDS = 4
+_MOST_EFFORT = 3e8
+"""What the trials of one problem may cost, each counting as the cube of its unknowns: about a second."""
+_EQUAL = 1e3
+"""Accelerations that tell modes may be so many times those that count as zero."""
+_SAME = 1e-6
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def _improve(S: Scalars, w: Floats, k: Integers, solver: int, stage: int) -> int:
+    if solver == GAUSS_SEIDEL:
+        return search_by_sweeps(S, w, k, stage)
+    if solver == LEMKE:
+        return search_by_pivots(S, w, k, stage)
+    return search_by_newton(S, w, k, stage)
+
+
+@kernel("void(S, F, I)")
+def _lay_cones(S: Scalars, w: Floats, k: Integers) -> None:
+    """Give every contact at rest one cone: the static one, or the kinetic one where it may not stick."""
+    for a in range(S.n_active):
+        w[S.mu_kept + a], w[S.static_kept + a] = w[S.mu + a], w[S.mu_static + a]
+        if k[S.at_rest + a] == 1:
+            if k[S.freed + a] == 1:
+                w[S.mu_static + a] = w[S.mu + a]
+            else:
+                w[S.mu + a] = w[S.mu_static + a]
+
+
+@kernel("void(S, F, I)")
+def _restore_cones(S: Scalars, w: Floats, k: Integers) -> None:
+    for a in range(S.n_active):
+        w[S.mu + a], w[S.mu_static + a] = w[S.mu_kept + a], w[S.static_kept + a]
+
+
+@kernel("i8(S, F, I)")
+def _lay_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
+    """Try the modes that the accelerations tell, but for those of the past; return 1 if they differ."""
+    differ = 0
+    small = _EQUAL * S.small_acceleration
+    for a in range(S.n_active):
+        if k[S.mode_tried + a] == k[S.mode_past + a] or w[S.acceleration + 3 * a] > small:
+            continue
+        mode = SLIDE
+        a1, a2 = w[S.acceleration + 3 * a + 1], w[S.acceleration + 3 * a + 2]
+        slip = math.sqrt(a1 * a1 + a2 * a2)
+        if k[S.at_rest + a] == 1 and slip <= small:
+            mode = STICK
+        if mode != k[S.mode_tried + a]:
+            differ = 1
+            k[S.mode_tried + a] = mode
+            if k[S.at_rest + a] == 1 and mode == SLIDE:
+                w[S.d + 2 * a], w[S.d + 2 * a + 1] = a1 / slip, a2 / slip
+    return differ
+
+
+@kernel("void(S, F, I)")
+def _keep_found(S: Scalars, w: Floats, k: Integers) -> None:
+    for a in range(S.n_active):
+        k[S.mode_found + a] = k[S.mode_tried + a]
+        w[S.d_found + 2 * a], w[S.d_found + 2 * a + 1] = w[S.d + 2 * a], w[S.d + 2 * a + 1]
+
+
+@kernel("void(S, F, I)")
+def _take_found(S: Scalars, w: Floats, k: Integers) -> None:
+    for a in range(S.n_active):
+        k[S.mode_tried + a] = k[S.mode_found + a]
+        w[S.d + 2 * a], w[S.d + 2 * a + 1] = w[S.d_found + 2 * a], w[S.d_found + 2 * a + 1]
+
+
+@kernel("i8(S, F, I)")
+def _open_pulling(S: Scalars, w: Floats, k: Integers) -> int:
+    """Open the closed contacts that pull most; return how many."""
+    worst = -S.small_force
+    for a in range(S.n_active):
+        if k[S.mode_tried + a] != OPEN:
+            worst = min(worst, w[S.f + 3 * a])
+    opened = 0
+    for a in range(S.n_active):
+        if k[S.mode_tried + a] != OPEN and w[S.f + 3 * a] <= (1.0 - _SAME) * worst and w[S.f + 3 * a] < -S.small_force:
+            k[S.mode_tried + a] = OPEN
+            opened += 1
+    return opened
+
+
+@kernel("i8(S, F, I)")
+def _accept(S: Scalars, w: Floats, k: Integers) -> int:
+    """Verify the modes under trial; where the forces of least norm pull, open who pulls; return 1 if all is well."""
+    for a in range(S.n_active):
+        k[S.mode_closed + a] = k[S.mode_tried + a]
+        for i in range(2):
+            w[S.d_closed + 2 * a + i] = w[S.d + 2 * a + i]
+    if verify(S, w, k) == 1:
+        return 1
+    if S.deficient == 0:
+        return 0
+    while S.effort < _MOST_EFFORT and _open_pulling(S, w, k) > 0:
+        polish(S, w, k)
+        if verify(S, w, k) == 1:
+            return 1
+    # without the share of those opened the others may not hold: forces that press, though not of least norm
+    for a in range(S.n_active):
+        k[S.mode_tried + a] = k[S.mode_closed + a]
+        for i in range(2):
+            w[S.d + 2 * a + i] = w[S.d_closed + 2 * a + i]
+    S.lenient = 1
+    found = verify(S, w, k)
+    S.lenient = 0
+    return found
+
+
+@kernel("i8(S, F, I)")
+def _rubs(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if all that slides has the friction of slip."""
+    for a in range(S.n_active):
+        pull = w[S.mu + a] * w[S.f + 3 * a]
+        for i in range(2):
+            if (
+                k[S.mode_tried + a] == SLIDE
+                and not abs(w[S.f + 3 * a + 1 + i] + pull * w[S.d + 2 * a + i]) <= S.small_force
+            ):
+                return 0
+    return 1
+
+
+@kernel("i8(S, F, I)")
+def _hasty(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a contact seems to slide that, once the forces have settled, its static bound may still hold."""
+    for a in range(S.n_active):
+        held = k[S.at_rest + a] == 1 and k[S.freed + a] == 0 and w[S.mu_static + a] != w[S.mu + a]
+        if held and k[S.mode_tried + a] == SLIDE:
+            return 1
+    return 0
+
+
+@kernel("void(S, F, I)")
+def _take_raw(S: Scalars, w: Floats, k: Integers) -> None:
+    """Go back to the forces of the solver, its modes and directions."""
+    _take_found(S, w, k)
+    for i in range(3 * S.n_active):
+        w[S.f + i] = w[S.f_raw + i]
+
+
+@kernel("i8(S, F, I)")
+def _try_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
+    """Let stick who seems to slide without acceleration, its friction being on the bound by chance; return 1 if right.
+
+    Where forces are not unique a solver may well put the friction of some on the bound and let others do with less.
+    """
+    set_scales(S, w, k)
+    if _lay_by_motion(S, w, k) == 1:
+        polish(S, w, k)
+        if _accept(S, w, k) == 1:
+            return 1
+        _take_raw(S, w, k)
+    return 0
+
+
+@kernel("i8(S, F, I)")
+def _accept_raw(S: Scalars, w: Floats, k: Integers) -> int:
+    """Take the forces of the solver as they are; return 1 if they are lawful.
+
+    Where sliding contacts share their load at will, the motion hangs on the share, and least norm need not be lawful.
+    """
+    _take_raw(S, w, k)
+    for a in range(S.n_active):
+        k[S.redundant + a] = 0
+    S.deficient = 0
+    return 1 if judge(S, w, k) == 1 and _rubs(S, w, k) == 1 else 0
+
+
+@kernel("i8(S, F, I, i8)")
+def _search_round(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
+    """Search with the freed contacts kept from sticking; return 1 if the answer is verified."""
+    stages = newton.STAGES
+    if solver == GAUSS_SEIDEL:
+        stages = gauss_seidel.STAGES
+    elif solver == LEMKE:
+        stages = lemke.STAGES
+    for i in range(3 * S.n_active):
+        w[S.f_raw + i] = 0.0
+    for stage in range(stages):
+        if S.effort >= _MOST_EFFORT or interrupted(S, S.n_active) == 1:
+            return 0
+        for i in range(3 * S.n_active):
+            w[S.f + i] = w[S.f_raw + i]
+        _lay_cones(S, w, k)
+        settled = _improve(S, w, k, solver, stage)
+        for i in range(3 * S.n_active):
+            w[S.f_raw + i] = w[S.f + i]
+        identify(S, w, k)
+        _restore_cones(S, w, k)
+        if settled == 0 and stage < stages - 1 and _hasty(S, w, k) == 1:
+            continue
+        _keep_found(S, w, k)
+        if _try_by_motion(S, w, k) == 1:
+            return 1
+        polish(S, w, k)
+        if _accept(S, w, k) == 1:
+            return 1
+        if S.deficient == 1 and _accept_raw(S, w, k) == 1:
+            return 1
+        _take_found(S, w, k)
+        if settled == 1:
+            return 0
+    return 0
+
+
+@kernel("i8(S, F, I, i8)")
+def _free_sliding(S: Scalars, w: Floats, k: Integers, modes: int) -> int:
+    """Keep the contacts at rest that slide in ``modes`` from sticking; return how many that are new."""
+    new = 0
+    for a in range(S.n_active):
+        if k[S.at_rest + a] == 1 and k[modes + a] == SLIDE and k[S.freed + a] == 0:
+            k[S.freed + a] = 1
+            if w[S.mu_static + a] != w[S.mu + a]:
+                new += 1
+    return new
+
+
+@kernel("i8(S, F, I, i8)")
+def _search_from(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
+    """Search, and again while contacts are found to slide that the higher static bound might still hold."""
+    for _round in range(_ROUNDS):
+        if _search_round(S, w, k, solver) == 1:
+            return 1
+        if _free_sliding(S, w, k, S.mode_found) == 0:
+            return 0
+    return 0
+
+
+@kernel("void(S, F, I)")
+def _keep_answer(S: Scalars, w: Floats, k: Integers) -> None:
+    _keep_found(S, w, k)
+    for i in range(3 * S.n_active):
+        w[S.f_raw + i] = w[S.f + i]
+
+
+@kernel("void(S, F, I)")
+def _take_answer(S: Scalars, w: Floats, k: Integers) -> None:
+    _take_raw(S, w, k)
+    set_scales(S, w, k)
+
+
+@kernel("void(S, F, I)")
+def _close_idle(S: Scalars, w: Floats, k: Integers) -> None:
+    """Of several sets of forces for the motion found take that of all contacts that it leaves closed."""
+    _keep_answer(S, w, k)
+    if _lay_by_motion(S, w, k) == 0:
+        return
+    polish(S, w, k)
+    if _accept(S, w, k) == 1:
+        return
+    _take_answer(S, w, k)
+
+
+@kernel("void(S, F, I)")
+def _prefer_stick(S: Scalars, w: Floats, k: Integers) -> None:
+    """Between the two bounds a contact at rest may stick and may slide: what is at rest stays so if all can."""
+    _keep_answer(S, w, k)
+    changed = 0
+    for a in range(S.n_active):
+        undecided = k[S.at_rest + a] == 1 and k[S.mode_past + a] != SLIDE and w[S.mu_static + a] != w[S.mu + a]
+        if undecided and k[S.mode_tried + a] == SLIDE:
+            k[S.mode_tried + a] = STICK
+            changed = 1
+    if changed == 0:
+        return
+    polish(S, w, k)
+    if _accept(S, w, k) == 0:
+        _take_answer(S, w, k)
+
+
+@room("i8(S, F, I, i8)")
+def find_modes(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
+    """Search by one solver, ``mode_past`` holding the past modes; return 1 if a verified answer is found."""
+    found = 0
+    if solver == ENUMERATION:
+        found = 1 if enumerate_modes(S, w, k, 0) > 0 else 0
+    else:
+        for a in range(S.n_active):
+            k[S.freed + a] = 0
+        # where a contact has just broken away it must not stick again at the higher static bound
+        broken = 0
+        for a in range(S.n_active):
+            if k[S.at_rest + a] == 1 and k[S.mode_past + a] == SLIDE:
+                k[S.freed + a] = 1
+                broken += 1
+        if broken > 0:
+            found = _search_from(S, w, k, solver)
+            for a in range(S.n_active):
+                k[S.freed + a] = 0
+        if found == 0:
+            found = _search_from(S, w, k, solver)
+    if found == 1:
+        _prefer_stick(S, w, k)
+        _close_idle(S, w, k)
+    return found

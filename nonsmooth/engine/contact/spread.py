@@ -1,0 +1,201 @@
+"""Forces that are not unique, spread so that every contact keeps Coulomb's bound, the motion left as it is."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
+from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
+from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, project_on_null
+
+_STEPS = 60
+_NO_GAIN = 1e-9
+_FLOOR = 1e-9
+"""Added to the Hessian, whose largest eigenvalue is 1, so that it can be inverted;"""
+_FLOOR_IN_BAND = 1e-3
+"""more where what leaves the null space has to stay far above it:"""
+_CHEAP = 1e-7
+"""the Hessian counts by this, relative to H."""
+
+
+@kernel("f8(S, F, i8, i8)")
+def _disc_excess(S: Scalars, w: Floats, i: int, a: int) -> float:
+    """Write the friction of a contact with a given normal force less its projection on the disc; return its square."""
+    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    bound, length = w[S.mu_static + a] * w[S.f + 3 * a], math.sqrt(t1 * t1 + t2 * t2)
+    out = max(0.0, length - bound)
+    w[S.right + i] = w[S.right + i + 1] = 0.0
+    if out > 0.0:
+        w[S.right + i], w[S.right + i + 1] = out * t1 / length, out * t2 / length
+    return out * out
+
+
+@kernel("void(S, F, i8, i8, i8, i8, f8)")
+def _add_disc_curve(S: Scalars, w: Floats, i: int, a: int, line1: int, line2: int, factor: float) -> None:
+    """Add the Hessian of the half square of what :func:`_disc_excess` writes."""
+    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    bound, length = w[S.mu_static + a] * w[S.f + 3 * a], math.sqrt(t1 * t1 + t2 * t2)
+    if length > bound:
+        c1, c2, round_ = t1 / length, t2 / length, 1.0 - bound / length
+        w[line1 + i] += factor * (c1 * c1 + round_ * c2 * c2)
+        w[line2 + i + 1] += factor * (c2 * c2 + round_ * c1 * c1)
+        w[line1 + i + 1] += factor * (1.0 - round_) * c1 * c2
+        w[line2 + i] += factor * (1.0 - round_) * c1 * c2
+
+
+@kernel("f8(S, F, I, i8, f8)")
+def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
+    """Write f less its projection on the cones to ``right``; return half its square."""
+    square = 0.0
+    for i in range(n):
+        line = k[S.column + i]
+        a = line // 3
+        if line == 3 * a + 1 and k[S.normal_held + a] == 0:
+            square += _disc_excess(S, w, i, a)
+        if line != 3 * a:
+            continue
+        normal = w[S.f + line] - inset * k[S.redundant + a]
+        w[S.right + i] = min(0.0, normal)
+        if k[S.tangent_held + a] == 1:
+            t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
+            mu, length = w[S.mu_static + a], math.sqrt(t1 * t1 + t2 * t2)
+            w[S.right + i + 1] = w[S.right + i + 2] = 0.0
+            if mu * length <= -normal:
+                w[S.right + i + 1], w[S.right + i + 2] = t1, t2
+            elif length > mu * normal:
+                out = (length - mu * normal) / (1.0 + mu * mu)
+                w[S.right + i] = -mu * out
+                w[S.right + i + 1], w[S.right + i + 2] = out * t1 / length, out * t2 / length
+            else:
+                w[S.right + i] = 0.0
+            square += w[S.right + i + 1] ** 2 + w[S.right + i + 2] ** 2
+        square += w[S.right + i] ** 2
+    return 0.5 * square
+
+
+@kernel("void(S, F, I, i8, i8, i8, f8, f8)")
+def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: int, factor: float, inset: float) -> None:
+    """Add the Hessian of the half square, block by block and times a factor, to the band at ``matrix``."""
+    for i in range(n):
+        line = k[S.column + i]
+        a = line // 3
+        if line == 3 * a + 1 and k[S.normal_held + a] == 0:
+            _add_disc_curve(S, w, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
+        if line != 3 * a:
+            continue
+        normal, h = w[S.f + line] - inset * k[S.redundant + a], band_row(matrix, i, n, half) + i
+        if k[S.tangent_held + a] == 0:
+            w[h] += factor if normal < 0.0 else 0.0
+            continue
+        h1, h2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
+        t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
+        mu, length = w[S.mu_static + a], math.sqrt(t1 * t1 + t2 * t2)
+        if mu * length <= -normal:
+            w[h] += factor
+            w[h1 + 1] += factor
+            w[h2 + 2] += factor
+        elif length > mu * normal:
+            s = (1.0 + mu * mu) / factor
+            c1, c2 = t1 / length, t2 / length
+            round_ = (length - mu * normal) / (s * length)
+            w[h] += mu * mu / s
+            w[h + 1] -= mu * c1 / s
+            w[h + 2] -= mu * c2 / s
+            w[h1] -= mu * c1 / s
+            w[h2] -= mu * c2 / s
+            w[h1 + 1] += c1 * c1 / s + round_ * c2 * c2
+            w[h2 + 2] += c2 * c2 / s + round_ * c1 * c1
+            w[h1 + 2] += c1 * c2 / s - round_ * c1 * c2
+            w[h2 + 1] += c1 * c2 / s - round_ * c1 * c2
+
+
+@kernel("void(F, i8, i8, i8, i8)")
+def _multiply(w: Floats, left: int, right: int, out: int, n: int) -> None:
+    for i in range(n):
+        for j in range(n):
+            w[out + i * n + j] = 0.0
+        for c in range(n):
+            factor = w[left + i * n + c]
+            if factor != 0.0:
+                for j in range(n):
+                    w[out + i * n + j] += factor * w[right + c * n + j]
+
+
+@kernel("i8(S, F, I, i8, f8)")
+def _step(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> int:
+    """Write Newton's step in the null space, whose projector stands in full, to ``x``; return 0 if there is none."""
+    for i in range(n * n):
+        w[S.basis + i] = 0.0
+    _add_curve(S, w, k, n, S.basis, n, 1.0, inset)
+    _multiply(w, S.basis, S.null, S.matrix, n)
+    _multiply(w, S.null, S.matrix, S.basis, n)
+    for i in range(n):
+        w[S.x + i] = 0.0
+        for j in range(n):
+            w[S.x + i] -= w[S.null + i * n + j] * w[S.right + j]
+            w[S.matrix + i * n + j] = w[S.basis + i * n + j]
+        w[S.matrix + i * n + i] += _FLOOR
+    if eliminate(w, S.matrix, n, n, S.x, SINGULAR) == 0:
+        return 0
+    # the elimination leaks out of the null space by round-off over the floor
+    for i in range(n):
+        w[S.matrix + i] = w[S.x + i]
+    for i in range(n):
+        w[S.x + i] = 0.0
+        for j in range(n):
+            w[S.x + i] += w[S.null + i * n + j] * w[S.matrix + j]
+    return 1
+
+
+@kernel("i8(S, F, I, i8, f8)")
+def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> int:
+    """Write Newton's step to ``x``: what leaves the null space, by H in ``basis``, is made dear, and cut off then."""
+    weight = _CHEAP * largest_diagonal(w, S.basis, n, S.null_half)
+    copy_shifted(w, S.basis, n, S.null_half, S.matrix, weight * _FLOOR_IN_BAND)
+    _add_curve(S, w, k, n, S.matrix, S.null_half, weight, inset)
+    factorise_band(w, S.matrix, n, S.null_half, 0.1 * weight * _FLOOR_IN_BAND)
+    for i in range(n):
+        w[S.x + i] = -weight * w[S.right + i]
+    substitute_band(w, S.matrix, n, S.null_half, S.x)
+    project_on_null(S, w, n, S.x)
+    return 1
+
+
+@room("i8(S, F, I, f8, f8)")
+def spread(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
+    """Move the forces along the null space into the cones; return 1 if they arrive.
+
+    ``f`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the
+    distance to the cones, moved up by ``inset`` [N] where forces are not unique, is convex along the null space, and
+    its smallest value is sought by Newton's method until no force is out by more than ``arrived`` [N].
+    """
+    n = S.n_unknown
+    square = _excess(S, w, k, n, inset)
+    for _round in range(_STEPS):
+        worst = 0.0
+        for i in range(n):
+            worst = max(worst, abs(w[S.right + i]))
+        if worst <= arrived:
+            return 1
+        if (_step_in_band(S, w, k, n, inset) if S.null_banded == 1 else _step(S, w, k, n, inset)) == 0:
+            return 0
+        slope = 0.0
+        for i in range(n):
+            slope += w[S.right + i] * w[S.x + i]
+            w[S.sigma + i] = w[S.f + k[S.column + i]]
+        # where the distance has its smallest value, and it is not zero, there are no such forces
+        if not slope < -_NO_GAIN * square:
+            return 0
+        share, moved = 1.0, 0
+        for _halving in range(30):
+            for i in range(n):
+                w[S.f + k[S.column + i]] = w[S.sigma + i] + share * w[S.x + i]
+            new = _excess(S, w, k, n, inset)
+            if new <= square + 1e-4 * share * slope:
+                square, moved = new, 1
+                break
+            share *= 0.5
+        if moved == 0:
+            return 0
+    return 0

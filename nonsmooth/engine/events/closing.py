@@ -1,0 +1,153 @@
+"""Closing: the end of an accumulation of ever shorter bounces, Eq. (33)."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.compliance import begin_contact
+from nonsmooth.engine.bodies.kinematics import row
+from nonsmooth.engine.bodies.touching import slip_speed, touch
+from nonsmooth.engine.delassus.islands import activate_group, group_members
+from nonsmooth.engine.events.record import record_event, remember
+from nonsmooth.engine.events.twins import closed_twin, take_over
+from nonsmooth.engine.flow.projection import project_rates
+from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+
+
+@kernel("i8(S, F, I)")
+def _choose(S: Scalars, w: Floats, k: Integers) -> int:
+    """Mark the contacts whose bounces have become shorter than their contact time; return how many."""
+    closing = 0
+    S.h_first = 1e300
+    for c in range(S.n_contacts):
+        k[S.closes + c] = 0
+        rate = w[S.rate + 3 * c]
+        if k[S.touching + c] == 0 or k[S.normal_function + c] != 0 or rate <= S.velocity_tolerance:
+            continue
+        approach = -(w[S.bias + 3 * c] + row(S, w, k, c, 0, S.du))
+        if approach > 0.0:
+            # the next step shall not fly over the touch-down that is due after 2 rate / approach
+            S.h_first = min(S.h_first, 3.0 * rate / approach)
+        if approach > 0.0 and rate <= approach * w[S.contact_time + c] and closed_twin(S, w, k, c) < 0:
+            closing += 1
+            k[S.closes + c] = 1
+    return closing
+
+
+@kernel("i8(S, F, I)")
+def _join(S: Scalars, w: Floats, k: Integers) -> int:
+    """Close the contacts at rest that closing others makes approach, which is no collision; return how many."""
+    touch(S, w, k)
+    joining = 0
+    for c in range(S.n_contacts):
+        rigid = k[S.normal_function + c] == 0
+        if rigid and k[S.touching + c] == 1 and k[S.member + c] == 0 and w[S.rate + 3 * c] < -S.velocity_tolerance:
+            joining += 1
+            k[S.member + c] = 1
+            if take_over(S, w, k, c) == 0:
+                begin_contact(S, w, k, c)
+                k[S.mode + c] = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
+    return joining
+
+
+@kernel("void(S, F, I)")
+def _begin_modes(S: Scalars, w: Floats, k: Integers) -> None:
+    """Give the marked contacts modes, by their slips."""
+    for c in range(S.n_contacts):
+        if k[S.closes + c] == 1:
+            k[S.mode + c] = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
+
+
+@kernel("f8(S, F, I)")
+def _shut(S: Scalars, w: Floats, k: Integers) -> float:
+    """Bring the touching contacts that are closed to rest; return the energy that it takes [J].
+
+    Others are left alone, unless they are drawn in.
+    """
+    loss = 0.0
+    for c in range(S.n_contacts):
+        k[S.member + c] = 1 if k[S.touching + c] == 1 and k[S.mode + c] != OPEN else 0
+    for _round in range(S.n_contacts):
+        group_members(S, w, k)
+        for group in range(S.n_groups):
+            activate_group(S, w, k, group)
+            loss += project_rates(S, w, k, 1)
+        if _join(S, w, k) == 0:
+            break
+    return loss
+
+
+@kernel("i8(S, F, I)")
+def _left_over(S: Scalars, w: Floats, k: Integers) -> int:
+    """Try to shut the marked contacts, and undo it; return the one of them that goes on separating most, or -1.
+
+    Contacts that all but repeat one another cannot be brought to rest together.
+    """
+    for i in range(S.n_u):
+        w[S.y_stage + S.n_q + i] = w[S.y + S.n_q + i]
+    work = S.driven_work
+    _begin_modes(S, w, k)
+    _shut(S, w, k)
+    contact, worst = -1, S.velocity_tolerance
+    for c in range(S.n_contacts):
+        if k[S.closes + c] == 1 and w[S.rate + 3 * c] > worst:
+            contact, worst = c, w[S.rate + 3 * c]
+    S.driven_work = work
+    for i in range(S.n_u):
+        w[S.y + S.n_q + i] = w[S.y_stage + S.n_q + i]
+    for c in range(S.n_contacts):
+        k[S.mode + c] = k[S.mode_agreed + c]
+    touch(S, w, k)
+    return contact
+
+
+@kernel("i8(S, F, I)")
+def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
+    """Close the contacts whose bounces have become shorter than their contact time; return how many.
+
+    The modes must be those agreed on for this instant.
+    """
+    closing = _choose(S, w, k)
+    while closing > 0:
+        contact = _left_over(S, w, k)
+        if contact < 0:
+            break
+        k[S.closes + contact] = 0
+        closing -= 1
+    if closing == 0:
+        return 0
+    remember(S, w, k)
+    _begin_modes(S, w, k)
+    _close(S, w, k, CLOSING)
+    return closing
+
+
+@kernel("void(S, F, I, i8)")
+def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
+    """Shut the marked contacts, book what it takes, and record it."""
+    before = S.driven_work
+    w[S.event_head + 4] = _shut(S, w, k)
+    w[S.event_head + 1] = S.driven_work - before
+    S.closing_loss += w[S.event_head + 4]
+    contact = -1
+    for c in range(S.n_contacts):
+        if k[S.closes + c] == 1:
+            contact = c
+    record_event(S, w, k, cause, contact, 0)
+
+
+@kernel("i8(S, F, I)")
+def hand_over(S: Scalars, w: Floats, k: Integers) -> int:
+    """Let contacts that approach take the place of closed ones where they are; return 1, or 0 where others collide."""
+    for c in range(S.n_contacts):
+        rigid = k[S.normal_function + c] == 0
+        approaches = rigid and k[S.touching + c] == 1 and w[S.rate + 3 * c] < -S.velocity_tolerance
+        k[S.closes + c] = 1 if approaches else 0
+        if approaches and closed_twin(S, w, k, c) < 0:
+            return 0
+    remember(S, w, k)
+    for c in range(S.n_contacts):
+        if k[S.closes + c] == 1 and take_over(S, w, k, c) == 0:
+            # another one that approaches more has taken its twin's place
+            k[S.closes + c] = 0
+    _close(S, w, k, FEATURE_CHANGE)
+    return 1

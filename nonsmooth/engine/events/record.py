@@ -1,0 +1,137 @@
+"""Writing samples and events to the buffers that Python empties between calls."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.memory.modes import GUARD, OPEN, SLIDE
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.numerics.runge_kutta import dense_state
+
+EVENT_HEAD = 5
+"""Floats at the head of an event: time, driven work, restitution loss, friction loss, closing loss.
+
+Coordinates follow, velocities before and after, and the impulses of the contacts listed.
+"""
+CODE_HEAD = 5
+"""Integers at the head of an event: cause, contact, phases, whether cut short, number of contacts listed.
+
+Contact and code of each of these follow, and their impulses at the end of the floats.
+"""
+MOST_EVENTS = 204
+"""Events that one instant may record: one for every attempt to settle it, and those before and after."""
+
+
+@kernel("i8(S, F, I, i8)")
+def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
+    mode = k[S.mode + c]
+    if mode == OPEN:
+        return 0
+    return 5 if mode == SLIDE else 1
+
+
+@kernel("i8(S, F, I, i8)")
+def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return the bits of contact ``c`` at the start of an impact, from its rates."""
+    if k[S.touching + c] == 0:
+        return 0
+    bits = 1
+    if w[S.rate + 3 * c] < -S.velocity_tolerance:
+        bits += 2
+    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    if math.sqrt(v1 * v1 + v2 * v2) > S.velocity_tolerance:
+        bits += 4
+    return bits
+
+
+@kernel()
+def remember(S: Scalars, w: Floats, k: Integers) -> None:
+    """Keep modes and velocities as they are before an event, and clear its account."""
+    for c in range(S.n_contacts):
+        k[S.code_before + c] = code(S, w, k, c)
+        k[S.code_during + c] = k[S.code_before + c]
+        for r in range(3):
+            w[S.event_impulse + 3 * c + r] = 0.0
+    for i in range(S.n_u):
+        w[S.u_before + i] = w[S.y + S.n_q + i]
+    for i in range(1, EVENT_HEAD):
+        w[S.event_head + i] = 0.0
+
+
+@kernel("i8(S, F, I, i8)")
+def _list_event(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
+    """List the contacts that an event is about: all that are or were closed, and the one that caused it."""
+    n = 0
+    for c in range(S.n_contacts):
+        if c == contact or k[S.code_before + c] + k[S.code_during + c] + code(S, w, k, c) > 0:
+            k[S.listed + n] = c
+            n += 1
+    return n
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, phases: int) -> None:
+    """Append an event with what was remembered before it and the modes after it."""
+    S.recorded += 1
+    n = _list_event(S, w, k, -1 if cause == GUARD else contact)
+    width = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * n
+    S.last_floats, S.last_integers = S.floats_used, S.integers_used
+    row = S.events + S.floats_used
+    w[S.event_head] = S.t
+    for i in range(EVENT_HEAD):
+        w[row + i] = w[S.event_head + i]
+    row += EVENT_HEAD
+    for i in range(S.n_q):
+        w[row + i] = w[S.y + i]
+    row += S.n_q
+    for i in range(S.n_u):
+        w[row + i] = w[S.u_before + i]
+        w[row + S.n_u + i] = w[S.y + S.n_q + i]
+    row += 2 * S.n_u
+    codes = S.event_codes + S.integers_used
+    k[codes], k[codes + 1], k[codes + 2] = cause, contact, phases
+    if contact >= 0 and cause != GUARD:
+        k[codes + 1] = k[S.identity + contact]
+    k[codes + 3] = S.truncated if phases > 0 else 0
+    k[codes + 4] = n
+    for i in range(n):
+        c = k[S.listed + i]
+        for r in range(3):
+            w[row + 3 * i + r] = w[S.event_impulse + 3 * c + r]
+        k[codes + CODE_HEAD + 2 * i] = k[S.identity + c]
+        k[codes + CODE_HEAD + 2 * i + 1] = k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
+    S.last_contact = contact
+    if S.told > 0:
+        # a run that is continued repeats what led to its state, and has told of it
+        S.told -= 1
+        return
+    S.floats_used += width
+    S.integers_used += CODE_HEAD + 2 * n
+    S.n_events += 1
+
+
+@kernel()
+def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write the last event anew, with the modes that the instant ended in and its final velocities."""
+    if S.n_events == 0 or S.floats_used == S.last_floats:
+        return
+    S.floats_used, S.integers_used = S.last_floats, S.last_integers
+    S.n_events -= 1
+    S.recorded -= 1
+    codes = S.event_codes + S.last_integers
+    record_event(S, w, k, k[codes], S.last_contact, k[codes + 2])
+
+
+@kernel("void(S, F, I, f8)")
+def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+    """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
+    width = S.n_y + 1
+    while S.next_sample <= S.t + h and S.n_samples < S.sample_capacity:
+        row = S.samples + S.n_samples * width
+        w[row] = S.next_sample
+        theta = (S.next_sample - S.t) / S.h
+        dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), row + 1)
+        S.n_samples += 1
+        S.sample_index += 1
+        S.next_sample = S.sample_start + S.sample_index * S.sample_interval

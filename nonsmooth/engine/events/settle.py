@@ -1,0 +1,364 @@
+"""What happens at an instant: impacts until nothing approaches, then closings, then the new modes."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.anisotropy import turn_facing, unstretch_force
+from nonsmooth.engine.bodies.compliance import (
+    begin_contact,
+    push_given,
+    rubs_unasked,
+)
+from nonsmooth.engine.bodies.touching import slip_speed, touch
+from nonsmooth.engine.contact.forces import reduced_coefficient
+from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_up, solve_contact
+from nonsmooth.engine.contact.trial import small_force
+from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
+from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
+from nonsmooth.engine.events.closing import close_contacts, hand_over
+from nonsmooth.engine.events.record import MOST_EVENTS, amend_last, code, impact_code, record_event, remember
+from nonsmooth.engine.events.twins import has_replaced
+from nonsmooth.engine.flow.projection import project_closed
+from nonsmooth.engine.flow.self_check import open_account
+from nonsmooth.engine.impact.instant import jam_slips, map_impact
+from nonsmooth.engine.impact.problem import ENDLESS, FINISHED, energetic_impact
+from nonsmooth.engine.impact.window import LARGE, windowed_impact
+from nonsmooth.engine.memory.modes import (
+    FEATURE_CHANGE,
+    IMPACT,
+    IMPACT_ENDLESS,
+    JAM,
+    LIFT_OFF,
+    NO_CONTACT_SOLUTION,
+    NOT_FINITE,
+    OPEN,
+    PAINLEVE,
+    PARADOX_REFUSED,
+    REFUSE,
+    RUNNING,
+    SETTLE_ENDLESS,
+    SINGULAR_SLIDING,
+    SLIDE,
+    START,
+    STICK,
+    STICK_TO_SLIP,
+)
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.watch import interrupted
+
+_ATTEMPTS = MOST_EVENTS - 4
+_PAINLEVE_ATTEMPTS = 5
+_PROJECTIONS = 2
+"""So often an instant is settled anew after a projection that may have turned a slip."""
+_SLOW = 100.0
+"""A slip of up to so many velocity tolerances may be turned."""
+_FACINGS = 20
+"""So often friction may be found to oppose the other way."""
+
+
+@kernel("i8(S, F, I)")
+def _fastest_approach(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return the touching contact that approaches most."""
+    contact, worst = -1, 1e300
+    for c in range(S.n_contacts):
+        if k[S.touching + c] == 1 and k[S.normal_function + c] == 0 and w[S.rate + 3 * c] < worst:
+            contact, worst = c, w[S.rate + 3 * c]
+    return contact
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Return 1 if the active contacts collide: one of them approaches, or it is the one that jams or has no force."""
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        if c == contact or (cause == IMPACT and w[S.rate + 3 * c] < -S.velocity_tolerance):
+            return 1
+    return 0
+
+
+@room("i8(S, F, I, i8, i8)")
+def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Run the impact law on the touching contacts, island by island, book and record it; return the status."""
+    S.painleve = 1 if cause == PAINLEVE else 0
+    remember(S, w, k)
+    group_touching(S, w, k)
+    phases = truncated = 0
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        if _takes_part(S, w, k, cause, contact) == 0:
+            continue
+        status = _collide_island(S, w, k, cause)
+        if status != RUNNING:
+            # what the islands before have done is in no account yet
+            for i in range(S.n_u):
+                w[S.y + S.n_q + i] = w[S.u_before + i]
+            return status
+        phases += S.phases
+        truncated = max(truncated, S.truncated)
+    S.impacts += 1
+    S.phases, S.truncated = phases, truncated
+    S.driven_work += w[S.event_head + 1]
+    S.restitution_loss += w[S.event_head + 2]
+    S.friction_loss += w[S.event_head + 3]
+    # until the instant is settled: apart is open, the rest goes by its slip
+    S.approaching = touch(S, w, k)
+    for c in range(S.n_contacts):
+        if k[S.code_during + c] != k[S.code_before + c] or k[S.mode + c] != OPEN:
+            _provisional_mode(S, w, k, c)
+    record_event(S, w, k, cause, contact, S.phases)
+    return RUNNING
+
+
+@kernel("i8(S, F, I, i8)")
+def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
+    """Run the impact law on the active contacts and give the bodies its impulses; return the status."""
+    m = S.n_active
+    large = m > LARGE and S.painleve == 0 and S.impact_map == 0 and cause != JAM
+    if not large:
+        assemble_delassus(S, w, k)
+    for a in range(m):
+        c = k[S.active + a]
+        k[S.code_during + c] = impact_code(S, w, k, c)
+        for r in range(3):
+            w[S.impact_z0 + 3 * a + r] = w[S.rate + 3 * c + r]
+    S.phases, S.truncated = 1, 0
+    if cause == JAM:
+        if jam_slips(S, w, k) == 0:
+            return SINGULAR_SLIDING
+    elif S.impact_map != 0:
+        map_impact(S, w, k)
+    else:
+        outcome = windowed_impact(S, w, k) if large else energetic_impact(S, w, k)
+        if outcome != FINISHED:
+            return IMPACT_ENDLESS if outcome == ENDLESS else NOT_FINITE
+    for i in range(3 * m):
+        if not abs(w[S.impulse + i]) < 1e300:
+            return NOT_FINITE
+    add_response(S, w, k, S.impulse, S.y + S.n_q)
+    for a in range(m):
+        c = k[S.active + a]
+        w[S.event_head + 2] += w[S.stored + a] - w[S.returned + a]
+        w[S.event_head + 3] += w[S.rubbed + a]
+        for r in range(3):
+            impulse = w[S.impulse + 3 * a + r]
+            w[S.event_impulse + 3 * c + r] = impulse
+            w[S.event_head + 1] -= impulse * w[S.prescribed_rate + 3 * c + r]
+        if k[S.oriented + c] == 1:
+            unstretch_force(S, w, k, c, S.event_impulse + 3 * c)
+    return RUNNING
+
+
+@kernel("void(S, F, I, i8)")
+def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+    rigid = k[S.normal_function + c] == 0
+    if k[S.touching + c] == 0 or (rigid and w[S.rate + 3 * c] > S.velocity_tolerance):
+        k[S.mode + c] = OPEN
+        return
+    if k[S.mode + c] == OPEN:
+        begin_contact(S, w, k, c)
+    speed = slip_speed(S, w, k, c)
+    k[S.mode + c] = SLIDE if speed > S.velocity_tolerance else STICK
+    if speed > S.velocity_tolerance:
+        for i in range(2):
+            w[S.direction + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
+
+
+@kernel("i8(S, F, I, i8)")
+def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if the normal force of a closed contact has gone together with that which fired."""
+    largest = 0.0
+    for other in range(S.n_contacts):
+        if k[S.mode + other] != OPEN and k[S.normal_function + other] == 0:
+            largest = max(largest, w[S.guard_first + 2 * other])
+    rigid = k[S.normal_function + c] == 0
+    return 1 if rigid and k[S.mode + c] != OPEN and w[S.guard + 2 * c] <= 1e-9 * largest else 0
+
+
+@kernel("void(S, F, I, i8, i8)")
+def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
+    """Group the contacts at rest in the normal direction and guess their modes: the past ones, and the event's."""
+    for c in range(S.n_contacts):
+        k[S.member + c] = 0
+        k[S.mode_agreed + c] = OPEN
+        if k[S.normal_function + c] != 0:
+            _expect_compliant(S, w, k, c, contact, cause)
+        elif k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
+            k[S.member + c] = 1
+            # a slip about to start from rest is found anew, not remembered
+            mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
+            # one that touches without having closed parts again
+            if k[S.mode + c] == OPEN and c != contact and cause != START:
+                mode = OPEN
+            if cause == LIFT_OFF and (c == contact or _force_gone(S, w, k, c) == 1):
+                mode = OPEN
+            # a group whose forces are not unique has one bound and breaks away together
+            if cause == STICK_TO_SLIP and (c == contact or k[S.tied + c] + k[S.tied + contact] == 2):
+                mode = SLIDE
+            k[S.mode_agreed + c] = mode
+    group_members(S, w, k)
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, contact: int, cause: int) -> None:
+    """Guess the mode of a compliant contact, which is its mode where its friction is no question."""
+    if cause == LIFT_OFF and c == contact:
+        k[S.touching + c] = 0
+    if k[S.touching + c] == 0:
+        return
+    speed = slip_speed(S, w, k, c)
+    slides = speed > S.velocity_tolerance or k[S.traction_function + c] != 0
+    breaks = cause == STICK_TO_SLIP and (c == contact or k[S.tied + c] + k[S.tied + contact] == 2)
+    k[S.mode_agreed + c] = SLIDE if slides or breaks else STICK
+    k[S.member + c] = 1 - rubs_unasked(S, w, k, c)
+    for i in range(2):
+        w[S.direction_agreed + 2 * c + i] = w[S.direction + 2 * c + i]
+        if speed > S.velocity_tolerance:
+            w[S.direction_agreed + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
+
+
+@kernel("i8(S, F, I)")
+def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
+    """Find modes and forces of the grouped contacts; return 1, or 0 with an island active that has no solution.
+
+    Return 2 where all is to be done again, some friction having another bound than it seemed.
+    """
+    free_acceleration(S, w, k)
+    push_given(S, w, k)
+    turned = 0
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        for a in range(S.n_active):
+            k[S.mode_tried + a] = k[S.mode_agreed + k[S.active + a]]
+        set_up(S, w, k)
+        if solve_contact(S, w, k) == 0:
+            return 0
+        accelerate(S, w, k)
+        for a in range(S.n_active):
+            c = k[S.active + a]
+            w[S.small_force_of + c] = small_force(S, w, k, a)
+            k[S.mode_agreed + c] = k[S.mode_tried + a]
+            for i in range(2):
+                w[S.direction_agreed + 2 * c + i] = w[S.d + 2 * a + i]
+            if k[S.at_rest + a] == 1 and k[S.mode_tried + a] != OPEN:
+                turned += turn_facing(S, w, k, c, w[S.f + 3 * a + 1])
+    # friction that turned out to oppose the other way has another bound
+    return 2 if turned > 0 else 1
+
+
+@kernel("i8(S, F, I)")
+def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
+    """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
+    for c in range(S.n_contacts):
+        k[S.impacting + c] = 0
+    contact = -1
+    for a in range(S.n_active):
+        if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
+            contact = k[S.active + a]
+            k[S.impacting + contact] = 1
+            S.impact_seed = max(S.impact_seed, slip_speed(S, w, k, contact))
+    if contact < 0:
+        return NO_CONTACT_SOLUTION
+    if S.policy == REFUSE:
+        return PARADOX_REFUSED
+    status = collide(S, w, k, PAINLEVE, contact)
+    S.impact_seed = 0.0
+    return status
+
+
+@kernel("i8(S, F, I)")
+def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if one of several closed contacts slips so slowly that projecting the others may turn its slip."""
+    closed = creeping = 0
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN and k[S.normal_function + c] == 0:
+            closed += 1
+            if S.velocity_tolerance < slip_speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
+                creeping += 1
+    return 1 if closed > 1 and creeping > 0 else 0
+
+
+@room("i8(S, F, I, i8, i8)")
+def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Carry the system through an instant that ``contact`` makes one by ``cause``; return the status."""
+    S.recorded = 0
+    resting = projected = 0
+    approaching = touch(S, w, k)
+    open_account(S, w, k)
+    if cause == JAM:
+        if S.policy == REFUSE:
+            return PARADOX_REFUSED
+        status = collide(S, w, k, JAM, contact)
+        if status != RUNNING:
+            return status
+        approaching = S.approaching
+    for _attempt in range(_ATTEMPTS):
+        if interrupted(S, S.n_contacts) == 1:
+            return SETTLE_ENDLESS
+        if approaching == 1 and hand_over(S, w, k) == 1:
+            approaching = touch(S, w, k)
+            continue
+        if approaching == 1:
+            status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k))
+            if status != RUNNING:
+                return status
+            approaching = S.approaching
+            continue
+        if S.recorded == 0 and projected == 0:
+            remember(S, w, k)
+        _expect(S, w, k, cause, contact)
+        solved = _solve_islands(S, w, k)
+        if solved == 2 and _attempt < _FACINGS:
+            approaching = touch(S, w, k)
+            continue
+        if S.stopped == 1:
+            return SETTLE_ENDLESS
+        if solved == 0:
+            for a in range(S.n_active):
+                if not (w[S.mu + a] >= 0.0 and w[S.mu_static + a] >= 0.0):
+                    return NOT_FINITE
+            resting += 1
+            if resting > _PAINLEVE_ATTEMPTS:
+                return NO_CONTACT_SOLUTION
+            status = _impact_without_collision(S, w, k)
+            if status != RUNNING:
+                return status
+            approaching = S.approaching
+            continue
+        _adopt(S, w, k)
+        if close_contacts(S, w, k) == 0:
+            if _creeps(S, w, k) == 0 or projected == _PROJECTIONS:
+                _finish(S, w, k, cause, contact)
+                return RUNNING
+            # what brings others to rest may turn so slow a slip, and modes follow from its direction
+            projected += 1
+            S.closing_loss += project_closed(S, w, k, 1)
+        approaching = touch(S, w, k)
+    return SETTLE_ENDLESS
+
+
+@kernel("void(S, F, I)")
+def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take over the modes and slip directions that the contact problem found."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] == OPEN and k[S.mode_agreed + c] != OPEN:
+            begin_contact(S, w, k, c)
+        k[S.mode + c] = k[S.mode_agreed + c]
+        if k[S.mode + c] == SLIDE:
+            for i in range(2):
+                w[S.direction + 2 * c + i] = w[S.direction_agreed + 2 * c + i]
+
+
+@kernel("void(S, F, I, i8, i8)")
+def _finish(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
+    """Put the closed contacts exactly on their constraints and write the event."""
+    S.closing_loss += project_closed(S, w, k, 1)
+    if S.recorded > 0:
+        amend_last(S, w, k)
+        return
+    if cause == IMPACT and has_replaced(S, w, k, contact) == 1:
+        cause = FEATURE_CHANGE
+    changed = 0
+    for c in range(S.n_contacts):
+        if code(S, w, k, c) != k[S.code_before + c]:
+            changed = 1
+    if changed == 1 or cause == 0 or cause == FEATURE_CHANGE:
+        record_event(S, w, k, cause, contact, 0)

@@ -1,0 +1,258 @@
+"""Guards: what ends a mode.
+
+Every contact has two guards, positive while its mode is valid:
+
+* open: the gap; the second is not used.
+* closed: the normal force, or, compliant, the way left to its reach; and, sticking, the distance to the static
+  bound, sliding, the slip velocity along its direction at the start of the step.
+
+Behind them stand the scenario's own, whatever the modes, and one more of every contact: closed, the way left to the end
+of its features, negative if they are not the same any more.
+
+An event lies in the half-open interval t0 < t* <= t1 of a step.  Of a guard that starts from zero (a gap
+just after an impact, a slip just begun) the growth from there is taken, divided by the elapsed time, so that its
+zero at the start does not fire while the next one does.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
+from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
+from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard
+from nonsmooth.engine.memory.layout import FEATURE, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_guard, kernel
+
+_ROUND_OFF = 1e-3
+"""Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
+_WRONG_GAP = -1e3
+"""A gap that is not armed fires below so many gap tolerances all the same,"""
+_WRONG_SLIP = -0.05
+"""a slip, or the growth of a gap, below so many velocity tolerances,"""
+_WRONG_FORCE = -2.0
+"""and a force below so many times what its contact problem took for zero."""
+_LATE = 2.0
+"""A closed contact ends so many gap tolerances past the end of its features; up to one it may close."""
+
+
+@kernel("f8(S, F, I, i8)")
+def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return the way left to the end of the features of a closed contact, negative if it has other ones than before."""
+    block = S.geometry + GEOMETRY * c
+    left = _LATE * S.gap_tolerance - w[block + PAST_END] if w[block + PAST_END] != 0.0 else 1.0
+    if left < 0.0 or k[S.feature + c] < 0 or int(w[block + FEATURE]) == k[S.feature + c]:
+        return float(left)
+    return float(-left)
+
+
+@kernel("void(S, F, I)")
+def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take the present features of the closed contacts as those of the step that begins.
+
+    Right after a change there is a step that does not look: a contact may move along the border of two features.
+    """
+    looks = S.t - S.feature_t > S.time_tolerance
+    for c in range(S.n_contacts):
+        k[S.feature + c] = int(w[S.geometry + GEOMETRY * c + FEATURE]) if looks and k[S.mode + c] != OPEN else -1
+
+
+@kernel("void(S, F, I, f8, i8, i8)")
+def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: int) -> None:
+    """Write the guards after the right-hand side at ``t`` and ``y``; of closed contacts if ``forces`` are known (1)."""
+    if S.n_grouped == 0:
+        evaluate_driven_bodies(S, w, k, t, y)
+    elif forces == 1:
+        for i in range(S.n_grouped):
+            c = k[S.grouped + i]
+            w[S.guard + 2 * c] = hold_guard(S, w, k, c)
+            w[S.gap_rate + c] = w[S.rate + 3 * c]
+            if k[S.mode + c] == STICK:
+                w[S.guard + 2 * c + 1] = w[S.static_margin + c]
+            else:
+                w[S.guard + 2 * c + 1] = slip_guard(S, w, k, c)
+    for c in range(S.n_contacts):
+        if k[S.mode + c] == OPEN:
+            evaluate_geometry(S, w, k, c)
+            evaluate_rates(S, w, k, c)
+            w[S.guard + 2 * c] = w[S.geometry + GEOMETRY * c]
+            w[S.guard + 2 * c + 1] = 1.0
+            w[S.gap_rate + c] = w[S.rate + 3 * c]
+    for g in range(S.n_own_guards):
+        w[S.guard + 2 * S.n_contacts + g] = call_guard(
+            k[S.own_guard_function + g], t, at(w, y), at(w, y + S.n_q), at(w, k[S.own_guard_parameters + g])
+        )
+    ends = 2 * S.n_contacts + S.n_own_guards
+    for c in range(S.n_contacts):
+        w[S.guard + ends + c] = 1.0
+        if k[S.mode + c] != OPEN and forces == 1 and S.n_grouped > 0:
+            w[S.guard + ends + c] = _feature_guard(S, w, k, c)
+
+
+@kernel("void(S, F, I, f8, i8, f8, i8)")
+def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapsed: float, forces: int) -> None:
+    """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step."""
+    if forces == 1:
+        right_hand_side(S, w, k, t, y)
+    else:
+        evaluate_bodies(S, w, k, t, y)
+    write_guards(S, w, k, t, y, forces)
+    deflate(S, w, k, elapsed)
+
+
+@kernel("f8(S, F, I, i8, f8, f8)")
+def grown(S: Scalars, w: Floats, k: Integers, i: int, value: float, elapsed: float) -> float:
+    """Return guard ``i`` of this value, or, if it started from zero, its growth divided by the time elapsed."""
+    if k[S.guard_deflated + i] == 0:
+        return value
+    rate = w[S.guard_first + i]
+    separates = i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and rate > S.velocity_tolerance
+    if separates and rate * elapsed <= _ROUND_OFF * S.gap_tolerance:
+        return rate
+    return float((value - w[S.guard_start + i]) / elapsed)
+
+
+@kernel("void(S, F, I, f8)")
+def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
+    """Divide the growth of the guards that started from zero, or below it by round-off, by the time elapsed.
+
+    As long as a gap has not grown beyond round-off its rate at the start stands.
+    """
+    for i in range(2 * S.n_contacts + S.n_own_guards):
+        w[S.guard + i] = grown(S, w, k, i, w[S.guard + i], elapsed)
+
+
+@kernel()
+def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
+    """Keep guards and rates of the end of a step, where the next one starts."""
+    for c in range(S.n_contacts):
+        w[S.gap_rate_end + c] = w[S.gap_rate + c]
+        w[S.gap_end + c] = w[S.geometry + GEOMETRY * c]
+        w[S.past_end + c] = w[S.geometry + GEOMETRY * c + PAST_END]
+        for i in range(2):
+            w[S.guard_end + 2 * c + i] = w[S.guard + 2 * c + i]
+        for r in range(3):
+            w[S.rate_end + 3 * c + r] = w[S.rate + 3 * c + r]
+    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
+        w[S.guard_end + i] = w[S.guard + i]
+
+
+@kernel()
+def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take the kept guards as those of the start: arm the positive ones, deflate those that start from zero."""
+    for c in range(S.n_contacts):
+        first = 2 * c
+        for i in range(2):
+            k[S.guard_deflated + first + i] = 0
+            w[S.guard_start + first + i] = w[S.guard_first + first + i] = w[S.guard_end + first + i]
+        if k[S.mode + c] == OPEN:
+            if w[S.guard_first + first] <= S.gap_tolerance:
+                k[S.guard_deflated + first] = 1
+                w[S.guard_start + first] = min(0.0, w[S.guard_start + first])
+                if w[S.gap_rate_end + c] <= S.velocity_tolerance:
+                    w[S.guard_start + first] -= _ROUND_OFF * S.gap_tolerance
+                w[S.guard_first + first] = w[S.gap_rate_end + c]
+        elif k[S.normal_function + c] != 0 and w[S.guard_first + first] <= S.gap_tolerance:
+            # it has just touched down, and lets go when it comes back to here
+            k[S.guard_deflated + first] = 1
+            w[S.guard_start + first] = min(0.0, w[S.guard_start + first]) - _ROUND_OFF * S.gap_tolerance
+            w[S.guard_first + first] = -w[S.gap_rate_end + c]
+        if k[S.mode + c] == SLIDE and w[S.guard_first + first + 1] <= S.velocity_tolerance:
+            k[S.guard_deflated + first + 1] = 1
+            w[S.guard_start + first + 1] = min(0.0, w[S.guard_start + first + 1]) - _ROUND_OFF * S.velocity_tolerance
+            w[S.guard_first + first + 1] = 0.0
+        for i in range(2):
+            k[S.guard_armed + first + i] = 1 if w[S.guard_first + first + i] > 0.0 else 0
+    for g in range(S.n_own_guards):
+        i = 2 * S.n_contacts + g
+        w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
+        # one that has just fired starts from zero
+        k[S.guard_deflated + i] = k[S.own_guard_spent + g]
+        if k[S.own_guard_spent + g] == 1:
+            w[S.guard_first + i] = 0.0
+        k[S.own_guard_spent + g] = 0
+        k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
+    for i in range(2 * S.n_contacts + S.n_own_guards, 3 * S.n_contacts + S.n_own_guards):
+        w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
+        k[S.guard_deflated + i] = 0
+        k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
+
+
+@kernel("void(S, F, I, i8)")
+def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
+    """Arm the guards that have become positive within the step."""
+    for i in range(2 * S.n_contacts):
+        if w[S.guard + i] > 0.0 and (forces == 1 or k[S.mode + i // 2] == OPEN):
+            k[S.guard_armed + i] = 1
+    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
+        if w[S.guard + i] > 0.0:
+            k[S.guard_armed + i] = 1
+
+
+@kernel("i8(S, F, I, i8)")
+def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is a gap that came over the end of a feature to where it rests; it does not close."""
+    c = i // 2
+    if k[S.mode + c] != OPEN or i != 2 * c or k[S.guard_deflated + i] == 1:
+        return 0
+    rests = w[S.guard + i] > -S.gap_tolerance and w[S.gap_rate + c] > -S.velocity_tolerance
+    return 1 if w[S.geometry + GEOMETRY * c + PAST_END] != 0.0 and rests else 0
+
+
+@kernel("f8(S, F, I, i8)")
+def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
+    """Return below what guard ``i`` of a contact fires though it is not armed."""
+    c = i // 2
+    if k[S.guard_deflated + i] == 1:
+        return float(_WRONG_SLIP * S.velocity_tolerance)
+    if i == 2 * c and (k[S.mode + c] == OPEN or k[S.normal_function + c] != 0):
+        return float(_WRONG_GAP * S.gap_tolerance)
+    if i == 2 * c or (k[S.mode + c] == STICK and k[S.holds + c] == 1):
+        return _WRONG_FORCE * w[S.small_force_of + c]
+    return float(_WRONG_SLIP * S.velocity_tolerance)
+
+
+@kernel("i8(S, F, I, i8)")
+def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` of a contact has fired."""
+    value = w[S.guard + i]
+    if value < 0.0 and (k[S.guard_armed + i] == 1 or value < _wrong(S, w, k, i)):
+        return 1 - _slides_on(S, w, k, i)
+    return 0
+
+
+@kernel("i8(S, F, I, i8)")
+def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is a gap whose rate is known."""
+    if i >= 2 * S.n_contacts or k[S.mode + i // 2] != OPEN:
+        return 0
+    return 1 if w[S.geometry + GEOMETRY * (i // 2) + PAST_END] <= 0.0 else 0
+
+
+@kernel("i8(S, F, I, i8)")
+def _closes_now(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is a gap that has closed no longer ago than instants are told apart."""
+    late = max(S.gap_tolerance, S.time_tolerance * abs(w[S.gap_rate + i // 2]))
+    return 1 if is_gap(S, w, k, i) == 1 and w[S.geometry + GEOMETRY * (i // 2)] >= -late else 0
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> int:
+    """Return the first guard that has fired, or -1; at the root of guard ``but`` those that fired before it.
+
+    A gap that closes at the same instant did not.  Gaps that jump, a sign that another contact was passed, come last:
+    where it was none of them has a root to look for.
+    """
+    jumps = -1
+    for i in range(2 * S.n_contacts):
+        if forces == 0 and k[S.mode + i // 2] != OPEN:
+            continue
+        if i != but and has_fired(S, w, k, i) == 1 and (but < 0 or _closes_now(S, w, k, i) == 0):
+            if k[S.mode + i // 2] != OPEN or is_gap(S, w, k, i) == 1:
+                return i
+            jumps = i if jumps < 0 else jumps
+    if jumps >= 0:
+        return jumps
+    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
+        if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
+            return i
+    return -1

@@ -1,0 +1,426 @@
+"""Finding events within a step, and stepping exactly to the first of them.
+
+Open gaps are proved not to close (:mod:`nonsmooth.engine.flow.clearance`).  Forces, slips and own guards are sampled at
+the end of a step and in its middle, where a stage of it saw a force dip; features that do not face each other are
+sampled at :data:`_SAMPLES` places of a step, or every :data:`WAY` of their size, and where they should have closed.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.bodies import evaluate_bodies
+from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing
+from nonsmooth.engine.flow.flow import try_step
+from nonsmooth.engine.flow.guards import (
+    arm_further,
+    deflate,
+    evaluate_guards,
+    first_fired,
+    is_gap,
+    keep_end,
+    write_guards,
+)
+from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.modes import OPEN, STICK
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.numerics.runge_kutta import dense_state
+
+_MIDDLE = 0.5
+_NEAR = 0.2
+"""A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
+_FAINT = 1e-9
+"""A start value below this part of the end value says nothing of the sign within the step."""
+_NEGLIGIBLE = 0.01
+"""A step whose error is below this part of the tolerance is interpolated within it."""
+_TRUSTED = 2.0
+"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
+_MOST_ROOTS = 30
+"""So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
+_FEW_ROOTS = 4
+"""After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
+_SAMPLES = 16
+"""Parts of a step, at least, at whose ends it is asked whether features face each other,"""
+_FARTHEST = 0.25
+"""Part of the size of the smaller body that features which do not face each other may move unseen, however far."""
+_SHORTEST = 1e-4
+"""Part of a step in which nothing is looked at twice: the step itself resolves no more."""
+_JUMP = 1e-3
+"""A guard of which this part of the start value is left next to its root jumps."""
+_WAYS = 14
+"""So often the way behind a jump is doubled, from a part of the time tolerance on, until the jump is passed."""
+_FINE = 0.01
+"""Part of the time tolerance to which roots are found."""
+_LOOKS = 4
+"""So often, between two of them, a gap that is to close is looked at when it should have closed,"""
+_BEHIND = 1e-3
+"""later by this part of the time that it takes."""
+_FAR_BEHIND = 10.0
+"""Other gaps may be closed by so many gap tolerances at an event: what closes at one instant does to round-off."""
+_CORRECTIONS = 40
+"""Steps to an event, as many as halvings of its bracket need; two or three do unless the guard is not smooth."""
+_SHORT = 1e-7
+"""Corrections below this part of a step are made along the tangent; their error is its square."""
+
+
+@kernel("i8(S, F, I)")
+def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            return 1
+    return 0
+
+
+@room("void(S, F, I, f8, f8, i8)")
+def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
+    """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
+    dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
+    evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
+
+
+@kernel("f8(S, F, I, f8, f8, i8, i8)")
+def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
+    guards_within(S, w, k, h, theta, forces)
+    return w[S.guard + i]
+
+
+@kernel("f8(S, F, I, f8, i8)")
+def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
+    """Return a fraction of the step where guard ``i`` dips below zero between its samples, or 0, by parabolas."""
+    low, middle, high = 0.0, _MIDDLE, 1.0
+    g_low, g_middle, g_high = w[S.guard_first + i], w[S.guard_middle + i], w[S.guard_end + i]
+    for _iteration in range(8):
+        left, right = (g_middle - g_low) / (middle - low), (g_high - g_middle) / (high - middle)
+        bend = (right - left) / (high - low)
+        if bend <= 0.0:
+            return 0.0
+        vertex = 0.5 * (low + middle) - 0.5 * left / bend
+        value = g_middle + (vertex - middle) * (left + bend * (vertex - low))
+        if not low < vertex < high or value > _NEAR * max(g_low, g_high):
+            return 0.0
+        if abs(vertex - middle) < 1e-9:
+            return 0.0
+        g = _guard_at(S, w, k, h, vertex, i, 1)
+        if g < 0.0:
+            return vertex
+        if vertex > middle:
+            low, g_low, middle, g_middle = middle, g_middle, vertex, g
+        else:
+            high, g_high, middle, g_middle = middle, g_middle, vertex, g
+        if g_middle > min(g_low, g_high):
+            return 0.0
+    return 0.0
+
+
+@kernel("f8(S, F, I, f8)")
+def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Look for a dip of a normal force or a static margin between the samples."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            for i in range(2 * c, 2 * c + (2 if k[S.mode + c] == STICK else 1)):
+                if k[S.guard_armed + i] == 1:
+                    theta = _lowest(S, w, k, h, i)
+                    if theta > 0.0:
+                        return theta
+    return 0.0
+
+
+@kernel("f8(S, F, I)")
+def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
+    soonest = 1e300
+    for c in range(S.n_contacts):
+        gap, rate = w[S.geometry + GEOMETRY * c], w[S.gap_rate + c]
+        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c + PAST_END] <= 0.0 and gap > 0.0 and rate < 0.0:
+            soonest = min(soonest, -gap / rate)
+    return soonest
+
+
+@kernel("f8(S, F, I, f8)")
+def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Return for how long the features that do not face each other need not be looked at, as they are now [s].
+
+    What they report as their gap closes no faster than their speed as long as they do, and may be less than it says.
+    """
+    longest = h / _SAMPLES
+    least = longest
+    for i in range(S.n_astray):
+        c = k[S.astray + i]
+        speed = w[S.speed_first + c] + w[S.speed_end + c]
+        way = min(_FARTHEST * w[S.size + c], max(w[S.geometry + GEOMETRY * c], WAY * w[S.size + c]))
+        if way < least * speed:
+            least = way / speed
+    return float(max(least, _SHORTEST * h))
+
+
+@kernel("f8(S, F, I, f8, f8)")
+def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
+    """Return the first of some fractions below ``high`` at which a gap has closed, its guards in ``guard``, or 0.
+
+    Features that face each other only from one sample to the next are looked at when their gap is to close.
+    """
+    theta, looks = 0.0, 0
+    while theta < high:
+        # right at the start nothing has grown yet
+        guards_within(S, w, k, h, max(theta, _FAINT), 0)
+        if theta > 0.0:
+            if first_fired(S, w, k, 0, -1) >= 0:
+                guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+                return theta
+            arm_further(S, w, k, 0)
+        way, soonest = _advance(S, w, k, h), (1.0 + _BEHIND) * _soonest(S, w, k)
+        looks = looks + 1 if soonest < way and looks < _LOOKS else 0
+        theta += (soonest if looks > 0 else way) / h
+    return 0.0
+
+
+@kernel("f8(S, F, I, f8, f8)")
+def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float) -> float:
+    """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0."""
+    if S.n_astray > 0:
+        found = _sampled(S, w, k, h, theta)
+        if found > 0.0:
+            return found
+    if S.n_doubtful > 0:
+        found = first_closing(S, w, k, h, theta)
+        if found > 0.0:
+            guards_within(S, w, k, h, found, _any_closed(S, w, k))
+            return found
+    return 0.0
+
+
+@room("f8(S, F, I, f8)")
+def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
+
+    Called right after the step, when bodies and forces stand at its end.
+    """
+    closed = _any_closed(S, w, k)
+    write_guards(S, w, k, S.t + h, S.y_new, 1)
+    keep_end(S, w, k)
+    bound_speeds(S, w, k)
+    find_doubtful(S, w, k, h)
+    deflate(S, w, k, h)
+    fired = first_fired(S, w, k, 1, -1)
+    # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + 2 * c], w[S.guard_end + 2 * c]):
+            S.suspect = 1
+    forces = closed if S.suspect == 1 else 0
+    looks = forces + S.n_own_guards
+    if looks > 0:
+        guards_within(S, w, k, h, _MIDDLE, forces)
+        if first_fired(S, w, k, forces, -1) >= 0:
+            if forces != closed:
+                guards_within(S, w, k, h, _MIDDLE, closed)
+            return _MIDDLE
+        arm_further(S, w, k, forces)
+        for i in range(3 * S.n_contacts + S.n_own_guards):
+            w[S.guard_middle + i] = w[S.guard + i]
+        if forces == 1 and fired < 0:
+            theta = _force_dip(S, w, k, h)
+            if theta > 0.0:
+                return theta
+    # what has fired at the end is located first, and what closes before it searched then
+    if fired < 0 and S.n_astray + S.n_doubtful > 0:
+        looks += S.n_astray
+        theta = _closed_before(S, w, k, h, 1.0)
+        if theta > 0.0:
+            return theta
+    if looks > 0:
+        evaluate_bodies(S, w, k, S.t + h, S.y_new)
+        for i in range(3 * S.n_contacts + S.n_own_guards):
+            w[S.guard + i] = w[S.guard_end + i]
+        for c in range(S.n_contacts):
+            w[S.gap_rate + c] = w[S.gap_rate_end + c]
+            w[S.geometry + GEOMETRY * c + PAST_END] = w[S.past_end + c]
+        deflate(S, w, k, h)
+    elif fired >= 0 or S.n_doubtful == 0:
+        return 1.0 if fired >= 0 else 0.0
+    # guards armed only within the step count as well
+    return 1.0 if first_fired(S, w, k, 1, -1) >= 0 else 0.0
+
+
+@kernel("f8(S, F, I, f8, f8, i8, i8)")
+def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
+    """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
+
+    Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.  The guards are left
+    evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where the guard jumps.
+    """
+    fine = _FINE * S.time_tolerance
+    low, g_low = 0.0, w[S.guard_first + i]
+    g_high = w[S.guard + i]
+    S.guard_slope = 0.0
+    while g_low <= _FAINT * abs(g_high):
+        # it was armed inside the step, or rises from zero with no rate: look for where it is positive
+        low = 0.5 * high if low == 0.0 else 0.5 * low
+        g_low = _guard_at(S, w, k, h, low, i, forces)
+        if low < 1e-4 * high:
+            if g_low > 0.0 or not w[S.guard_first + i] > 0.0 or k[S.guard_deflated + i] == 1:
+                return low
+            # it vanishes next to the start, where it was still positive
+            high, g_high = low, g_low
+            low, g_low = 0.0, w[S.guard_first + i]
+            break
+    left = g_first = abs(g_low)
+    theta = high - g_high * (high - low) / (g_high - g_low)
+    theta_before, g_before = high, g_high
+    for _iteration in range(100):
+        # next to a huge value the secant does not leave the other end
+        if not low < theta <= high:
+            theta = 0.5 * (low + high)
+        g = _guard_at(S, w, k, h, theta, i, forces)
+        if theta != theta_before:
+            S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
+        theta_before, g_before = theta, g
+        if is_gap(S, w, k, i) == 1:
+            S.guard_slope = w[S.gap_rate + i // 2]
+            if k[S.guard_deflated + i] == 1:
+                S.guard_slope = (S.guard_slope - g) / (theta * h)
+        if g == 0.0 or (high - low) * h <= fine or abs(g) <= -fine * S.guard_slope:
+            left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
+            if left <= _JUMP * g_first or span * h > S.time_tolerance or is_gap(S, w, k, i) == 1:
+                return theta
+            S.guard_slope = -math.inf
+            if g <= 0.0:
+                return theta
+            guards_within(S, w, k, h, high, forces)
+            return high
+        if g < 0.0:
+            ratio = 1.0 - g / g_high
+            g_low *= ratio if ratio > 0.0 else 0.5
+            high, g_high = theta, g
+        else:
+            ratio = 1.0 - g / g_low
+            g_high *= ratio if ratio > 0.0 else 0.5
+            low, g_low = theta, g
+            left = g
+        following = high - g_high * (high - low) / (g_high - g_low)
+        if is_gap(S, w, k, i) == 1 and S.guard_slope < 0.0:
+            newton = theta - g / (S.guard_slope * h)
+            if low < newton < high:
+                following = newton
+        theta = following
+    return theta
+
+
+@kernel("f8(S, F, I, f8)")
+def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
+    """Step to right behind the jump of the guard ``trigger`` that the interpolant has at ``step``; return the step."""
+    S.h = step
+    if not try_step(S, w, k, step) <= _TRUSTED:
+        return -1.0
+    way = _FINE * S.time_tolerance
+    for _doubling in range(_WAYS):
+        evaluate_guards(S, w, k, S.t + step, S.y_new, step, 1)
+        if w[S.guard + S.trigger] < 0.0:
+            return step
+        # so short a way is straight
+        for j in range(S.n_y):
+            w[S.y_new + j] += way * w[S.slopes + 6 * S.n_y + j]
+        step += way
+        way *= 2.0
+    return -1.0
+
+
+@kernel("f8(S, F, I, f8)")
+def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
+    """Step to where the guard ``trigger`` vanishes, on the interpolant after the time ``root``; return the step."""
+    i = S.trigger
+    h, step = S.h, root
+    # the guard is positive before the first and not after the second of these steps
+    early, late = 0.0, 1e300
+    for _iteration in range(_CORRECTIONS):
+        S.h = step
+        if not try_step(S, w, k, step) <= _TRUSTED:
+            return -1.0
+        write_guards(S, w, k, S.t + step, S.y_new, 1)
+        value = w[S.guard + i]
+        slope = S.guard_slope
+        if k[S.guard_deflated + i] == 1:
+            value -= w[S.guard_start + i]
+        if is_gap(S, w, k, i) == 1:
+            slope = w[S.gap_rate + i // 2]
+        elif k[S.guard_deflated + i] == 1:
+            value /= step
+        # a gap that closes slower than what counts as rest does not tell where
+        if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
+            return step
+        correction = min(0.2 * root, max(-0.2 * root, -value / slope))
+        if abs(correction) <= _SHORT * h:
+            # so short a way is straight
+            for j in range(S.n_y):
+                w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
+            return float(step + correction)
+        if value > 0.0:
+            early = step
+        else:
+            late = step
+        if not early < step + correction < late:
+            if late == 1e300 or early == 0.0:
+                return -1.0
+            correction = 0.5 * (early + late) - step
+        step += correction
+    return -1.0
+
+
+@kernel("i8(S, F, I)")
+def _overtaken(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a correction went past the closing of another contact than that of the guard ``trigger``."""
+    for c in range(S.n_contacts):
+        block = S.geometry + GEOMETRY * c
+        if k[S.mode + c] == OPEN and c != S.trigger // 2 and w[block + PAST_END] <= 0.0:
+            start = min(0.0, w[S.guard_start + 2 * c])
+            if w[block] < start - _FAR_BEHIND * S.gap_tolerance and w[S.gap_rate + c] < 0.0:
+                return 1
+    return 0
+
+
+@room("f8(S, F, I, f8, f8)")
+def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
+    """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
+
+    The step is negative where its error, or a crowd of guards, shows that the motion is not as smooth as it seemed.
+    Where the tolerance limits the step, the root on the interpolant is corrected on the step itself, whose order is
+    higher.
+    """
+    closed = _any_closed(S, w, k)
+    first = first_fired(S, w, k, 1, -1)
+    theta = high
+    S.trigger = max(0, first)
+    roots = 0
+    while first >= 0 and roots < 3 * S.n_contacts + S.n_own_guards:
+        if closed == 1 and roots == _MOST_ROOTS:
+            return -1.0
+        if closed == 1 and roots > _FEW_ROOTS and w[S.guard_first + first] < 0.0:
+            return -1.0
+        roots += 1
+        later = theta
+        theta = _root(S, w, k, h, later, first, closed)
+        if roots > 1 and S.guard_slope == -math.inf and (later - theta) * h <= S.time_tolerance:
+            # it jumps where the one before does
+            first = -1
+        else:
+            S.trigger = first
+            first = first_fired(S, w, k, closed, S.trigger)
+        if first < 0 and S.n_astray + S.n_doubtful > 0:
+            earlier = _closed_before(S, w, k, h, theta)
+            if earlier > 0.0:
+                theta, first = earlier, first_fired(S, w, k, closed, -1)
+            elif S.n_astray > 0:
+                guards_within(S, w, k, h, theta, closed)
+    if first >= 0:
+        # guards that go on firing one before the other hide what closed before them
+        return -1.0
+    i = S.trigger
+    step = theta * h
+    # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
+    jumps = 1 if i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and is_gap(S, w, k, i) == 0 else 0
+    if S.step_error <= _NEGLIGIBLE or jumps == 1:
+        dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
+        return step
+    if S.guard_slope == -math.inf:
+        return _behind_jump(S, w, k, step)
+    step = _corrected(S, w, k, step)
+    return -1.0 if step > 0.0 and _overtaken(S, w, k) == 1 else step

@@ -1,0 +1,224 @@
+"""Keep g = 0, g' = 0 and v = 0 of the closed contacts by momentum-consistent corrections."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_free_bodies
+from nonsmooth.engine.bodies.kinematics import evaluate_contact
+from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, own_block
+from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.flow.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
+from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.modes import JOINTS_APART, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED, RUNNING, STICK
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+
+_DAMPING = 1e-8
+"""Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
+would move a body by more than half the gap over the root of this.  A contact alone repeats none."""
+_FARTHEST = 10.0
+"""Corrections move bodies by no more than so many times what the tolerances explain of a gap."""
+_MOST_ITERATIONS = 5
+_CLOSED = 1e-3
+"""A residual of the joints below this part of the gap tolerance counts as none."""
+_APART = 1e4
+"""A residual that stays above this many gap tolerances cannot be closed."""
+
+
+@room("f8(S, F, I, i8)")
+def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
+    """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
+
+    At an event (1) a slip that is only about to start counts as none: its direction would be that of round-off.  The
+    correction is the damped impulse of least kinetic energy, without friction on sliding contacts.
+    Returns the kinetic energy it removes [J]; the work of the driven bodies is booked.
+    """
+    m = S.n_active
+    if m == 0:
+        return 0.0
+    assemble_delassus(S, w, k)
+    for a in range(m):
+        c = k[S.active + a]
+        k[S.normal_held + a] = 1 if k[S.normal_function + c] == 0 else 0
+        w[S.f + 3 * a] = 0.0
+        slow = max(abs(w[S.rate + 3 * c + 1]), abs(w[S.rate + 3 * c + 2])) <= S.velocity_tolerance
+        rubs = k[S.traction_function + c] != 0
+        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or (at_event == 1 and slow and not rubs) else 0
+        w[S.mu + a] = 0.0
+        for r in range(3):
+            w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
+    part = _DAMPING if m > 1 else 0.0
+    _damp(S, w, k, part)
+    resolve(S, w, k)
+    add_response(S, w, k, S.f, S.y + S.n_q)
+    loss = 0.0
+    for a in range(m):
+        c = k[S.active + a]
+        for r in range(3):
+            impulse = w[S.f + 3 * a + r]
+            damping = w[own_block(S, k, a) + 4 * r] * part / (1.0 + part)
+            loss -= 0.5 * impulse * (w[S.rate + 3 * c + r] - damping * impulse)
+            S.driven_work -= impulse * w[S.prescribed_rate + 3 * c + r]
+    return loss
+
+
+@kernel("void(S, F, I, f8)")
+def _damp(S: Scalars, w: Floats, k: Integers, part: float) -> None:
+    """Add a part of its diagonal to the Delassus matrix of the active contacts."""
+    for a in range(S.n_active):
+        for r in range(3):
+            w[own_block(S, k, a) + 4 * r] *= 1.0 + part
+
+
+@kernel("i8(S, F, I)")
+def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
+    """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time, along K W.
+
+    They are those of damped least squares, damped the more the nearer the gaps are to what the tolerances explain.
+    Return 1, or 0 where no gap is left, or one that nothing explains.
+    """
+    m = S.n_active
+    worst = share = 0.0
+    for a in range(m):
+        c = k[S.active + a]
+        gap = abs(held_gap(S, w, c)) if k[S.normal_function + c] == 0 else 0.0
+        worst = max(worst, gap)
+        share = max(share, gap / explained_gap(S, w, k, c))
+    if worst <= 1e-16 or share > 1.0:
+        return 0
+    assemble_delassus(S, w, k)
+    for a in range(m):
+        c = k[S.active + a]
+        k[S.normal_held + a] = 1 if k[S.normal_function + c] == 0 else 0
+        k[S.tangent_held + a] = 0
+        w[S.f + 3 * a] = w[S.mu + a] = 0.0
+        w[S.b + 3 * a] = held_gap(S, w, c)
+    if m > 1:
+        _damp(S, w, k, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
+    resolve(S, w, k)
+    add_response(S, w, k, S.f, S.y_stage + S.n_q)
+    return 1
+
+
+@kernel()
+def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
+    """Bring every body's unit quaternion back to unit length; one that is farther off than explained fails the run."""
+    for body in range(S.n_bodies):
+        offset = k[S.body_quaternion + body]
+        if offset < 0:
+            continue
+        q = S.y + k[S.body_q + body] + offset
+        square = 0.0
+        for i in range(4):
+            square += w[q + i] * w[q + i]
+        if abs(square - 1.0) > EXPLAINED * 4.0 * S.rtol:
+            blame(S, QUATERNION_UNEXPLAINED, body, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * S.rtol)
+        factor = 1.0 / math.sqrt(square)
+        for i in range(4):
+            w[q + i] *= factor
+
+
+@kernel("f8(S, F, i8)")
+def _explained_motion(S: Scalars, w: Floats, i: int) -> float:
+    """Return how far a correction may move coordinate ``i``, by the tolerances of steps, gaps and event times."""
+    step = S.rtol * (w[S.y_scale + i] + abs(w[S.y + i]))
+    return float(_FARTHEST * EXPLAINED * (step + S.gap_tolerance + S.time_tolerance * abs(w[S.slopes + i])))
+
+
+@kernel("void(S, F, I)")
+def _displace(S: Scalars, w: Floats, k: Integers) -> None:
+    """Move the bodies by the velocities in ``y_stage`` for unit time, unless the tolerances do not explain so much."""
+    # dq = B du: let the bodies turn the displacement into coordinate rates
+    evaluate_bodies(S, w, k, S.t, S.y_stage)
+    for body in range(S.n_bodies):
+        for i in range(k[S.body_nq + body]):
+            motion, most = w[k[S.body_tail + body] + i], _explained_motion(S, w, k[S.body_q + body] + i)
+            if abs(motion) > most:
+                blame(S, MOTION_UNEXPLAINED, body, motion, most)
+                return
+    for body in range(S.n_bodies):
+        for i in range(k[S.body_nq + body]):
+            w[S.y + k[S.body_q + body] + i] += w[k[S.body_tail + body] + i]
+    normalise_quaternions(S, w, k)
+
+
+@room("f8(S, F, I, i8)")
+def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
+    """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
+
+    What the gaps take counts at an event (1); within a step it is the error of the step, which no energy paid for.
+    """
+    group_closed(S, w, k)
+    if S.n_grouped == 0:
+        return 0.0
+    evaluate_bodies(S, w, k, S.t, S.y)
+    for i in range(S.n_y):
+        w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
+    loss = 0.0
+    moved = 0
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        past = 0.0
+        for a in range(S.n_active):
+            c = k[S.active + a]
+            evaluate_contact(S, w, k, c, 1)
+            past = max(past, w[S.geometry + GEOMETRY * c + PAST_END])
+        if past > S.gap_tolerance:
+            # behind the end of a feature its rate is that of another one; the event that comes drops the contact
+            continue
+        loss += project_rates(S, w, k, at_event)
+        moved += _add_gaps(S, w, k)
+    if moved > 0:
+        before = energy_of_bodies(S, w, k, 1)
+        _displace(S, w, k)
+        evaluate_free_bodies(S, w, k, S.t, S.y)
+        if at_event == 1:
+            loss += before - energy_of_bodies(S, w, k, 1)
+    return loss
+
+
+@room()
+def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
+    """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
+    worst, before = 0.0, 1e300
+    for iteration in range(_MOST_ITERATIONS):
+        evaluate_bodies(S, w, k, S.t, S.y)
+        for i in range(S.n_y):
+            w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
+        worst = 0.0
+        for linkage in range(S.n_linkages):
+            worst = max(worst, _add_correction(S, w, k, linkage, S.linkage_residual, S.y_stage + S.n_q))
+        if iteration == 0 and worst > _explained_residual(S, w, k):
+            break
+        # far from the origin round-off alone is more than the tolerance, and no iteration helps
+        if worst <= _CLOSED * S.gap_tolerance or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
+            break
+        before = worst
+        _displace(S, w, k)
+    if not worst <= _APART * S.gap_tolerance and S.failed == RUNNING:
+        blame(S, JOINTS_APART, -1, worst, _APART * S.gap_tolerance)
+    for linkage in range(S.n_linkages):
+        _add_correction(S, w, k, linkage, S.linkage_rate, S.y + S.n_q)
+
+
+@kernel("f8(S, F, I)")
+def _explained_residual(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return the residual of a joint that the tolerances of steps explain [m or 1]."""
+    size = 0.0
+    for i in range(S.n_q):
+        size = max(size, w[S.y_scale + i] + abs(w[S.y + i]))
+    return float(max(_APART * S.gap_tolerance, EXPLAINED * S.rtol * size))
+
+
+@kernel("f8(S, F, I, i8, i8, i8)")
+def _add_correction(S: Scalars, w: Floats, k: Integers, linkage: int, which: int, out: int) -> float:
+    """Subtract Y^T times the residuals or rates of a linkage from velocities; return the largest of them."""
+    n, first = k[S.linkage_nu + linkage], out + k[S.linkage_u + linkage]
+    worst = 0.0
+    for line in range(k[S.linkage_rows + linkage]):
+        value = w[k[which + linkage] + line]
+        worst = max(worst, abs(value))
+        for i in range(n):
+            w[first + i] -= w[k[S.linkage_y + linkage] + line * n + i] * value
+    return worst

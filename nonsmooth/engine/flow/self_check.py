@@ -1,0 +1,117 @@
+"""What a run looks at in itself: figures that no tolerance explains end it by name, before anything builds on them."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.bodies import evaluate_bodies
+from nonsmooth.engine.bodies.kinematics import evaluate_geometry
+from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, RUNNING
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+
+EXPLAINED = 1e3
+"""What steps and events within their tolerances leave adds up to no more than so many of them."""
+_ROUND_OFF = 1e-12
+"""Part of an energy that sums over a run do not tell from none."""
+
+
+@kernel("void(S, i8, i8, f8, f8)")
+def blame(S: Scalars, status: int, number: int, found: float, allowed: float) -> None:
+    """End the run by ``status``, with the number of the body or contact, what was found there and what is explained."""
+    if S.failed == RUNNING:
+        S.failed, S.blamed, S.found, S.allowed = status, number, found, allowed
+
+
+@kernel("f8(S, F, i8)")
+def held_gap(S: Scalars, w: Floats, c: int) -> float:
+    """Return the gap that a closed contact is to lose; past the end of its features it only tells how far."""
+    block = S.geometry + GEOMETRY * c
+    return w[block] if w[block + PAST_END] <= 0.0 else 0.0
+
+
+@kernel("f8(S, F, I, i8)")
+def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return the gap that a closed contact may have, or an open one lack, by the tolerances [m].
+
+    Those are of gaps, of steps, relative to where the witness points are, and of event times.
+    """
+    length = 0.0
+    for side in range(2):
+        frame = k[S.frame_a + c] if side == 0 else k[S.frame_b + c]
+        point = S.geometry + GEOMETRY * c + 7 + 3 * side
+        far = 0.0
+        for i in range(3):
+            far += abs(w[point + i]) + abs(w[point + i] - w[frame + i])
+        length = max(length, far)
+    late = S.time_tolerance * abs(w[S.gap_rate_first + c])
+    return float(EXPLAINED * (S.gap_tolerance + S.rtol * length + late))
+
+
+@kernel("void(S, F, I)")
+def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
+    """Look at the gaps where a step begins: open contacts must be apart, closed rigid ones closed."""
+    for c in range(S.n_contacts):
+        gap = w[S.gap_end + c]
+        if k[S.mode + c] == OPEN:
+            gap = min(0.0, gap)
+        elif k[S.normal_function + c] != 0 or w[S.geometry + GEOMETRY * c + PAST_END] > 0.0:
+            continue
+        # looked at closely only where it is not plainly explained
+        if abs(gap) > EXPLAINED * S.gap_tolerance and abs(gap) > explained_gap(S, w, k, c):
+            blame(S, GAP_UNEXPLAINED, c, gap, explained_gap(S, w, k, c))
+
+
+@kernel("f8(S)")
+def _booked(S: Scalars) -> float:
+    """Return what the account says of the energy that events gave and took so far [J]."""
+    return float(S.driven_work - S.restitution_loss - S.friction_loss - S.closing_loss)
+
+
+@kernel("f8(S, F, I, i8)")
+def energy_of_bodies(S: Scalars, w: Floats, k: Integers, which: int) -> float:
+    """Return the kinetic (0) or potential (1) energy of the bodies as evaluated [J]."""
+    total = 0.0
+    for body in range(S.n_bodies):
+        n_u = k[S.body_nu + body]
+        if n_u > 0:
+            total += w[k[S.body_tail + body] + k[S.body_nq + body] + n_u + n_u * n_u + which]
+    return total
+
+
+@kernel("void(S, F, I)")
+def open_account(S: Scalars, w: Floats, k: Integers) -> None:
+    """Keep the energy and the account as they are before an event, the bodies being evaluated."""
+    S.account_open = 1
+    S.kinetic_before, S.potential_before = energy_of_bodies(S, w, k, 0), energy_of_bodies(S, w, k, 1)
+    S.booked_before = _booked(S)
+
+
+@kernel("void(S, F, I)")
+def close_account(S: Scalars, w: Floats, k: Integers) -> None:
+    """Compare the energy after an event, the bodies being evaluated, with its account; keep the worst of all events.
+
+    Impacts are integrated within their tolerance of the energies in them; next to none are those below round-off of the
+    potential energy, or of what the run exchanged so far.
+    """
+    if S.account_open == 0:
+        return
+    S.account_open = 0
+    kinetic, potential = energy_of_bodies(S, w, k, 0), energy_of_bodies(S, w, k, 1)
+    booked = _booked(S) - S.booked_before
+    change = kinetic - S.kinetic_before + (potential - S.potential_before)
+    exchanged = abs(w[S.y + S.n_q + S.n_u + 2])
+    explained = EXPLAINED * S.impact_rtol * (S.kinetic_before + kinetic + abs(booked))
+    explained += _ROUND_OFF * (exchanged + abs(potential) + abs(S.potential_before))
+    share = abs(change - booked) / explained if explained > 0.0 else 0.0
+    if share > S.open_share:
+        S.open_share, S.open_energy, S.open_t = share, change - booked, S.t
+
+
+@kernel("void(S, F, I)")
+def check_end(S: Scalars, w: Floats, k: Integers) -> None:
+    """Look at the state in which the run ends as at one in which a step begins."""
+    evaluate_bodies(S, w, k, S.t, S.y)
+    for c in range(S.n_contacts):
+        evaluate_geometry(S, w, k, c)
+        w[S.gap_end + c] = w[S.geometry + GEOMETRY * c]
+    close_account(S, w, k)
+    check_gaps(S, w, k)

@@ -1,0 +1,1 @@
+"""Impacts as processes in impulses, and impacts by maps."""

@@ -1,0 +1,241 @@
+"""Guards inside an impact, and stepping exactly to the first that ends its phase.
+
+Guards are positive while a phase is valid: the gap rate (its sign in compression and expansion, the
+approach of an idle contact, the force of a held one), the deformation or stored energy, and the friction (the
+slip along its direction, or the distance to the static bound).
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact.forces import evaluate_margins
+from nonsmooth.engine.delassus.delassus import own_block
+from nonsmooth.engine.impact.rates import (
+    COMPRESSION,
+    EXPANSION,
+    HELD,
+    IDLE,
+    NOISE,
+    STRIDE,
+    efficiency,
+    evaluate_impact_forces,
+)
+from nonsmooth.engine.impact.step import try_impact_step
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.runge_kutta import dense_state
+
+_SLACK = 1e-9
+"""A compression that comes to nothing, of round-off, ends at this deformation below zero, relative to a full one."""
+TOGETHER = 1e-13
+"""Guards within this of zero fire together."""
+_WRONG = -1e-7
+"""A guard that is not armed fires below this all the same."""
+_ROUGH = 1e-11
+"""A root on the interpolant need not be better than this: it is corrected on the step itself."""
+_SMALL = 1e-3
+"""But it must be small next to what the guard was before, which may be next to nothing, too."""
+_FAINT = 1e-4
+"""Start values below this part of the end value are no help to the secant."""
+_CORRECTIONS = 8
+_SHORT = 1e-7
+"""Corrections below this part of a step are made along the tangent; their error is its square."""
+
+
+@kernel("void(S, F, I, i8)")
+def evaluate_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+    """Evaluate the forces at the impact state ``y`` and write the guards."""
+    evaluate_impact_forces(S, w, k, y)
+    write_impact_guards(S, w, k, y)
+
+
+@kernel("void(S, F, I, i8)")
+def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+    """Write the three guards of every active contact: rate, energy, friction; all of order 1."""
+    evaluate_margins(S, w, k)
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        guard = S.impact_guard + 3 * a
+        rate = w[S.impact_z + 3 * a] / S.speed_scale
+        phase = k[S.phase + a]
+        force_scale = 1.0 if a == S.lone else w[S.impact_f_scale + a]
+        w[guard + 1] = 1.0
+        if phase == COMPRESSION:
+            w[guard] = NOISE - rate
+            if a != S.lone:
+                w[guard + 1] = _SLACK + w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
+        elif phase == HELD:
+            w[guard] = NOISE + w[S.f + 3 * a] / force_scale
+        else:
+            behind = phase == IDLE and S.faint > 0.0 and k[S.waves + c] > 0
+            w[guard] = (S.faint if behind else NOISE) + rate
+        if phase == EXPANSION:
+            lost = w[y + STRIDE * a + 7]
+            w[guard + 1] = w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
+            if a == S.lone or lost > 0.0:
+                w[guard + 1] = (w[y + STRIDE * a + 6] - lost) / w[S.impact_energy_scale + a]
+        if phase == IDLE or (k[S.tangent_held + a] == 0 and w[S.mu + a] == 0.0):
+            w[guard + 2] = 1.0
+        elif k[S.tangent_held + a] == 1:
+            w[guard + 2] = NOISE + w[S.margin + a] / force_scale
+        else:
+            slip = (
+                w[S.impact_z + 3 * a + 1] * w[S.direction + 2 * c]
+                + w[S.impact_z + 3 * a + 2] * w[S.direction + 2 * c + 1]
+            )
+            w[guard + 2] = NOISE + slip / S.speed_scale
+
+
+@kernel("i8(S, F, I, i8)")
+def fired_guard(S: Scalars, w: Floats, k: Integers, but: int) -> int:
+    """Return the first guard that ends its phase, other than ``but``, or -1.
+
+    A guard left slightly negative by a switch is not armed until it has been positive.
+    """
+    for i in range(3 * S.n_active):
+        value = w[S.impact_guard + i]
+        if i != but and ((value < 0.0 and k[S.armed + i] == 1) or value < _WRONG):
+            return i
+    return -1
+
+
+@kernel()
+def arm_impact_guards(S: Scalars, w: Floats, k: Integers) -> None:
+    """Arm the guards that are positive now, where the next step starts."""
+    for i in range(3 * S.n_active):
+        w[S.impact_guard_first + i] = w[S.impact_guard + i]
+        if w[S.impact_guard + i] > 0.0:
+            k[S.armed + i] = 1
+
+
+@kernel("void(S, F, I)")
+def prepare_guards(S: Scalars, w: Floats, k: Integers) -> None:
+    """Evaluate the guards where a phase begins and arm those that are positive."""
+    for i in range(3 * S.n_active):
+        k[S.armed + i] = 0
+    evaluate_impact_guards(S, w, k, S.impact_y)
+    arm_impact_guards(S, w, k)
+
+
+@kernel("f8(S, F, I, f8, f8, i8)")
+def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int) -> float:
+    interrupted(S, S.n_active)
+    dense_state(S, w, S.impact_y, S.impact_slopes, STRIDE * S.n_active, h, theta, S.impact_stage)
+    evaluate_impact_guards(S, w, k, S.impact_stage)
+    return w[S.impact_guard + i]
+
+
+@kernel("f8(S, F, I, f8, f8, f8, i8)")
+def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: float, i: int) -> float:
+    """Return the fraction of the step at which guard ``i`` vanishes on the interpolant (Anderson-Bjorck).
+
+    The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``.
+    """
+    low, g_low = 0.0, w[S.impact_guard_first + i]
+    if g_low <= 0.0:
+        S.guard_slope = 0.0
+        return 1e-3 * high
+    while g_low <= _FAINT * abs(g_high) and high > 1e-3:
+        # a guard that has just been left near zero says little: halve until it is seen to be positive
+        g = _guard_at(S, w, k, h, 0.5 * high, i)
+        if g > 0.0:
+            low, g_low = 0.5 * high, g
+            break
+        high, g_high = 0.5 * high, g
+    theta, largest = high, g_low
+    theta_before, g_before = high, g_high
+    for _iteration in range(60):
+        theta = high - g_high * (high - low) / (g_high - g_low)
+        g = _guard_at(S, w, k, h, theta, i)
+        if theta != theta_before:
+            S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
+        theta_before, g_before = theta, g
+        largest = max(largest, g)
+        if abs(g) <= min(_ROUGH, _SMALL * largest) or high - low <= 1e-14:
+            return theta
+        if g < 0.0:
+            ratio = 1.0 - g / g_high
+            g_low *= ratio if ratio > 0.0 else 0.5
+            high, g_high = theta, g
+        else:
+            ratio = 1.0 - g / g_low
+            g_high *= ratio if ratio > 0.0 else 0.5
+            low, g_low = theta, g
+    return theta
+
+
+@room("f8(S, F, I, f8)")
+def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Step to the first guard to fire within ``h``, kept in ``trigger``; return the error of that step.
+
+    The error is that of a part of an accepted step, unless the motion is not as smooth as it seemed.
+    Called with the guards evaluated at the end of the step.
+    """
+    theta = 1.0
+    first = fired_guard(S, w, k, -1)
+    for _other in range(3 * S.n_active):
+        if first < 0:
+            break
+        S.trigger = first
+        theta = _root(S, w, k, h, theta, w[S.impact_guard + first], first)
+        first = fired_guard(S, w, k, first)
+        if first >= 0 and w[S.impact_guard + first] >= -TOGETHER:
+            break
+    i = S.trigger
+    step = theta * h
+    n = STRIDE * S.n_active
+    error = 0.0
+    for iteration in range(_CORRECTIONS):
+        # the interpolant is of lower order than the step: correct on the step itself
+        error = try_impact_step(S, w, k, step)
+        S.impact_steps += 1
+        write_impact_guards(S, w, k, S.impact_new)
+        if not S.guard_slope < 0.0 or iteration == _CORRECTIONS - 1:
+            break
+        correction = min(0.2 * theta * h, max(-0.2 * theta * h, -w[S.impact_guard + i] / S.guard_slope))
+        if abs(correction) <= _SHORT * h:
+            # so short a way is straight
+            for j in range(n):
+                w[S.impact_new + j] += correction * w[S.impact_slopes + 6 * n + j]
+            break
+        step += correction
+    evaluate_impact_guards(S, w, k, S.impact_new)
+    return error
+
+
+@kernel("f8(S, F, I, f8)")
+def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Shorten the step of a lone contact so that it ends at the next event, which its polynomials foretell.
+
+    Leaves the guard that it aims at in ``aimed``, -1 for none.
+    """
+    S.aimed = -1
+    a = S.lone
+    shortest = h
+    rates, forces, block = S.impact_z + 3 * a, S.f + 3 * a, own_block(S, k, a)
+    c = k[S.active + a]
+    growth = slip = slip_growth = 0.0
+    for j in range(3):
+        growth += w[block + j] * w[forces + j]
+    for r in range(1, 3):
+        slip += w[rates + r] * w[S.direction + 2 * c + r - 1]
+        for j in range(3):
+            slip_growth += w[block + 3 * r + j] * w[forces + j] * w[S.direction + 2 * c + r - 1]
+    if k[S.phase + a] == COMPRESSION and growth > 0.0:
+        root = -w[rates] / growth
+        if 0.0 < root < shortest:
+            shortest, S.aimed = root, 3 * a
+    if k[S.phase + a] == EXPANSION and growth > 0.0:
+        # E + E' s + E'' s^2 / 2 = 0, with E' = -rate / efficiency
+        state = S.impact_y + STRIDE * a
+        energy, first = w[state + 6] - w[state + 7], w[S.impact_slopes + STRIDE * a + 6]
+        square = first * first + 2.0 * growth / efficiency(S, w, k, a, max(w[rates], 1e-300)) * energy
+        speed = math.sqrt(max(0.0, square)) - first
+        if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:
+            shortest, S.aimed = 2.0 * energy / speed, 3 * a + 1
+    if k[S.tangent_held + a] == 0 and w[S.mu + a] > 0.0 and slip > 0.0 and slip_growth < 0.0:
+        root = -slip / slip_growth
+        if root < shortest:
+            shortest, S.aimed = root, 3 * a + 2
+    return shortest

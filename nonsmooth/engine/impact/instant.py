@@ -1,0 +1,89 @@
+"""Impulses that need no integration: those of a law that maps velocities, and those that stop a jammed slip."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
+from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.delassus.delassus import add_product, own_block, write_dense
+from nonsmooth.engine.memory.layout import GUARD, UNTOUCHED
+from nonsmooth.engine.memory.modes import SLIDE, STICK
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_map, kernel
+
+_NEXT_TO_ZERO = 1e-3
+"""A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
+
+
+@kernel("i8(S, F, I, i8)")
+def is_jammed(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+    """Return 1 if the active contact ``a`` slides at the Painleve singularity, its slip direction being known."""
+    c = k[S.active + a]
+    slides = k[S.mode + c] == SLIDE and k[S.normal_function + c] == 0
+    return 1 if slides and reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * w[own_block(S, k, a)] else 0
+
+
+@kernel("i8(S, F, I)")
+def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
+    """Stop the slips whose normal force grows without bound; return 1 if pushing impulses do that.
+
+    In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
+    impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
+    """
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+        speed = math.sqrt(v1 * v1 + v2 * v2)
+        w[S.mu + a] = 0.0
+        if k[S.mode + c] == SLIDE and speed > 0.0:
+            w[S.mu + a] = friction_coefficient(S, w, k, c, speed)
+            w[S.d + 2 * a], w[S.d + 2 * a + 1] = v1 / speed, v2 / speed
+        k[S.normal_held + a] = 1
+        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or is_jammed(S, w, k, a) == 1 else 0
+        for r in range(3):
+            w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
+    resolve(S, w, k)
+    for a in range(S.n_active):
+        if not w[S.f + 3 * a] >= 0.0:
+            return 0
+        for r in range(3):
+            w[S.impulse + 3 * a + r] = w[S.f + 3 * a + r]
+    _split_loss(S, w, k)
+    return 1
+
+
+@kernel()
+def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
+    """Let a law that maps velocities to impulses treat the colliding set."""
+    m = S.n_active
+    for a in range(m):
+        c = k[S.active + a]
+        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+        speed = math.sqrt(v1 * v1 + v2 * v2)
+        w[S.map_block + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+        for i in range(1, S.map_width):
+            w[S.map_block + i * m + a] = w[k[S.map_parameters + c] + i - 1]
+    write_dense(S, w, k)
+    behind = S.impulse + 3 * m
+    for i in range(GUARD):
+        w[behind + i] = UNTOUCHED
+    call_map(S.impact_map, m, at(w, S.matrix), at(w, S.impact_z0), at(w, S.map_block), at(w, S.impulse))
+    for i in range(GUARD):
+        if w[behind + i] != UNTOUCHED:
+            S.map_past = m
+    _split_loss(S, w, k)
+
+
+@kernel()
+def _split_loss(S: Scalars, w: Floats, k: Integers) -> None:
+    """Split the energy that the impulses take, contact by contact, by the mean rates they act on."""
+    for a in range(S.n_active):
+        normal = tangential = 0.0
+        for r in range(3):
+            line = 3 * a + r
+            mean = 0.5 * add_product(S, w, k, 2.0 * w[S.impact_z0 + line], a, r, S.impulse)
+            if r == 0:
+                normal -= w[S.impulse + line] * mean
+            else:
+                tangential -= w[S.impulse + line] * mean
+        w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = normal, 0.0, tangential

@@ -1,0 +1,377 @@
+"""The energetic multiple impact, Eqs. (19)-(28), integrated in pseudo-time with all of its events located.
+
+A contact is idle, in compression, in expansion, or held (closed without restitution).  Guards end a phase
+(:mod:`nonsmooth.engine.impact.guards`); the impact ends when every contact is idle or held.  The last
+contact in action gets its own clock, in which its phases are polynomials.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.delassus.delassus import add_product
+from nonsmooth.engine.impact.clock import change_clock
+from nonsmooth.engine.impact.end import account, cut_short, empty, end_trapped, faded, finish, finished
+from nonsmooth.engine.impact.friction import break_away, choose_friction
+from nonsmooth.engine.impact.guards import (
+    TOGETHER,
+    aim,
+    arm_impact_guards,
+    fired_guard,
+    locate_switch,
+    prepare_guards,
+    write_impact_guards,
+)
+from nonsmooth.engine.impact.rates import (
+    COMPRESSION,
+    EXPANSION,
+    HELD,
+    IDLE,
+    NOISE,
+    STRIDE,
+    efficiency,
+    evaluate_impact_forces,
+    write_impact_slope,
+)
+from nonsmooth.engine.impact.scales import scale_impact
+from nonsmooth.engine.impact.step import try_impact_step, try_linear_step
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.runge_kutta import step_factor
+
+FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
+"""How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
+
+_MOST_STEPS = 100000
+_LARGEST = 1e6
+_PATIENCE = 20
+"""Steps that a slip may take next to rest without slowing down."""
+_LONG = 6
+"""Phases per contact after which an impact may be a cascade that never ends."""
+_UNUSED = 1e300
+_TRUSTED = 2.0
+"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
+_FIRST = 0.25
+"""The first step of an impact is the tolerance to this power, in units of the shortest compression."""
+_SHARE = 0.7
+"""The most of its deformation that a contact loses in one step of its expansion,"""
+_LAST = 2.0
+"""down to this deformation, in units of that after the first step of a compression."""
+_AT_EVENT = 4.0 * NOISE
+"""A guard this near zero at the end of a step that was aimed at it has fired;"""
+_ROUND_OFF = 1e-16
+"""one that began as a small number only nearer, but for round-off."""
+_FAR = 4.0
+"""A lone contact's first step, in units of the impulse that stops it: beyond all of its events."""
+_CROWDED = 20
+"""A window with this many times more contacts than act is drawn anew."""
+_NO_RETURN = 2e-16
+"""Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
+
+
+@kernel("void(S, F, I, f8)")
+def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
+    """Change the phases whose guards have come to zero; they are evaluated."""
+    friction = 0
+    for a in range(S.n_active):
+        guard = S.impact_guard + 3 * a
+        phase = k[S.phase + a]
+        loaded = phase == EXPANSION or phase == COMPRESSION
+        if loaded and (S.trigger == 3 * a + 1 or w[guard + 1] < TOGETHER):
+            account(S, w, k, a)
+            k[S.waves + k[S.active + a]] += 1
+            k[S.phase + a] = IDLE
+            # a contact that opens under load leaves the others with forces that they did not have
+            friction += 1 if w[S.impact_y + STRIDE * a + 7] > 0.0 else 0
+            empty(S, w, a)
+            k[S.tangent_held + a] = 0
+            S.phases += 1
+            continue
+        if S.trigger == 3 * a or w[guard] < TOGETHER:
+            friction += _turn(S, w, k, a)
+            S.phases += 1
+            # where joints leave a line to move on, slip and approach come to rest together
+            friction += _rests(S, w, k, a)
+        elif S.trigger == 3 * a + 2 or w[guard + 2] < TOGETHER:
+            S.phases += 1
+            if k[S.tangent_held + a] == 1:
+                break_away(S, w, k, a)
+            else:
+                # a slip that only turned far from its first direction goes on
+                v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+                speed = math.sqrt(v1 * v1 + v2 * v2)
+                c = k[S.active + a]
+                if speed > w[S.rest_slip + a]:
+                    w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
+                else:
+                    friction = 1
+    if friction > 0:
+        choose_friction(S, w, k, probe)
+    prepare_guards(S, w, k)
+
+
+@kernel("i8(S, F, I, i8)")
+def _rests(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+    """Return 1 if the active contact ``a``, which slides, has come to rest."""
+    if k[S.tangent_held + a] == 1 or w[S.mu + a] == 0.0:
+        return 0
+    v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+    return 1 if math.sqrt(v1 * v1 + v2 * v2) <= w[S.rest_slip + a] else 0
+
+
+@kernel("i8(S, F, I, i8)")
+def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+    """Change the normal phase of the active contact ``a``; return 1 if friction must be chosen anew."""
+    phase = k[S.phase + a]
+    if phase == COMPRESSION:
+        account(S, w, k, a)
+        share = efficiency(S, w, k, a, 0.0)
+        if min(share, efficiency(S, w, k, a, 1e-300)) > _NO_RETURN:
+            k[S.phase + a] = EXPANSION
+            w[S.impact_y + STRIDE * a + 7] = (1.0 - share) * w[S.impact_y + STRIDE * a + 6]
+            return 0
+        # without restitution the stored energy is lost at once and the contact stays closed
+        empty(S, w, a)
+        k[S.phase + a] = HELD
+        evaluate_impact_forces(S, w, k, S.impact_y)
+        if w[S.f + 3 * a] < 0.0:
+            k[S.phase + a] = IDLE
+        return 1
+    if phase == HELD:
+        k[S.phase + a] = IDLE
+        k[S.tangent_held + a] = 0
+        return 0
+    if phase == EXPANSION:
+        account(S, w, k, a)
+        k[S.waves + k[S.active + a]] += 1
+    k[S.phase + a] = COMPRESSION
+    return 1 if phase == IDLE else 0
+
+
+@kernel("void(S, F, I, f8)")
+def start_impact(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
+    """Set the phases in which the active contacts start, and their friction."""
+    for i in range(STRIDE * S.n_active):
+        w[S.impact_y + i] = 0.0
+    S.phases = 0
+    for a in range(S.n_active):
+        w[S.stored + a] = w[S.returned + a] = w[S.impact_mark + a] = 0.0
+        k[S.tangent_held + a] = 0
+        pushed = w[S.impact_z0 + 3 * a] < -NOISE * S.speed_scale
+        if S.painleve == 1 and k[S.impacting + k[S.active + a]] == 1:
+            # an impact without collision starts from a seed of deformation instead of a speed
+            pushed = True
+            w[S.impact_y + STRIDE * a + 3] = 1e-3 * w[S.impact_x_scale + a]
+        k[S.phase + a] = COMPRESSION if pushed else IDLE
+        S.phases += 1 if pushed else 0
+    choose_friction(S, w, k, probe)
+    # a resting contact that the others press in takes part from the start
+    pressed = 0
+    for a in range(S.n_active):
+        growth = add_product(S, w, k, 0.0, a, 0, S.f)
+        if k[S.phase + a] == IDLE and growth < 0.0 and w[S.impact_z0 + 3 * a] <= S.rest_speed:
+            k[S.phase + a] = COMPRESSION
+            S.phases += 1
+            pressed = 1
+    if pressed == 1:
+        choose_friction(S, w, k, probe)
+
+
+@kernel("i8(S, F, I)")
+def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if some slip has come next to rest and is still slowing down, or does not get away from there."""
+    slow = 0
+    for a in range(S.n_active):
+        if k[S.phase + a] == IDLE or k[S.tangent_held + a] == 1 or w[S.mu + a] == 0.0:
+            continue
+        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+        if math.sqrt(v1 * v1 + v2 * v2) > w[S.rest_slip + a]:
+            continue
+        power = v1 * add_product(S, w, k, 0.0, a, 1, S.f) + v2 * add_product(S, w, k, 0.0, a, 2, S.f)
+        slow = 1
+        if power < 0.0:
+            S.slow_steps = _PATIENCE
+    S.slow_steps = S.slow_steps + 1 if slow == 1 else 0
+    if S.slow_steps <= _PATIENCE:
+        return 0
+    S.slow_steps = 0
+    return 1
+
+
+@kernel()
+def _fade(S: Scalars, w: Floats, k: Integers) -> None:
+    """End what is left, below the tolerance, at contacts that the wave has passed.
+
+    They start again at twice the rate, so that the two do not chase each other.
+    """
+    for a in range(S.n_active):
+        x = S.impact_y + STRIDE * a + 3
+        passed = k[S.phase + a] == EXPANSION or (k[S.phase + a] == COMPRESSION and k[S.waves + k[S.active + a]] > 0)
+        # the energy is known to the tolerance only, the deformation better
+        weak = w[S.f + 3 * a] * w[x] <= S.faint * S.faint * w[S.impact_energy_scale + a]
+        if passed and weak and abs(w[S.impact_z + 3 * a]) <= 0.5 * S.faint * S.speed_scale:
+            account(S, w, k, a)
+            k[S.waves + k[S.active + a]] += 1
+            k[S.phase + a] = IDLE
+            k[S.tangent_held + a] = 0
+            empty(S, w, a)
+            S.phases += 1
+    prepare_guards(S, w, k)
+
+
+@kernel("i8(S, F, I)")
+def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a contact at the rim of the window acts, so that its neighbours may be missing, or most are idle."""
+    acting = 0
+    for a in range(S.n_active):
+        if k[S.phase + a] != IDLE:
+            acting += 1
+            if k[S.rim + k[S.active + a]] == 1:
+                return 1
+    return 1 if acting > 0 and _CROWDED * acting < S.n_active else 0
+
+
+@room("i8(S, F, I)")
+def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
+    """Carry the active contacts from the rates ``impact_z0`` through the impact; return how it ended.
+
+    Leaves the impulses in ``impulse`` and, per active contact, the energies ``stored`` in compression,
+    ``returned`` in expansion and ``rubbed`` away by friction.
+    """
+    S.windowed = 0
+    S.lone = 0 if S.n_active == 1 else -1
+    S.may_be_lone = 1
+    S.truncated = 0
+    S.slow_steps = 0
+    shortest = scale_impact(S, w, k)
+    if not shortest > 0.0:
+        return INVALID
+    start_impact(S, w, k, 1e-2 * shortest)
+    return run_impact(S, w, k, first_step(S, shortest), shortest)
+
+
+@kernel("f8(S, f8)")
+def first_step(S: Scalars, shortest: float) -> float:
+    """Return the first step of an impact whose shortest compression takes the time given."""
+    return shortest * (_FAR if S.n_active == 1 else float(S.impact_rtol) ** _FIRST)
+
+
+@room("i8(S, F, I, f8, f8)")
+def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) -> int:
+    """Integrate from the phases and the state at hand, with a first step of ``h``; return how it ended."""
+    m = S.n_active
+    n = STRIDE * m
+    S.aimed = -1
+    prepare_guards(S, w, k)
+    write_impact_slope(S, w, k, S.impact_slopes)
+    for _step in range(_MOST_STEPS):
+        if interrupted(S, 8 * m) == 1:
+            return ENDLESS
+        if finished(S, w, k) == 1:
+            finish(S, w, k)
+            return FINISHED
+        S.aimed = -1
+        h = aim(S, w, k, h) if S.lone >= 0 else _graded(S, w, k, h)
+        linear = 0
+        error = 0.0
+        if S.aimed >= 0:
+            linear = try_linear_step(S, w, k, h)
+        if linear == 0:
+            error = try_impact_step(S, w, k, h)
+        S.impact_steps += 1
+        if not error <= 1.0:
+            if not error < _UNUSED and h < 1e-12 * shortest:
+                return INVALID
+            h *= step_factor(error) if error < _UNUSED else 0.1
+            continue
+        # the last stage has left the forces at the end of the step
+        write_impact_guards(S, w, k, S.impact_new)
+        S.trigger = fired_guard(S, w, k, -1)
+        aimed = S.aimed >= 0 and abs(w[S.impact_guard + max(0, S.aimed)]) <= _at_event(S, w, k)
+        fired = 1 if S.trigger >= 0 or aimed else 0
+        if aimed and (S.trigger < 0 or S.trigger == S.aimed):
+            S.trigger = S.aimed
+        elif fired == 1:
+            if linear == 1:
+                # locating takes the interpolant of the full step
+                try_impact_step(S, w, k, h)
+                write_impact_guards(S, w, k, S.impact_new)
+            error = locate_switch(S, w, k, h)
+            if not error <= _TRUSTED:
+                if not error < _UNUSED and h < 1e-12 * shortest:
+                    return INVALID
+                h *= 0.25
+                continue
+        if fired == 0:
+            grown = h * step_factor(error)
+        elif S.lone >= 0:
+            grown = _FAR * w[S.impulse_scale + S.lone]
+        else:
+            grown = max(h, shortest * S.impact_rtol**_FIRST)
+        for i in range(n):
+            w[S.impact_y + i] = w[S.impact_new + i]
+        if fired == 0 and _stopping(S, w, k) == 1:
+            # close to rest the direction of the slip is stiff, and what is left of it below the tolerance
+            choose_friction(S, w, k, 1e-2 * shortest)
+            prepare_guards(S, w, k)
+            end_trapped(S, w, k)
+            write_impact_slope(S, w, k, S.impact_slopes)
+            S.phases += 1
+        elif fired == 1:
+            _switch(S, w, k, 1e-2 * shortest)
+            if m > 1 and change_clock(S, w, k) == 1:
+                grown = shortest if S.lone < 0 else _FAR * w[S.impulse_scale + S.lone]
+            if S.phases > _LONG * (S.n_colliding if S.windowed == 1 else m) and faded(S, w, k) == 1:
+                cut_short(S, w, k)
+            end_trapped(S, w, k)
+            if S.windowed == 1:
+                _fade(S, w, k)
+            if S.windowed == 1 and S.lone < 0 and _leaves(S, w, k) == 1:
+                S.impact_h = min(grown, _LARGEST * shortest)
+                return MOVED
+            write_impact_slope(S, w, k, S.impact_slopes)
+        else:
+            _orient(S, w, k)
+            arm_impact_guards(S, w, k)
+            for i in range(n):
+                w[S.impact_slopes + i] = w[S.impact_slopes + 6 * n + i]
+        h = min(grown, _LARGEST * shortest)
+    return ENDLESS
+
+
+@kernel("f8(S, F, I)")
+def _at_event(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return how near zero the guard that is aimed at counts as fired.
+
+    Of a contact that opens under load the energy guard is what is still to come back, a part of all that may be small.
+    """
+    a = S.lone
+    lost = w[S.impact_y + STRIDE * a + 7]
+    if S.aimed != 3 * a + 1 or lost == 0.0:
+        return _AT_EVENT
+    share = efficiency(S, w, k, a, 0.0)
+    returned = lost * share / ((1.0 - share) * w[S.impact_energy_scale + a])
+    return max(_ROUND_OFF, _AT_EVENT * min(1.0, returned))
+
+
+@kernel("void(S, F, I)")
+def _orient(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take the present slip directions as those of the step that begins."""
+    for a in range(S.n_active):
+        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+        speed = math.sqrt(v1 * v1 + v2 * v2)
+        if k[S.phase + a] != IDLE and k[S.tangent_held + a] == 0 and speed > w[S.rest_slip + a]:
+            c = k[S.active + a]
+            w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
+            w[S.impact_guard + 3 * a + 2] = NOISE + speed / S.speed_scale
+
+
+@kernel("f8(S, F, I, f8)")
+def _graded(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Shorten the step towards the end of an expansion, where the force law is not smooth, geometrically."""
+    small = _LAST * S.impact_rtol**0.4
+    for a in range(S.n_active):
+        x, rate = w[S.impact_y + STRIDE * a + 3], w[S.impact_slopes + STRIDE * a + 3]
+        if k[S.phase + a] == EXPANSION and x > small * w[S.impact_x_scale + a] and h * rate < -_SHARE * x:
+            h = -_SHARE * x / rate
+    return h

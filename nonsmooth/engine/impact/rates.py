@@ -1,0 +1,132 @@
+"""Rates of the multiple impact in pseudo-time: forces, impulses, deformation, energies.
+
+For every active contact the state holds (P_N, P_1, P_2, x, W, D, E, L): impulses, deformation, work of the
+normal force, work lost to friction, stored energy, and the part of it that is lost when the contact opens.
+With F_i = f_i(x_i), Eqs. (23)-(28) divided by a common clock s read
+dP_i/ds = (F_i, T_i),  dx_i/ds = -g'_i / efficiency(g'_i),  z = z_0 + G P.
+A lone contact needs no deformation, only its energy: with F = 1 the clock is its impulse, and every phase is
+a polynomial that the integrator follows exactly.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.memory.modes import COMPLIANT
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
+
+IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
+"""Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
+
+STRIDE = 8
+"""Floats of one contact in the state of an impact."""
+
+NOISE = 1e-12
+"""Rates below this, relative to the impact speed, do not switch a phase."""
+
+
+@kernel("f8(S, F, I, i8, f8)")
+def normal_force(S: Scalars, w: Floats, k: Integers, a: int, x: float) -> float:
+    """Return the force of the active contact ``a`` at the deformation ``x``, Eq. (20)."""
+    if a == S.lone:
+        return 1.0
+    if x <= 0.0:
+        return 0.0
+    c = k[S.active + a]
+    return call_scalar(k[S.force_function + c], x, at(w, k[S.force_parameters + c]))
+
+
+@kernel("f8(S, F, I, i8, f8)")
+def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float:
+    """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
+    if S.painleve == 1 and S.policy == COMPLIANT:
+        return 1.0
+    c = k[S.active + a]
+    return call_scalar(k[S.efficiency_function + c], rate, at(w, k[S.efficiency_parameters + c]))
+
+
+@kernel("void(S, F, I, i8)")
+def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+    """Write z = z_0 + G P: gap rates and slip velocities at the impact state ``y``."""
+    for a in range(S.n_active):
+        z = S.impact_z0 + 3 * a
+        z0, z1, z2 = w[z], w[z + 1], w[z + 2]
+        row = S.block_start + S.first_grouped + a
+        for block in range(k[row], k[row + 1]):
+            p = y + STRIDE * k[S.block_column + block]
+            p0, p1, p2 = w[p], w[p + 1], w[p + 2]
+            g = S.delassus + 9 * block
+            z0 += w[g] * p0 + w[g + 1] * p1 + w[g + 2] * p2
+            z1 += w[g + 3] * p0 + w[g + 4] * p1 + w[g + 5] * p2
+            z2 += w[g + 6] * p0 + w[g + 7] * p1 + w[g + 8] * p2
+        z = S.impact_z + 3 * a
+        w[z], w[z + 1], w[z + 2] = z0, z1, z2
+
+
+@room("void(S, F, I, i8)")
+def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+    """Write the forces ``f`` of the active contacts at the impact state ``y`` in the present phases."""
+    evaluate_impact_rates(S, w, k, y)
+    held = 0
+    for a in range(S.n_active):
+        phase = k[S.phase + a]
+        if phase == COMPRESSION or phase == EXPANSION:
+            w[S.f + 3 * a] = normal_force(S, w, k, a, w[y + STRIDE * a + 3])
+        else:
+            w[S.f + 3 * a] = 0.0
+        k[S.normal_held + a] = 1 if phase == HELD else 0
+        held += k[S.normal_held + a] + k[S.tangent_held + a]
+        if k[S.tangent_held + a] == 0:
+            _slide(S, w, k, a)
+    if held > 0:
+        for i in range(3 * S.n_active):
+            w[S.b + i] = 0.0
+        resolve(S, w, k)
+
+
+@kernel("void(S, F, I, i8)")
+def _slide(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+    """Write the friction of a sliding contact, its direction continued smoothly through a reversal."""
+    c = k[S.active + a]
+    d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
+    v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+    speed = math.sqrt(v1 * v1 + v2 * v2)
+    if speed > w[S.rest_slip + a]:
+        inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+        d1, d2 = inverse * v1, inverse * v2
+    mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+    w[S.mu + a] = mu
+    w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
+    w[S.f + 3 * a + 1] = -mu * w[S.f + 3 * a] * d1
+    w[S.f + 3 * a + 2] = -mu * w[S.f + 3 * a] * d2
+
+
+@kernel("void(S, F, I, i8, i8)")
+def impact_slope(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> None:
+    """Write d(P, x, W, D, E)/ds of all active contacts at the impact state ``y``."""
+    evaluate_impact_forces(S, w, k, y)
+    write_impact_slope(S, w, k, out)
+
+
+@kernel("void(S, F, I, i8)")
+def write_impact_slope(S: Scalars, w: Floats, k: Integers, out: int) -> None:
+    """Write the slope where rates and forces are evaluated."""
+    for a in range(S.n_active):
+        f, z, o = S.f + 3 * a, S.impact_z + 3 * a, out + STRIDE * a
+        rate = w[z]
+        for r in range(3):
+            w[o + r] = w[f + r]
+        phase = k[S.phase + a]
+        w[o + 3] = 0.0
+        if phase == COMPRESSION:
+            w[o + 3] = -rate
+        elif phase == EXPANSION:
+            w[o + 3] = -rate / efficiency(S, w, k, a, max(rate, 1e-300))
+        w[o + 6] = w[f] * w[o + 3]
+        if a == S.lone:
+            w[o + 3] = 0.0
+        w[o + 4] = w[f] * rate
+        w[o + 5] = -(w[f + 1] * w[z + 1] + w[f + 2] * w[z + 2])
+        w[o + 7] = 0.0

@@ -1,0 +1,205 @@
+"""One step inside an impact: explicit, or implicit where the direction of a slip next to rest makes it stiff.
+
+A contact that leaves its bound slowly, or slips on little more than friction takes, stays near rest for long.  The
+direction of its slip v follows the forces within an impulse of the order of |v|, and explicit steps may be no longer.
+Linearly implicit Euler steps, 1 to 6 in one of ``h``, have no such bound; their results are extrapolated to the limit
+(Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.9).
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.delassus.delassus import own_block
+from nonsmooth.engine.impact.rates import STRIDE, evaluate_impact_rates, impact_slope
+from nonsmooth.engine.memory import tableau
+from nonsmooth.engine.memory.layout import STIFF
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.numerics.linear import eliminate
+from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
+
+_EXTRAPOLATED = 6
+"""Results that are extrapolated; they lie where the stages of the explicit step do, behind the first."""
+_STIFF = 1.0
+"""Relaxations of a direction within a step that an explicit one bears."""
+_NEAR = 1e-3
+"""The Jacobian is one of differences over this part of the slip; it need not be exact."""
+_UNUSABLE = 1e300
+_STRAIGHT = 1e-13
+"""Second differences of slopes below this, relative to the slopes, count as zero."""
+
+
+@kernel("f8(S, F, I, f8)")
+def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance."""
+    n = STRIDE * S.n_active
+    for stage in range(1, 7):
+        out = S.impact_new if stage == 6 else S.impact_stage
+        stage_state(S, w, S.impact_y, S.impact_slopes, n, stage, h, out)
+        impact_slope(S, w, k, out, S.impact_slopes + stage * n)
+    step_errors(S, w, S.impact_slopes, n, h, S.impact_stage)
+    error = _relative_error(S, w, k)
+    if not error <= 1.0:
+        stiff = _find_stiff(S, w, k, h)
+        if stiff > 0:
+            return _try_implicit_step(S, w, k, h, stiff)
+        evaluate_impact_rates(S, w, k, S.impact_new)
+    return error
+
+
+@kernel("f8(S, F, I)")
+def _relative_error(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return the largest of the errors in ``impact_stage``, relative to the tolerance."""
+    worst = 0.0
+    for a in range(S.n_active):
+        inverse = 1.0 / w[S.impulse_scale + a]
+        for r in range(STRIDE):
+            if r >= 3:
+                inverse = 1.0 / (w[S.impact_x_scale + a] if r == 3 else w[S.impact_energy_scale + a])
+            error = inverse * abs(w[S.impact_stage + STRIDE * a + r])
+            if error > worst or error != error:
+                worst = error
+    return worst / float(S.impact_rtol)
+
+
+@kernel("i8(S, F, I, f8)")
+def _find_stiff(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """List the contacts whose slip turns too fast for an explicit step of ``h`` in ``stiff``; return how many."""
+    evaluate_impact_rates(S, w, k, S.impact_y)
+    stiff = 0
+    for a in range(S.n_active):
+        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+        speed = math.sqrt(v1 * v1 + v2 * v2)
+        if k[S.tangent_held + a] == 1 or not speed > w[S.rest_slip + a] or stiff == STIFF:
+            continue
+        t, g = S.impact_slopes + STRIDE * a + 1, own_block(S, k, a)
+        if h * math.sqrt(w[t] * w[t] + w[t + 1] * w[t + 1]) * max(w[g + 4], w[g + 8]) > _STIFF * speed:
+            k[S.stiff + stiff] = a
+            stiff += 1
+    return stiff
+
+
+@kernel("f8(S, F, I, f8, i8)")
+def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int) -> float:
+    """Take one step of ``h`` to ``impact_new``, implicit at the ``stiff`` contacts; return its relative error.
+
+    Leaves slopes from which the dense output of the explicit step makes the cubic through both ends.
+    """
+    n = STRIDE * S.n_active
+    _differentiate(S, w, k, stiff)
+    for j in range(_EXTRAPOLATED):
+        for i in range(n):
+            w[S.impact_new + i] = w[S.impact_y + i]
+        slope = S.impact_slopes
+        for part in range(j + 1):
+            if part > 0:
+                slope = S.impact_stage
+                impact_slope(S, w, k, S.impact_new, slope)
+            if _euler_step(S, w, k, h / (j + 1), stiff, slope) == 0:
+                return _UNUSABLE
+        for i in range(n):
+            value = w[S.impact_new + i]
+            for q in range(j):
+                row = S.impact_slopes + (q + 1) * n + i
+                before, w[row] = w[row], value
+                value += (value - before) * (j - q) / (q + 1)
+            w[S.impact_slopes + (j + 1) * n + i] = value
+    last = S.impact_slopes + _EXTRAPOLATED * n
+    for i in range(n):
+        w[S.impact_new + i] = w[last + i]
+        w[S.impact_stage + i] = w[last + i] - w[last - n + i]
+    error = _relative_error(S, w, k)
+    impact_slope(S, w, k, S.impact_new, last)
+    for stage in range(1, 6):
+        c = tableau.NODES[stage]
+        for i in range(n):
+            rise = (w[S.impact_new + i] - w[S.impact_y + i]) / h
+            w[S.impact_slopes + stage * n + i] = (
+                6.0 * c * (1.0 - c) * rise
+                + (1.0 - c) * (1.0 - 3.0 * c) * w[S.impact_slopes + i]
+                + c * (3.0 * c - 2.0) * w[last + i]
+            )
+    return error
+
+
+@kernel("void(S, F, I, i8)")
+def _differentiate(S: Scalars, w: Floats, k: Integers, stiff: int) -> None:
+    """Write the derivatives of the slope by the slips of the ``stiff`` contacts, and the slips that those make."""
+    n = STRIDE * S.n_active
+    for j in range(2 * stiff):
+        a = k[S.stiff + j // 2]
+        column, component = S.stiff_slopes + j * n, S.impact_z0 + 3 * a + 1 + j % 2
+        evaluate_impact_rates(S, w, k, S.impact_y)
+        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
+        kept, change = w[component], _NEAR * math.sqrt(v1 * v1 + v2 * v2)
+        w[component] += change
+        change = w[component] - kept
+        impact_slope(S, w, k, S.impact_y, column)
+        w[component] = kept
+        for i in range(n):
+            w[column + i] = (w[column + i] - w[S.impact_slopes + i]) / change
+        for i in range(2 * stiff):
+            w[S.stiff_rates + 2 * stiff * i + j] = _slip_of(S, w, k, i, column)
+
+
+@kernel("f8(S, F, I, i8, i8)")
+def _slip_of(S: Scalars, w: Floats, k: Integers, i: int, impulses: int) -> float:
+    """Return the component ``i`` of the slips of the stiff contacts that the impulses make, which lie in a state."""
+    r = 3 * (1 + i % 2)
+    row = S.block_start + S.first_grouped + k[S.stiff + i // 2]
+    total = 0.0
+    for block in range(k[row], k[row + 1]):
+        g, p = S.delassus + 9 * block + r, impulses + STRIDE * k[S.block_column + block]
+        total += w[g] * w[p] + w[g + 1] * w[p + 1] + w[g + 2] * w[p + 2]
+    return total
+
+
+@kernel("i8(S, F, I, f8, i8, i8)")
+def _euler_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int, slope: int) -> int:
+    """Move ``impact_new`` by one linearly implicit Euler step; return 0 if that is singular.
+
+    The change is h (slope + D v) with the derivatives D by the slips and their changes v = V change, which is
+    (1 - h V D) v = h V slope.
+    """
+    n = STRIDE * S.n_active
+    m = 2 * stiff
+    for i in range(m):
+        for j in range(m):
+            w[S.stiff_matrix + m * i + j] = (1.0 if i == j else 0.0) - h * w[S.stiff_rates + m * i + j]
+        w[S.stiff_slip + i] = h * _slip_of(S, w, k, i, slope)
+    if eliminate(w, S.stiff_matrix, m, m, S.stiff_slip, 0.0) == 0:
+        return 0
+    for i in range(n):
+        w[S.impact_new + i] += h * w[slope + i]
+    for j in range(m):
+        change = h * w[S.stiff_slip + j]
+        for i in range(n):
+            w[S.impact_new + i] += change * w[S.stiff_slopes + j * n + i]
+    return 1
+
+
+@kernel("i8(S, F, I, f8)")
+def try_linear_step(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Take one step of ``h`` to ``impact_new`` by the midpoint rule; return 1 if the slope is linear and it is exact.
+
+    A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
+    """
+    n = STRIDE * S.n_active
+    middle, end = S.impact_slopes + n, S.impact_slopes + 6 * n
+    for i in range(n):
+        w[S.impact_stage + i] = w[S.impact_y + i] + 0.5 * h * w[S.impact_slopes + i]
+    impact_slope(S, w, k, S.impact_stage, middle)
+    for i in range(n):
+        w[S.impact_new + i] = w[S.impact_y + i] + h * w[middle + i]
+    impact_slope(S, w, k, S.impact_new, end)
+    # a component that is round-off next to the contact's force is as straight as that force
+    for a in range(S.n_active):
+        force = abs(w[S.f + 3 * a]) + abs(w[S.f + 3 * a + 1]) + abs(w[S.f + 3 * a + 2])
+        for i in range(STRIDE * a, STRIDE * (a + 1)):
+            first, half, last = w[S.impact_slopes + i], w[middle + i], w[end + i]
+            size = abs(first) + abs(last) + abs(half)
+            if i < STRIDE * a + 3:
+                size = max(size, force)
+            if not abs(first + last - 2.0 * half) <= _STRAIGHT * size:
+                return 0
+    return 1

@@ -1,0 +1,156 @@
+"""The heaps of one trajectory: views by name, blocks appended behind the fixed arrays."""
+
+from __future__ import annotations
+
+import functools
+from array import array
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nonsmooth.engine.memory import tableau
+from nonsmooth.engine.memory.layout import (
+    FLOAT_ARRAYS,
+    GEOMETRY,
+    GUARD,
+    INTEGER_ARRAYS,
+    N_STAGES,
+    PAIR,
+    SCALARS,
+    UNTOUCHED,
+)
+from nonsmooth.parameters import Table
+
+
+class Heap:
+    """The blocks that come behind the fixed arrays: output blocks, Jacobians, parameters."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+        self._first = len(memory.floats)
+        self._values = array("d")
+        self._references: list[tuple[int, int, Table]] = []
+
+    def block(self, size: int) -> int:
+        """Reserve floats; return their offset."""
+        start = self._first + len(self._values)
+        self._values.frombytes(bytes(self._values.itemsize * size))
+        return start
+
+    def store(self, values: Sequence[float] | np.ndarray) -> int:
+        """Append values; return their offset."""
+        start = self._first + len(self._values)
+        self._values.extend(values)
+        return start
+
+    def repeat(self, values: Sequence[float], times: int) -> int:
+        """Append the same values so many times; return the offset of the first."""
+        start = self._first + len(self._values)
+        self._values.extend(times * array("d", values))
+        return start
+
+    def refer(self, place: int, start: int, table: Table) -> None:
+        """Let the number at an offset say how far behind the offset ``start`` a table lies."""
+        self._references.append((place, start, table))
+
+    def output(self, size: int) -> int:
+        """Reserve floats that a plug-in writes, and guards behind them; return their offset."""
+        return self.store(output_block(size))
+
+    def close(self) -> Memory:
+        """Return the memory with all blocks in it, and behind them every table once."""
+        old, tables = self._memory, {id(table): table for _, _, table in self._references}
+        first, places = self._first + len(self._values), dict[int, int]()
+        end = first
+        for key, table in tables.items():
+            places[key] = end
+            end += len(table)
+        floats = np.zeros(end + 1)
+        written = int(old.scalars[0]["events"])
+        floats[:written] = old.floats[:written]
+        floats[self._first : first] = self._values
+        for key, table in tables.items():
+            floats[places[key] : places[key] + len(table)] = table.numbers
+        references = tuple((place, start, places[id(table)]) for place, start, table in self._references)
+        for place, start, at in references:
+            floats[place] = at - start
+        return Memory(old.scalars, floats, old.integers, self._first, first, references)
+
+
+def output_block(size: int) -> list[float]:
+    """Return what stands in a block that a plug-in writes before it does, guards included."""
+    return size * [0.0] + GUARD * [UNTOUCHED]
+
+
+@dataclass(frozen=True)
+class Memory:
+    """Scalars and heaps of one trajectory.
+
+    Attributes
+    ----------
+    scalars : numpy.ndarray
+        The record ``S``, shape [1].
+    floats : numpy.ndarray
+        The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
+    integers : numpy.ndarray
+        The heap ``k``.
+    blocks, tables : int
+        Where in ``floats`` the blocks that the assembly appended begin, and the tables behind them.
+    references : tuple
+        (place of a number, the place from which that number counts, place of the table that it leads to), for every
+        table that a function reads.
+    owner : Memory or None
+        Whose tables it reads, if it has none of its own.
+    """
+
+    scalars: np.ndarray
+    floats: np.ndarray
+    integers: np.ndarray
+    blocks: int
+    tables: int
+    references: tuple[tuple[int, int, int], ...] = ()
+    owner: Memory | None = None
+
+    def array(self, name: str, size: int) -> np.ndarray:
+        """Return a view of ``size`` entries of the named array."""
+        heap = self.floats if name in FLOAT_ARRAYS else self.integers
+        start = int(self.scalars[name][0])
+        return heap[start : start + size]
+
+    @functools.cached_property
+    def addresses(self) -> tuple[int, int, int]:
+        """Where scalars and heaps stand, for calls of the engine."""
+        return self.scalars.ctypes.data, self.floats.ctypes.data, self.integers.ctypes.data
+
+    @functools.cached_property
+    def kept(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Views of what a step may find of those before it: neither output nor scratch that it writes itself."""
+        events, codes = (int(self.scalars[name][0]) for name in ("events", "event_codes"))
+        return self.floats[:events], self.floats[self.blocks : self.tables], self.integers[:codes]
+
+    @functools.cached_property
+    def bits(self) -> tuple[np.ndarray, ...]:
+        """Views of the scalars and of :attr:`kept` as integers: a number that is not finite differs from itself."""
+        return tuple(part.view(np.int64) for part in (self.scalars, *self.kept))
+
+
+def allocate(counts: Mapping[str, int]) -> Memory:
+    """Lay out the arrays for the given counts, all of ``COUNTS``; blocks are appended by :class:`Heap`."""
+    values: dict[str, float] = dict.fromkeys(SCALARS.names or (), 0)
+    totals: list[int] = []
+    for table in (FLOAT_ARRAYS, INTEGER_ARRAYS):
+        total = 0
+        for name, size in table.items():
+            values[name] = total
+            total += size(counts)
+        totals.append(total)
+    values.update(counts)
+    scalars = np.array([tuple(values.values())], SCALARS)
+    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64), totals[0], totals[0])
+    n = counts["n_slots"]
+    memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
+    memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
+    memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
+    memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
+    return memory

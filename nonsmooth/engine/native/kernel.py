@@ -1,0 +1,111 @@
+"""The one switch between compiled and plain: every engine function comes through here.
+
+Engine functions take the scalars ``S`` (one record of counts, offsets, tolerances), the heap of
+floats ``w`` and the heap of integers ``k`` (see :mod:`nonsmooth.engine.memory.layout`).  Set the environment
+variable ``NONSMOOTH_PLAIN=1`` before the first import to run the same source as ordinary Python,
+without numba: for the debugger, for coverage, and to see that both agree.
+
+Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8`` and ``void``.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+from collections.abc import Callable
+from typing import Any, Protocol, TypeAlias, TypeVar
+
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.types import Floats, Integers
+
+PLAIN = os.environ.get("NONSMOOTH_PLAIN", "0") not in ("", "0")
+
+Scalars: TypeAlias = Any
+"""The record ``S``."""
+
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+class _Decorator(Protocol):
+    def __call__(self, signature: str = "void(S, F, I)", /) -> Callable[[_Function], _Function]: ...
+
+
+_half = importlib.import_module("nonsmooth.engine.native.plain" if PLAIN else "nonsmooth.engine.native.native")
+
+kernel: _Decorator = _half.kernel
+"""An engine function, compiled into its callers."""
+room: _Decorator = _half.room
+"""An engine function compiled apart, reached by its address, by Python too."""
+room_addresses: Callable[[], tuple[int, ...]] = _half.room_addresses
+"""The addresses of all rooms, which belong at the head of ``k``."""
+call_room: Callable[..., Any] = _half.call_room
+"""``call_room(name, memory, *numbers)``: call a room from Python."""
+
+at: Callable[[Floats, int], Floats] = _half.at
+"""The heap from an offset on."""
+call_scalar: Callable[[int, float, Floats], float] = _half.call_scalar
+"""Call ``law(x, parameters)`` at an address."""
+call_compliance: Callable[[int, float, float, float, Floats], float] = _half.call_compliance
+"""Call ``force(indentation, rate, closing_rate, parameters)`` at an address."""
+call_body: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.call_body
+"""Call ``body(t, q, u, parameters, out)`` at an address."""
+call_guard: Callable[[int, float, Floats, Floats, Floats], float] = _half.call_guard
+"""Call ``guard(t, q, u, parameters)`` at an address."""
+call_load: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.call_load
+"""Call ``load(t, frame_a, frame_b, parameters, out)`` at an address."""
+call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = _half.call_pair
+"""Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
+call_watch: Callable[[int, float], float] = _half.call_watch
+"""Call ``watch(t)`` at an address."""
+watch_address: Callable[[Callable[[float], float]], int] = _half.watch_address
+"""Return the address of a function that :func:`call_watch` may call until :func:`forget_watch`."""
+forget_watch: Callable[[int], None] = _half.forget_watch
+"""Give up an address of :func:`watch_address`."""
+call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.call_map
+"""Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
+
+call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _half.call_support
+"""Call ``support(direction, parameters, point)`` at the address at a place of a heap, the parameters behind it."""
+
+block_at: Callable[[Floats, int], Floats] = _half.block_at
+"""What stands in a block from a place on, for the functions of plug-ins."""
+
+jit: Callable[[Callable[..., Any]], Any] = _half.jit
+"""Compile a plug-in's function on demand."""
+shared: Callable[[Callable[..., Any]], Any] = _half.shared
+"""Let the functions of plug-ins call this one, compiled or not."""
+unshared: Callable[[Any], Any] = _half.unshared
+"""The function out of which :func:`shared` has made a value, any other value as it is."""
+address_of: Callable[[Callable[..., Any], str, str], int] = _half.address_of
+"""Compile a shim of a form of :data:`nonsmooth.binding.compile.ROLES`, or find it under its key on disk, and
+return its address.  Without a key nothing is kept on disk."""
+
+__all__ = [
+    "PLAIN",
+    "Floats",
+    "Integers",
+    "Memory",
+    "Scalars",
+    "address_of",
+    "at",
+    "block_at",
+    "call_body",
+    "call_compliance",
+    "call_guard",
+    "call_load",
+    "call_map",
+    "call_pair",
+    "call_room",
+    "call_scalar",
+    "call_support",
+    "call_watch",
+    "forget_watch",
+    "jit",
+    "kernel",
+    "room",
+    "room_addresses",
+    "shared",
+    "unshared",
+    "watch_address",
+]

@@ -1,0 +1,138 @@
+"""The plain half of :mod:`nonsmooth.engine.native.kernel`: the same names, as ordinary Python."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+from nonsmooth.engine.memory.layout import SCALARS
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.rooms import ROOMS
+
+_functions: list[Callable[..., Any]] = []
+_watches: dict[int, Callable[[float], float]] = {}
+_rooms: dict[str, Callable[..., Any]] = {}
+
+
+def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+    """Leave the function as it is."""
+    return lambda function: function
+
+
+def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+    """Leave the function as it is, and let :func:`call_room` find it."""
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        _rooms[function.__name__] = function
+        return function
+
+    return decorate
+
+
+def room_addresses() -> tuple[int, ...]:
+    """Return as many numbers as there are rooms; nothing reads them."""
+    importlib.import_module("nonsmooth.engine.events.hybrid")
+    return (0,) * len(ROOMS)
+
+
+def call_room(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call a room on the memory of one trajectory."""
+    record = memory.scalars[0]
+    scalars = SimpleNamespace(**{field: record[field].item() for field in SCALARS.names or ()})
+    try:
+        return _rooms[name](scalars, memoryview(memory.floats.data), memoryview(memory.integers.data), *arguments)
+    finally:
+        for field, value in vars(scalars).items():
+            memory.scalars[field] = value
+
+
+def at(heap: memoryview, offset: int) -> memoryview:
+    """Return the view from ``offset`` on."""
+    return heap[offset:]
+
+
+def call_scalar(address: int, x: float, p: Any) -> Any:
+    """Call ``float law(float, parameters)``."""
+    return _functions[address - 1](x, p)
+
+
+def call_compliance(address: int, x: float, rate: float, first: float, p: Any) -> Any:
+    """Call ``float force(indentation, rate, closing_rate, parameters)``."""
+    return _functions[address - 1](x, rate, first, p)
+
+
+def call_watch(address: int, t: float) -> Any:
+    """Call ``float watch(float)``."""
+    return _watches[address](t)
+
+
+def watch_address(function: Callable[[float], float]) -> int:
+    """Register ``function`` and return the number it answers to."""
+    address = max(_watches, default=0) + 1
+    _watches[address] = function
+    return address
+
+
+def forget_watch(address: int) -> None:
+    """Give up the number."""
+    del _watches[address]
+
+
+def call_body(address: int, t: float, q: Any, u: Any, p: Any, out: Any) -> None:
+    """Call ``void body(t, q, u, parameters, out)``."""
+    _functions[address - 1](t, q, u, p, out)
+
+
+def call_guard(address: int, t: float, q: Any, u: Any, p: Any) -> Any:
+    """Call ``float guard(t, q, u, parameters)``."""
+    return _functions[address - 1](t, q, u, p)
+
+
+def call_load(address: int, t: float, a: Any, b: Any, p: Any, out: Any) -> None:
+    """Call ``void load(t, frame_a, frame_b, parameters, out)``."""
+    _functions[address - 1](t, a, b, p, out)
+
+
+def call_pair(address: int, a: Any, b: Any, p: Any, out: Any) -> None:
+    """Call ``void geometry(frame_a, frame_b, parameters, out)``."""
+    _functions[address - 1](a, b, p, out)
+
+
+def call_support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Call ``void support(direction, parameters, point)`` with what stands in a heap; return the point."""
+    found = [0.0, 0.0, 0.0]
+    _functions[int(heap[place]) - 1]([x, y, z], heap[place + 1 :], found)
+    return found[0], found[1], found[2]
+
+
+def block_at(block: Any, place: int) -> Any:
+    """Return what stands in a block from a place on."""
+    return block[place:]
+
+
+def call_map(address: int, n: int, g: Any, z: Any, p: Any, out: Any) -> None:
+    """Call ``void impact(n, delassus, rates, parameters, impulses)``."""
+    _functions[address - 1](n, g, z, p, out)
+
+
+def jit(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Leave the function as it is."""
+    return function
+
+
+def shared(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Leave the function as it is."""
+    return function
+
+
+def unshared(value: Any) -> Any:
+    """Leave the value as it is."""
+    return value
+
+
+def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
+    """Register ``shim`` and return the number it answers to."""
+    _functions.append(shim)
+    return len(_functions)

@@ -1,0 +1,130 @@
+"""The numba types of the record ``S`` and of the two heaps, and what the optimiser may know of them.
+
+They are plain pointers.  Their loads and stores carry alias metadata: a store into a heap touches neither the
+other heap nor a scalar, a scalar no other scalar, and offsets and counts never change while the engine runs.
+Without that, every store would make the compiler read every offset again.
+"""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core.typing.templates import AttributeTemplate
+from numba.extending import (
+    infer_getattr,
+    lower_builtin,
+    lower_getattr_generic,
+    lower_setattr_generic,
+    models,
+    register_model,
+    type_callable,
+)
+
+from nonsmooth.engine.memory.layout import CONSTANT_SCALARS, SCALARS
+
+
+class Heap(types.Type):  # type: ignore[misc]
+    """A pointer to floats or integers."""
+
+    def __init__(self, name: str, dtype: Any) -> None:
+        self.dtype = dtype
+        super().__init__(name=name)
+
+
+class Table(types.Type):  # type: ignore[misc]
+    """A pointer to the record ``S``, whose fields are all eight bytes long."""
+
+
+_NAMES = SCALARS.names or ()
+FLOATS = Heap("Floats", types.float64)
+INTEGERS = Heap("Integers", types.int64)
+TABLE = Table("Scalars")
+
+
+@register_model(Heap)
+class _HeapModel(models.PrimitiveModel):  # type: ignore[misc]
+    def __init__(self, manager: Any, heap: Heap) -> None:
+        super().__init__(manager, heap, manager.lookup(heap.dtype).get_data_type().as_pointer())
+
+
+@register_model(Table)
+class _TableModel(models.PrimitiveModel):  # type: ignore[misc]
+    def __init__(self, manager: Any, table: Table) -> None:
+        super().__init__(manager, table, ir.IntType(64).as_pointer())
+
+
+def _tag(access: Any, name: str) -> None:
+    """Mark a load or store as one of the memory called ``name``."""
+    module = access.function.module
+    zero = ir.Constant(ir.IntType(64), 0)
+    root = module.add_metadata(["nonsmooth"])
+    kind = module.add_metadata([name, root, zero])
+    access.set_metadata("tbaa", module.add_metadata([kind, kind, zero]))
+
+
+@type_callable(operator.getitem)  # type: ignore[untyped-decorator]
+def _type_getitem(context: Any) -> Any:
+    def typer(heap: Any, index: Any) -> Any:
+        return heap.dtype if isinstance(heap, Heap) and isinstance(index, types.Integer) else None
+
+    return typer
+
+
+@type_callable(operator.setitem)  # type: ignore[untyped-decorator]
+def _type_setitem(context: Any) -> Any:
+    def typer(heap: Any, index: Any, value: Any) -> Any:
+        if isinstance(heap, Heap) and isinstance(index, types.Integer):
+            return types.void(heap, types.int64, heap.dtype)
+        return None
+
+    return typer
+
+
+@lower_builtin(operator.getitem, Heap, types.Integer)  # type: ignore[untyped-decorator]
+def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    load = builder.load(builder.gep(args[0], [args[1]]))
+    _tag(load, signature.args[0].name)
+    return load
+
+
+@lower_builtin(operator.setitem, Heap, types.Integer, types.Any)  # type: ignore[untyped-decorator]
+def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    heap, _index, value = signature.args
+    store = builder.store(context.cast(builder, args[2], value, heap.dtype), builder.gep(args[0], [args[1]]))
+    _tag(store, heap.name)
+    return context.get_dummy_value()
+
+
+def _field_type(name: str) -> Any:
+    return types.float64 if SCALARS[name].kind == "f" else types.int64
+
+
+def _field(context: Any, builder: Any, table: Any, name: str) -> Any:
+    place = builder.gep(table, [ir.Constant(ir.IntType(64), _NAMES.index(name))])
+    return builder.bitcast(place, context.get_value_type(_field_type(name)).as_pointer())
+
+
+@infer_getattr
+class _TableFields(AttributeTemplate):  # type: ignore[misc]
+    key = Table
+
+    def generic_resolve(self, table: Table, name: str) -> Any:
+        return _field_type(name) if name in _NAMES else None
+
+
+@lower_getattr_generic(Table)  # type: ignore[untyped-decorator]
+def _get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
+    load = builder.load(_field(context, builder, value, name))
+    _tag(load, name)
+    if name in CONSTANT_SCALARS:
+        load.set_metadata("invariant.load", builder.module.add_metadata([]))
+    return load
+
+
+@lower_setattr_generic(Table)  # type: ignore[untyped-decorator]
+def _set_field(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
+    value = context.cast(builder, args[1], signature.args[1], _field_type(name))
+    _tag(builder.store(value, _field(context, builder, args[0], name)), name)

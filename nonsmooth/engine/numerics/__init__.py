@@ -1,0 +1,1 @@
+"""Linear algebra, band matrices and Runge-Kutta steps."""

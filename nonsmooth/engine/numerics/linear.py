@@ -1,0 +1,168 @@
+"""Linear systems on the float heap: elimination within a band, and minimum norm where the matrix is singular."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.native.kernel import Floats, kernel
+
+SINGULAR = 1e-10
+"""A pivot or remaining column below this, relative to the largest, counts as zero."""
+
+
+@kernel("i8(i8, i8)")
+def band_width(n: int, half: int) -> int:
+    """Return the length of a stored row: ``half`` to the left, twice that to the right, all of it if that is less."""
+    return min(n, 3 * half + 1)
+
+
+@kernel("i8(i8, i8, i8, i8)")
+def band_row(a: int, i: int, n: int, half: int) -> int:
+    """Return where row ``i`` of the band at ``a`` would start if it were stored in full: add the column to it."""
+    width = band_width(n, half)
+    return a + i * width - min(max(0, i - half), n - width)
+
+
+@kernel("i8(F, i8, i8, i8, i8, f8)")
+def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> int:
+    """Solve the banded system at ``a`` with right-hand side at ``x``, both overwritten; return 1, or 0 if singular.
+
+    Entries farther than ``half`` off the diagonal are zero; exchanges of rows fill some of them.  A pivot below
+    ``least``, relative to the largest entry, counts as zero.
+    """
+    width = band_width(n, half)
+    largest = 0.0
+    for i in range(n * width):
+        largest = max(largest, abs(w[a + i]))
+    for j in range(n):
+        own = band_row(a, j, n, half)
+        below, right = min(n, j + half + 1), min(n, j + 2 * half + 1)
+        pivot, best = j, own
+        for i in range(j + 1, below):
+            row = band_row(a, i, n, half)
+            if abs(w[row + j]) > abs(w[best + j]):
+                pivot, best = i, row
+        if not abs(w[best + j]) > least * largest:
+            return 0
+        if pivot != j:
+            for c in range(j, right):
+                w[own + c], w[best + c] = w[best + c], w[own + c]
+            w[x + j], w[x + pivot] = w[x + pivot], w[x + j]
+        for i in range(j + 1, below):
+            row = band_row(a, i, n, half)
+            factor = w[row + j] / w[own + j]
+            if factor != 0.0:
+                for c in range(j + 1, right):
+                    w[row + c] -= factor * w[own + c]
+                w[x + i] -= factor * w[x + j]
+    for j in range(n - 1, -1, -1):
+        own = band_row(a, j, n, half)
+        for c in range(j + 1, min(n, j + 2 * half + 1)):
+            w[x + j] -= w[own + c] * w[x + c]
+        w[x + j] /= w[own + j]
+    return 1
+
+
+@kernel("i8(F, i8, i8)")
+def rank_of_semidefinite(w: Floats, a: int, n: int) -> int:
+    """Return the rank of the positive semidefinite matrix at ``a``, which is overwritten; largest pivots come first."""
+    largest = 0.0
+    for rank in range(n):
+        best = rank
+        for i in range(rank + 1, n):
+            if w[a + i * n + i] > w[a + best * n + best]:
+                best = i
+        pivot = w[a + best * n + best]
+        largest = max(largest, pivot)
+        if not pivot > SINGULAR * largest:
+            return rank
+        for c in range(n):
+            w[a + rank * n + c], w[a + best * n + c] = w[a + best * n + c], w[a + rank * n + c]
+        for i in range(n):
+            w[a + i * n + rank], w[a + i * n + best] = w[a + i * n + best], w[a + i * n + rank]
+        for i in range(rank + 1, n):
+            factor = w[a + i * n + rank] / pivot
+            if factor != 0.0:
+                for c in range(rank + 1, n):
+                    w[a + i * n + c] -= factor * w[a + rank * n + c]
+    return n
+
+
+@kernel("f8(F, i8, i8, i8, i8)")
+def _dot(w: Floats, one: int, two: int, n: int, stride: int) -> float:
+    total = 0.0
+    for i in range(n):
+        total += w[one + i * stride] * w[two + i * stride]
+    return total
+
+
+@kernel("i8(F, i8, i8, i8, i8, i8, i8)")
+def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
+    """Write A = Q R with the largest remaining column first; return the rank, ``most`` at most.
+
+    The columns of ``a`` lose what the columns chosen so far explain of them, and so does ``b``; rows of R go to
+    ``r``, and behind the n-th entry of ``marks`` the components Q^T b.
+    """
+    for j in range(n):
+        w[marks + j] = 0.0
+    largest = 0.0
+    for rank in range(most):
+        best, size = -1, 0.0
+        for j in range(n):
+            if w[marks + j] == 0.0:
+                square = _dot(w, a + j, a + j, n, n)
+                if square > size:
+                    best, size = j, square
+        norm = math.sqrt(size)
+        largest = max(largest, norm)
+        if best < 0 or not norm > SINGULAR * largest:
+            return rank
+        w[marks + best] = 1.0
+        for i in range(n):
+            w[a + i * n + best] /= norm
+        for j in range(n):
+            w[r + rank * n + j] = 0.0
+            if w[marks + j] == 0.0:
+                # twice is enough
+                for _time in range(2):
+                    part = _dot(w, a + best, a + j, n, n)
+                    w[r + rank * n + j] += part
+                    for i in range(n):
+                        w[a + i * n + j] -= part * w[a + i * n + best]
+        w[r + rank * n + best] = norm
+        total = 0.0
+        for i in range(n):
+            total += w[a + i * n + best] * w[b + i]
+        w[marks + n + rank] = total
+        for i in range(n):
+            w[b + i] -= total * w[a + i * n + best]
+    return most
+
+
+@kernel("i8(F, i8, i8, i8, i8, i8, i8, i8)")
+def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, work: int, most: int) -> int:
+    """Least-squares solution of least norm, by orthogonal decompositions; return the rank, ``most`` at most.
+
+    ``a`` and ``b`` are overwritten; ``v`` receives an orthonormal basis of the row space in its first rows, ``x`` the
+    solution; ``work`` holds 2 n floats.
+    """
+    rank = _triangulate(w, a, n, b, v, work, most)
+    for i in range(n):
+        w[x + i] = 0.0
+    # rows R = L V: forward substitution goes along with the orthogonalisation of the rows
+    for j in range(rank):
+        row = v + j * n
+        rest = w[work + n + j]
+        for _time in range(2):
+            for c in range(j):
+                part = _dot(w, v + c * n, row, n, 1)
+                rest -= part * w[work + n + c]
+                for i in range(n):
+                    w[row + i] -= part * w[v + c * n + i]
+        norm = math.sqrt(_dot(w, row, row, n, 1))
+        for i in range(n):
+            w[row + i] /= norm
+        w[work + n + j] = rest / norm
+        for i in range(n):
+            w[x + i] += w[work + n + j] * w[row + i]
+    return rank

@@ -1,0 +1,64 @@
+"""One adaptive Runge-Kutta pair on the float heap, for the flow and for the impact alike."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.native.kernel import Floats, Scalars, kernel
+
+SAFETY, SHRINK, GROW = 0.92, 0.2, 8.0
+_EXPONENT = -0.2
+_TINY = (SAFETY / GROW) ** 5
+"""Below this error the step grows by the most it may."""
+
+
+@kernel("void(S, F, i8, i8, i8, i8, f8, i8)")
+def stage_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, stage: int, h: float, out: int) -> None:
+    """Write the state at which the slope of ``stage`` is evaluated."""
+    weight = h * w[S.stages + 6 * stage]
+    for i in range(n):
+        w[out + i] = w[start + i] + weight * w[slopes + i]
+    for j in range(1, stage):
+        weight = h * w[S.stages + 6 * stage + j]
+        for i in range(n):
+            w[out + i] += weight * w[slopes + j * n + i]
+
+
+@kernel("void(S, F, i8, i8, i8, f8, f8, i8)")
+def dense_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, h: float, theta: float, out: int) -> None:
+    """Write the interpolated state at the fraction ``theta`` of the step."""
+    dense_part(S, w, start, slopes, n, n, h, theta, out)
+
+
+@kernel("void(S, F, i8, i8, i8, i8, f8, f8, i8)")
+def dense_part(
+    S: Scalars, w: Floats, start: int, slopes: int, n: int, stride: int, h: float, theta: float, out: int
+) -> None:
+    """Write ``n`` components of the interpolated state, the slopes of two stages lying ``stride`` apart."""
+    for j in range(7):
+        d, slope = S.dense + 4 * j, slopes + j * stride
+        weight = h * theta * (w[d] + theta * (w[d + 1] + theta * (w[d + 2] + theta * w[d + 3])))
+        if j == 0:
+            for i in range(n):
+                w[out + i] = w[start + i] + weight * w[slope + i]
+        elif weight != 0.0:
+            for i in range(n):
+                w[out + i] += weight * w[slope + i]
+
+
+@kernel("void(S, F, i8, i8, f8, i8)")
+def step_errors(S: Scalars, w: Floats, slopes: int, n: int, h: float, out: int) -> None:
+    """Write the estimated errors of the components of the step."""
+    weight = h * w[S.error_weights]
+    for i in range(n):
+        w[out + i] = weight * w[slopes + i]
+    for j in range(1, 7):
+        weight = h * w[S.error_weights + j]
+        for i in range(n):
+            w[out + i] += weight * w[slopes + j * n + i]
+
+
+@kernel("f8(f8)")
+def step_factor(error: float) -> float:
+    """Return by how much the next step may differ, the error being relative to its tolerance."""
+    if error <= _TINY:
+        return GROW
+    return float(min(GROW, max(SHRINK, SAFETY * error**_EXPONENT)))

@@ -1,0 +1,146 @@
+"""The blocks of the engine's memory that plug-ins write, with their names, and who has written past the end of one."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from nonsmooth.binding.source import described
+from nonsmooth.engine.memory.layout import (
+    CATALOGUE,
+    FORCE_AND_MOMENT,
+    FRAME,
+    GEOMETRY,
+    GUARD,
+    JOINT_ROW,
+    LOAD,
+    PAIR,
+    UNTOUCHED,
+)
+from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
+from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.linkages import linkages
+from nonsmooth.model.pools import find_pools
+from nonsmooth.system.contact import Contact, Tie
+
+
+class Block(NamedTuple):
+    """A block of the engine's memory.
+
+    Attributes
+    ----------
+    label : callable
+        Returns in words whose it is.
+    function : callable
+        The function that writes it.
+    start, size : int
+        Where it begins, and its floats.
+    written : int
+        How many of them a function must write.
+    """
+
+    label: Callable[[], str]
+    function: Callable[..., None]
+    start: int
+    size: int
+    written: int
+
+
+def blocks(model: LaidOut) -> Iterator[Block]:
+    """Yield the blocks of loads, bodies and listed contacts; bodies feel loads, contacts both."""
+    yield from _blocks_of_bodies(model)
+    for slot in range(int(model.memory.scalars["n_contacts"][0])):
+        yield _block_of_slot(model, slot)
+
+
+def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
+    system = model.system
+    for i, tie in enumerate(system.loads):
+        assert isinstance(tie.component, Load)
+        function = tie.component.evaluator
+        yield Block(_label(tie, function), function, _entry(model, "load_out", i), LOAD, LOAD)
+    for i, body in enumerate(system.bodies):
+        start = _entry(model, "body_out", i)
+        rates = _entry(model, "body_tail", i) - start + body.n_q + body.n_u
+        written = FRAME if body.n_u == 0 else rates
+        yield Block(functools.partial(repr, body), body.evaluator, start, rates + body.n_u**2 + 2, written)
+
+
+def _block_of_slot(model: LaidOut, slot: int) -> Block:
+    contact = model.system.contacts[_entry(model, "identity", slot)]
+    function, first = contact.kinematics.evaluator, int(model.memory.scalars["geometry"][0])
+    return Block(_label(contact, function), function, first + GEOMETRY * slot, PAIR, PAIR)
+
+
+def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
+    ties = [tie for linkage in linkages(model.system) for tie in linkage.joints]
+    for number, tie in enumerate(ties):
+        assert isinstance(tie.component, Joint)
+        function, size = tie.component.evaluator, JOINT_ROW * tie.component.n_rows
+        yield Block(_label(tie, function), function, _entry(model, "joint_out", number), size, size)
+    contacts = model.system.contacts
+    rows = model.memory.array("catalogue", len(CATALOGUE) * len(contacts)).reshape(len(contacts), len(CATALOGUE))
+    for i in np.flatnonzero(rows[:, CATALOGUE.index("traction_out")]):
+        law, starts = contacts[i].friction, dict(zip(CATALOGUE, rows[i].tolist(), strict=True))
+        assert isinstance(law, (TractionLaw, StatefulFrictionLaw))
+        if isinstance(law, TractionLaw):
+            function, start, size = law.traction, starts["traction_out"], FORCE_AND_MOMENT + len(law.initial_state)
+        else:
+            function, start, size = law.rates, starts["rates_out"], len(law.initial_state)
+        yield Block(_label(contacts[i], function), function, start, size, size)
+
+
+def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
+    for number, pool in enumerate(find_pools(model.system.contacts)):
+        function = pool.search.function
+        label = functools.partial(_words, pool.owner, function)
+        yield Block(label, function, _entry(model, "pool_out", number), pool.size, 1)
+
+
+def _label(owner: Tie | Contact, function: Callable[..., None]) -> Callable[[], str]:
+    return lambda: _words(owner.name, function)
+
+
+def _words(owner: str, function: Callable[..., None]) -> str:
+    return f"{owner}: {described(function)},"
+
+
+def _entry(model: LaidOut, name: str, i: int) -> int:
+    return int(model.memory.array(name, i + 1)[i])
+
+
+def written_past(model: LaidOut) -> str:
+    """Return a sentence that names a function that has written past its block; nothing if none has."""
+    memory = model.memory
+    slots, listed = (int(memory.scalars[name][0]) for name in ("n_slots", "n_contacts"))
+    behind = memory.array("geometry", GEOMETRY * slots).reshape(slots, GEOMETRY)[:, PAIR:]
+    written = np.flatnonzero(np.any(behind != UNTOUCHED, axis=1))
+    pairs = [_block_of_slot(model, int(slot)) for slot in written if slot < listed]
+    for block in (
+        *_blocks_of_bodies(model),
+        *pairs,
+        *_blocks_of_searches(model),
+        *_blocks_of_joints_and_laws(model),
+    ):
+        end = block.start + block.size
+        touched = memory.floats[end : end + GUARD] != UNTOUCHED
+        if np.any(touched):
+            return _sentence(block.label(), block.size, block.size + int(np.argmax(touched)))
+    n = int(memory.scalars["map_past"][0])
+    if n > 0:
+        law = model.system.contacts[0].impact
+        assert isinstance(law, ImpactMap)
+        return _sentence(f"{type(law).__name__}: {described(law.impulses)},", 3 * n, 3 * n)
+    if len(written):
+        return _sentence("the kinematics of a contact that is not near by now", PAIR, PAIR)
+    return ""
+
+
+def _sentence(name: str, size: int, number: int) -> str:
+    return (
+        f"{name} has written past the {size} numbers of its block, to out[{number}] or further on: nothing that was "
+        "computed since can be trusted. `nonsmooth check` shows the line."
+    )

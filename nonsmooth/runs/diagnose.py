@@ -1,0 +1,117 @@
+"""After a failure: which law, load or body gave a number that is not finite, or raised."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from nonsmooth.binding import interpreted
+from nonsmooth.binding.compile import parameter_names
+from nonsmooth.binding.law_failure import REMEDY, Finding, first_without_value, law_functions, without_value
+from nonsmooth.binding.source import described, raised
+from nonsmooth.engine.memory.layout import CATALOGUE, N_ACCOUNTS
+from nonsmooth.engine.memory.modes import (
+    GAP_UNEXPLAINED,
+    MOTION_UNEXPLAINED,
+    NOT_FINITE,
+    QUATERNION_UNEXPLAINED,
+    STEP_TOO_SMALL,
+)
+from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.interfaces import ImpactMap
+from nonsmooth.interfaces.guard import guard_value
+from nonsmooth.model.blocks import blocks
+from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.pools import failed_search
+from nonsmooth.runs.unexplained import unexplained
+
+
+def culprit(model: LaidOut, status: int) -> str:
+    """Return a sentence that names the first function found to raise or to return a non-finite number.
+
+    It raises nothing: what was computed matters more than why it ended, and functions that fail are called here.
+    """
+    try:
+        return _culprit(model, status)
+    except (Exception, SystemExit, KeyboardInterrupt) as error:
+        return f"Looking for the cause came to nothing: {error!r}."
+
+
+def _culprit(model: LaidOut, status: int) -> str:
+    if status in (GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
+        return unexplained(model, status)
+    found = (_in_the_map(model) if status == NOT_FINITE else "") or failed_search(model.memory, model.system.contacts)
+    found = found or _in_the_blocks(model)
+    if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
+        return found
+    found = first_without_value(_law_findings(model)) or _guard_without_value(model)
+    if found:
+        return found
+    state = model.memory.array("y", model.n_y)
+    if not np.all(np.isfinite(state)):
+        return "The state itself is not finite: check the motions and the bodies."
+    return ""
+
+
+def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
+    first_state = model.n_q + model.n_u + N_ACCOUNTS
+    for number, contact in enumerate(model.system.contacts):
+        row = model.memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
+        start, n = (int(row[CATALOGUE.index(name)]) for name in ("state", "n_state"))
+        state = model.memory.array("y", model.n_y)[first_state + start :][:n]
+        for part in law_functions(contact.friction, contact.impact, contact.normal):
+            parameters = int(row[CATALOGUE.index(f"{part.name}_parameters")])
+            yield without_value(model.memory.floats[parameters:], part, state, contact.name)
+
+
+def _in_the_blocks(model: LaidOut) -> str:
+    """Evaluate bodies, loads and contacts at the last state, at its time, at the end of the step and shortly after."""
+    scalars = model.memory.scalars
+    t = float(scalars["t"][0])
+    for time in (t, t + float(scalars["h"][0]), t + 10.0 * float(scalars["time_tolerance"][0])):
+        scalars["t"] = time
+        call_room("evaluate_at", model.memory)
+        scalars["t"] = t
+        for block in blocks(model):
+            if not np.all(np.isfinite(model.memory.floats[block.start : block.start + block.written])):
+                what = interpreted.noted(block.function) or "raises or gives a number that is not finite"
+                return f"{block.label()} {what} at t = {time:.9g} s. {REMEDY}"
+    return ""
+
+
+def _in_the_map(model: LaidOut) -> str:
+    """Run the impact map, as plain Python, on the set that collided last."""
+    memory = model.memory
+    n = int(memory.scalars["n_active"][0])
+    law = model.system.contacts[0].impact if model.system.contacts else None
+    if n == 0 or not isinstance(law, ImpactMap) or np.all(np.isfinite(memory.array("impulse", 3 * n))):
+        return ""
+    names = parameter_names(law.impulses, "map")
+    given = memory.array("map_block", n * len(names)).reshape(-1, n)
+    delassus, rates, out = memory.array("matrix", 9 * n * n), memory.array("impact_z0", 3 * n), np.zeros(3 * n)
+    try:
+        law.impulses(n, delassus.copy(), rates.copy(), out, **dict(zip(names, given.copy(), strict=True)))
+        what = "gives impulses that are not finite"
+    except Exception as error:
+        what = raised(law.impulses, error)
+    listed = memory.array("identity", int(memory.scalars["n_contacts"][0]))
+    among = [model.system.contacts[int(i)].name for i in listed[memory.array("active", n)]]
+    before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
+    return (
+        f"{type(law).__name__}: {described(law.impulses)}, {what} for the rates {before} m/s "
+        f"({n} in contact: {'; '.join(among)})."
+    )
+
+
+def _guard_without_value(model: LaidOut) -> str:
+    """Look at the guards at the end of the step that failed."""
+    scalars, state = model.memory.scalars[0], model.memory.array("y_new", model.n_y)
+    q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]
+    for guard in model.system.guards:
+        value = guard_value(guard, float(scalars["t"] + scalars["h"]), q, u)
+        if not isinstance(value, float) or not math.isfinite(value):
+            what = raised(guard.value, value) if isinstance(value, Exception) else f"gives {value!r}"
+            return f"{type(guard).__name__}: {described(guard.value)}, {what} within {float(scalars['h']):g} s."
+    return ""
