@@ -1,4 +1,4 @@
-"""The matrices ``slide`` and ``turn`` of a surface (:mod:`nonsmooth.engine.memory.layout`), along principal lines."""
+"""The matrices ``slide`` and ``turn`` of a surface (:mod:`nonsmooth.engine.memory.blocks`), along principal lines."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.layout import JOINT_ROW
+from nonsmooth.engine.memory.blocks import JOINT_ROW
 from nonsmooth.types import Floats
 
 

@@ -10,7 +10,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.layout import PAIR
+from nonsmooth.engine.memory.blocks import PAIR
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.model.assembly import lay_out

@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.kinematics import evaluate_row_response, push_response, wrench_row
-from nonsmooth.engine.memory.layout import GEOMETRY, N_ACCOUNTS
+from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, GAP, GEOMETRY, SPIN, TRACTION, TRACTION_MOMENT
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_compliance, call_load, kernel
 
@@ -19,7 +20,7 @@ def evaluate_given_force(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write the normal force of the compliant contact ``c``, its geometry and rates being known."""
     w[S.given + c] = call_compliance(
         k[S.normal_function + c],
-        -w[S.geometry + GEOMETRY * c],
+        -w[S.geometry + GEOMETRY * c + GAP],
         -w[S.rate + 3 * c],
         w[S.closing_rate + c],
         at(w, k[S.normal_parameters + c]),
@@ -29,7 +30,7 @@ def evaluate_given_force(S: Scalars, w: Floats, k: Integers, c: int) -> None:
 @kernel("void(S, F, I, i8)")
 def _evaluate_motion(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write slip velocity and relative angular velocity of contact ``c`` along its unit tangents and normal."""
-    a, b = k[S.frame_a + c] + 15, k[S.frame_b + c] + 15
+    a, b = k[S.frame_a + c] + SPIN, k[S.frame_b + c] + SPIN
     axes = S.axes + 9 * c
     for i in range(2):
         w[S.motion + i] = w[S.rate + 3 * c + 1 + i]
@@ -56,7 +57,7 @@ def evaluate_traction(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> Non
     )
     w[S.turned + c] = 0.0
     for i in range(3):
-        w[S.turned + c] += w[out + 2 + i] * w[S.motion + 2 + i]
+        w[S.turned + c] += w[out + TRACTION_MOMENT + i] * w[S.motion + 2 + i]
 
 
 @kernel("i8(S, I, i8, i8)")
@@ -95,7 +96,7 @@ def write_state_rates(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> N
         n = k[S.n_state + c]
         if n == 0 or k[S.mode + c] == OPEN:
             continue
-        source = k[S.traction_out + c] + 5
+        source = k[S.traction_out + c] + FORCE_AND_MOMENT
         if k[S.state_copy + c] > 0:
             source = k[S.rates_out + c]
             v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
@@ -115,7 +116,7 @@ def lay_wrench(S: Scalars, w: Floats, k: Integers, c: int, f: int) -> None:
         for r in range(3):
             w[force + i] += w[f + r] * w[axes + 3 * r + i]
         if k[S.traction_function + c] != 0:
-            out = k[S.traction_out + c] + 2
+            out = k[S.traction_out + c] + TRACTION_MOMENT
             for r in range(3):
                 w[moment + i] += w[out + r] * w[axes + 3 * ((r + 1) % 3) + i]
     wrench_row(S, w, k, c, 1, force, moment)
@@ -128,7 +129,7 @@ def rub_by_traction(S: Scalars, w: Floats, k: Integers, c: int, f: int, y: int) 
     evaluate_traction(S, w, k, c, y)
     w[f] = w[S.given + c]
     for r in range(2):
-        w[f + 1 + r] = w[k[S.traction_out + c] + r]
+        w[f + 1 + r] = w[k[S.traction_out + c] + TRACTION + r]
 
 
 @kernel()

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.contact.components import contact_of, direction_of
 from nonsmooth.engine.contact.spread import spread
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.numerics.null_band import project_on_null
@@ -30,7 +31,7 @@ def _least_room(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     least = 1e300
     for i in range(n):
         line = k[S.column + i]
-        a = line // 3
+        a = contact_of(line)
         if line == 3 * a + 1 and k[S.normal_held + a] == 0 and k[S.redundant + a] == 1:
             t1, t2 = w[S.f + line], w[S.f + line + 1]
             least = min(least, w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2))
@@ -48,7 +49,7 @@ def _least_room(S: Scalars, w: Floats, k: Integers, n: int) -> float:
 def _keep_share(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Keep by how much the forces ``f`` differ from ``x``, those of least norm."""
     for i in range(n):
-        a, r = k[S.column + i] // 3, k[S.column + i] % 3
+        a, r = contact_of(k[S.column + i]), direction_of(k[S.column + i])
         w[S.share + 3 * k[S.active + a] + r] = w[S.f + k[S.column + i]] - w[S.f_raw + i]
 
 
@@ -90,7 +91,7 @@ def add_share(S: Scalars, w: Floats, k: Integers) -> None:
     """Add what of the share lies in the present null space to the unknowns ``x``."""
     n = S.n_unknown
     for i in range(n):
-        a, r = k[S.column + i] // 3, k[S.column + i] % 3
+        a, r = contact_of(k[S.column + i]), direction_of(k[S.column + i])
         w[S.sigma + i] = w[S.share + 3 * k[S.active + a] + r]
     if S.null_banded == 1:
         project_on_null(S, w, n, S.sigma)

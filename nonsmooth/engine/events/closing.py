@@ -6,7 +6,7 @@ from nonsmooth.engine.bodies.compliance import begin_contact
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.delassus.islands import activate_group, group_members
-from nonsmooth.engine.events.record import record_event, remember
+from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
@@ -125,9 +125,9 @@ def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
 def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
     """Shut the marked contacts, book what it takes, and record it."""
     before = S.driven_work
-    w[S.event_head + 4] = _shut(S, w, k)
-    w[S.event_head + 1] = S.driven_work - before
-    S.closing_loss += w[S.event_head + 4]
+    w[S.event_head + CLOSING_LOSS] = _shut(S, w, k)
+    w[S.event_head + DRIVEN_WORK] = S.driven_work - before
+    S.closing_loss += w[S.event_head + CLOSING_LOSS]
     contact = -1
     for c in range(S.n_contacts):
         if k[S.closes + c] == 1:

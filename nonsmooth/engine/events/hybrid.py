@@ -14,6 +14,14 @@ from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS, r
 from nonsmooth.engine.events.settle import settle
 from nonsmooth.engine.flow.clearance import bound_speeds, foresee
 from nonsmooth.engine.flow.flow import right_hand_side, slope, try_step
+from nonsmooth.engine.flow.guard_numbers import (
+    contact_of,
+    first_end_guard,
+    first_own_guard,
+    friction_guard,
+    is_friction_guard,
+    normal_guard,
+)
 from nonsmooth.engine.flow.guards import arm_guards, keep_end, watch_features, write_guards
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (
@@ -23,7 +31,8 @@ from nonsmooth.engine.flow.projection import (
 )
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.impact.instant import is_jammed
-from nonsmooth.engine.memory.layout import FALL, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.layout import FALL, LAST_STAGE
 from nonsmooth.engine.memory.modes import (
     DONE,
     EVENTS_ENDLESS,
@@ -81,7 +90,7 @@ def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
     """
-    if k[S.normal_function + c] == 0 or w[S.guard_end + 2 * c] > _BEGINS * S.gap_tolerance:
+    if k[S.normal_function + c] == 0 or w[S.guard_end + normal_guard(c)] > _BEGINS * S.gap_tolerance:
         return 1e300
     rate = S.rate_end + 3 * c
     speed = math.sqrt(w[rate] * w[rate] + w[rate + 1] * w[rate + 1] + w[rate + 2] * w[rate + 2])
@@ -233,13 +242,13 @@ def _closing_cause(S: Scalars, k: Integers, c: int) -> int:
 @kernel("i8(S, F, I)")
 def _cause(S: Scalars, w: Floats, k: Integers) -> int:
     """Return what the guard that fired means."""
-    c = S.trigger // 2
-    if S.trigger % 2 == 0:
+    c = contact_of(S.trigger)
+    if is_friction_guard(S.trigger) == 0:
         return _closing_cause(S, k, c) if k[S.mode + c] == OPEN else LIFT_OFF
     if k[S.mode + c] != STICK:
         return SLIP_TO_STICK
     # the static bound vanishes with the normal force
-    return LIFT_OFF if w[S.guard + 2 * c] <= 1e-9 * w[S.guard_first + 2 * c] else STICK_TO_SLIP
+    return LIFT_OFF if w[S.guard + normal_guard(c)] <= 1e-9 * w[S.guard_first + normal_guard(c)] else STICK_TO_SLIP
 
 
 @kernel("i8(S, F, I, i8, i8)")
@@ -264,7 +273,7 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.mode + c] == SLIDE and k[S.traction_function + c] == 0:
             v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
-            if speed <= S.velocity_tolerance and speed < w[S.guard_first + 2 * c + 1]:
+            if speed <= S.velocity_tolerance and speed < w[S.guard_first + friction_guard(c)]:
                 return c
     return -1
 
@@ -300,7 +309,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     else:
         watch_features(S, w, k)
         for i in range(S.n_y):
-            w[S.slopes + i] = w[S.slopes + 6 * S.n_y + i]
+            w[S.slopes + i] = w[S.slopes + LAST_STAGE * S.n_y + i]
     S.h_listed = 1e300
     if S.n_units > 0:
         S.h_listed = longest_step(S, w, k)
@@ -318,12 +327,12 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
             w[S.arm_first + 3 * c + r] = w[S.arm_end + 3 * c + r]
     # a gap that closes exactly where the last step ended is an event of that step
     for c in range(S.n_contacts):
-        arrived = w[S.guard_end + 2 * c] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance
+        arrived = w[S.guard_end + normal_guard(c)] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance
         if k[S.mode + c] == OPEN and arrived:
             S.fresh = 0
             return _settle_event(S, w, k, _closing_cause(S, k, c), c)
         # what put the contacts on their constraints may have put one past its end
-        if k[S.mode + c] != OPEN and w[S.guard_end + 2 * S.n_contacts + S.n_own_guards + c] < 0.0:
+        if k[S.mode + c] != OPEN and w[S.guard_end + first_end_guard(S) + c] < 0.0:
             S.fresh = 0
             return _settle_event(S, w, k, FEATURE_END, c)
     _orient_slips(S, w, k)
@@ -339,7 +348,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     S.steps += 1
     h = S.h
     high = first_crossing(S, w, k, h)
-    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+    for i in range(first_own_guard(S), first_end_guard(S)):
         if not abs(w[S.guard_end + i]) < 1e300:
             return _up_to_end(S, NOT_FINITE)
     if high == 0.0:
@@ -364,19 +373,18 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         return RUNNING
     if h > S.t_end - S.t:
         return _end_within(S, w, k)
-    ends = 2 * S.n_contacts + S.n_own_guards
-    if S.trigger >= ends:
-        contact = S.trigger - ends
+    if S.trigger >= first_end_guard(S):
+        contact = S.trigger - first_end_guard(S)
         changed = w[S.geometry + GEOMETRY * contact + PAST_END] <= S.gap_tolerance
         _commit(S, w, k, h)
         if changed:
             S.feature_t = S.t
         return _settle_event(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, contact)
-    if S.trigger >= 2 * S.n_contacts:
+    if S.trigger >= first_own_guard(S):
         _commit(S, w, k, h)
-        return _own_event(S, w, k, S.trigger - 2 * S.n_contacts)
+        return _own_event(S, w, k, S.trigger - first_own_guard(S))
     cause = _cause(S, w, k)
-    contact = S.trigger // 2
+    contact = contact_of(S.trigger)
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, contact)
     _commit(S, w, k, h)
@@ -392,7 +400,7 @@ def _shares_hold(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
     The guard that fired must be that of a force.  A second time within the time tolerance there is no choice: then all
     forces vanish.
     """
-    if k[S.mode + contact] == OPEN or (S.trigger % 2 == 1 and k[S.holds + contact] == 0):
+    if k[S.mode + contact] == OPEN or (is_friction_guard(S.trigger) == 1 and k[S.holds + contact] == 0):
         return 0
     if S.t - S.chosen_t <= S.time_tolerance:
         return 0

@@ -8,13 +8,17 @@ from nonsmooth.engine.memory.modes import GUARD, OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
+TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
+"""Which float at the head of an event is which."""
 EVENT_HEAD = 5
-"""Floats at the head of an event: time, driven work, restitution loss, friction loss, closing loss.
+"""Floats at the head of an event.
 
 Coordinates follow, velocities before and after, and the impulses of the contacts listed.
 """
+CAUSE, CONTACT, PHASES, TRUNCATED, N_LISTED = range(5)
+"""Which integer at the head of an event is which; truncated is a cascade that was cut short."""
 CODE_HEAD = 5
-"""Integers at the head of an event: cause, contact, phases, whether cut short, number of contacts listed.
+"""Integers at the head of an event.
 
 Contact and code of each of these follow, and their impulses at the end of the floats.
 """
@@ -78,7 +82,7 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
     width = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * n
     S.last_floats, S.last_integers = S.floats_used, S.integers_used
     row = S.events + S.floats_used
-    w[S.event_head] = S.t
+    w[S.event_head + TIME] = S.t
     for i in range(EVENT_HEAD):
         w[row + i] = w[S.event_head + i]
     row += EVENT_HEAD
@@ -90,11 +94,11 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
         w[row + S.n_u + i] = w[S.y + S.n_q + i]
     row += 2 * S.n_u
     codes = S.event_codes + S.integers_used
-    k[codes], k[codes + 1], k[codes + 2] = cause, contact, phases
+    k[codes + CAUSE], k[codes + CONTACT], k[codes + PHASES] = cause, contact, phases
     if contact >= 0 and cause != GUARD:
-        k[codes + 1] = k[S.identity + contact]
-    k[codes + 3] = S.truncated if phases > 0 else 0
-    k[codes + 4] = n
+        k[codes + CONTACT] = k[S.identity + contact]
+    k[codes + TRUNCATED] = S.truncated if phases > 0 else 0
+    k[codes + N_LISTED] = n
     for i in range(n):
         c = k[S.listed + i]
         for r in range(3):
@@ -120,7 +124,7 @@ def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
     S.n_events -= 1
     S.recorded -= 1
     codes = S.event_codes + S.last_integers
-    record_event(S, w, k, k[codes], S.last_contact, k[codes + 2])
+    record_event(S, w, k, k[codes + CAUSE], S.last_contact, k[codes + PHASES])
 
 
 @kernel("void(S, F, I, f8)")

@@ -15,8 +15,19 @@ from nonsmooth.engine.contact.trial import small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
 from nonsmooth.engine.events.closing import close_contacts, hand_over
-from nonsmooth.engine.events.record import MOST_EVENTS, amend_last, code, impact_code, record_event, remember
+from nonsmooth.engine.events.record import (
+    DRIVEN_WORK,
+    FRICTION_LOSS,
+    MOST_EVENTS,
+    RESTITUTION_LOSS,
+    amend_last,
+    code,
+    impact_code,
+    record_event,
+    remember,
+)
 from nonsmooth.engine.events.twins import has_replaced
+from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.flow.self_check import open_account
 from nonsmooth.engine.impact.instant import jam_slips, map_impact
@@ -96,9 +107,9 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
         truncated = max(truncated, S.truncated)
     S.impacts += 1
     S.phases, S.truncated = phases, truncated
-    S.driven_work += w[S.event_head + 1]
-    S.restitution_loss += w[S.event_head + 2]
-    S.friction_loss += w[S.event_head + 3]
+    S.driven_work += w[S.event_head + DRIVEN_WORK]
+    S.restitution_loss += w[S.event_head + RESTITUTION_LOSS]
+    S.friction_loss += w[S.event_head + FRICTION_LOSS]
     # until the instant is settled: apart is open, the rest goes by its slip
     S.approaching = touch(S, w, k)
     for c in range(S.n_contacts):
@@ -136,12 +147,12 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     add_response(S, w, k, S.impulse, S.y + S.n_q)
     for a in range(m):
         c = k[S.active + a]
-        w[S.event_head + 2] += w[S.stored + a] - w[S.returned + a]
-        w[S.event_head + 3] += w[S.rubbed + a]
+        w[S.event_head + RESTITUTION_LOSS] += w[S.stored + a] - w[S.returned + a]
+        w[S.event_head + FRICTION_LOSS] += w[S.rubbed + a]
         for r in range(3):
             impulse = w[S.impulse + 3 * a + r]
             w[S.event_impulse + 3 * c + r] = impulse
-            w[S.event_head + 1] -= impulse * w[S.prescribed_rate + 3 * c + r]
+            w[S.event_head + DRIVEN_WORK] -= impulse * w[S.prescribed_rate + 3 * c + r]
         if k[S.oriented + c] == 1:
             unstretch_force(S, w, k, c, S.event_impulse + 3 * c)
     return RUNNING
@@ -168,9 +179,9 @@ def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     largest = 0.0
     for other in range(S.n_contacts):
         if k[S.mode + other] != OPEN and k[S.normal_function + other] == 0:
-            largest = max(largest, w[S.guard_first + 2 * other])
+            largest = max(largest, w[S.guard_first + normal_guard(other)])
     rigid = k[S.normal_function + c] == 0
-    return 1 if rigid and k[S.mode + c] != OPEN and w[S.guard + 2 * c] <= 1e-9 * largest else 0
+    return 1 if rigid and k[S.mode + c] != OPEN and w[S.guard + normal_guard(c)] <= 1e-9 * largest else 0
 
 
 @kernel("void(S, F, I, i8, i8)")

@@ -13,7 +13,8 @@ from nonsmooth.engine.contact.held_contacts import hold_contacts, lay_rows
 from nonsmooth.engine.contact.problem import free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.layout import GEOMETRY, N_ACCOUNTS
+from nonsmooth.engine.memory.blocks import GAP, GEOMETRY
+from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LAST_STAGE, LOADS, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
@@ -107,7 +108,7 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
 def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach."""
     if k[S.normal_function + c] != 0:
-        return w[S.reach + c] - w[S.geometry + GEOMETRY * c]
+        return w[S.reach + c] - w[S.geometry + GEOMETRY * c + GAP]
     return w[S.force + 3 * c]
 
 
@@ -148,10 +149,9 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
         w[S.least_force + c] = min(w[S.least_force + c], hold)
         if sticks or hold < 0.0 or slip_guard(S, w, k, c) < 0.0:
             S.suspect = 1
-    w[out + S.n_q + S.n_u] = S.driven_power
-    w[out + S.n_q + S.n_u + 1] = lost
-    w[out + S.n_q + S.n_u + 2] = abs(own) + abs(S.driven_power) + abs(lost)
-    w[out + S.n_q + S.n_u + 3] = S.load_power
+    powers = out + S.n_q + S.n_u
+    w[powers + DRIVEN], w[powers + FRICTION_LOSS], w[powers + LOADS] = S.driven_power, lost, S.load_power
+    w[powers + EXCHANGED] = abs(own) + abs(S.driven_power) + abs(lost)
     write_state_rates(S, w, k, y, out)
 
 
@@ -177,8 +177,8 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     S.suspect = 0
     for c in range(S.n_contacts):
         w[S.least_force + c] = 1e300
-    for stage in range(1, 7):
-        out = S.y_new if stage == 6 else S.y_stage
+    for stage in range(1, N_STAGES):
+        out = S.y_new if stage == LAST_STAGE else S.y_stage
         stage_state(S, w, S.y, S.slopes, n, stage, h, out)
         slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n)
     step_errors(S, w, S.slopes, n, h, S.y_stage)

@@ -12,6 +12,13 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing
 from nonsmooth.engine.flow.flow import try_step
+from nonsmooth.engine.flow.guard_numbers import (
+    contact_of,
+    first_own_guard,
+    friction_guard,
+    normal_guard,
+    number_of_guards,
+)
 from nonsmooth.engine.flow.guards import (
     arm_further,
     deflate,
@@ -21,7 +28,8 @@ from nonsmooth.engine.flow.guards import (
     keep_end,
     write_guards,
 )
-from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import dense_state
@@ -117,7 +125,7 @@ def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Look for a dip of a normal force or a static margin between the samples."""
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
-            for i in range(2 * c, 2 * c + (2 if k[S.mode + c] == STICK else 1)):
+            for i in range(normal_guard(c), (friction_guard(c) if k[S.mode + c] == STICK else normal_guard(c)) + 1):
                 if k[S.guard_armed + i] == 1:
                     theta = _lowest(S, w, k, h, i)
                     if theta > 0.0:
@@ -130,7 +138,7 @@ def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
     """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
     soonest = 1e300
     for c in range(S.n_contacts):
-        gap, rate = w[S.geometry + GEOMETRY * c], w[S.gap_rate + c]
+        gap, rate = w[S.geometry + GEOMETRY * c + GAP], w[S.gap_rate + c]
         if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c + PAST_END] <= 0.0 and gap > 0.0 and rate < 0.0:
             soonest = min(soonest, -gap / rate)
     return soonest
@@ -147,7 +155,7 @@ def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for i in range(S.n_astray):
         c = k[S.astray + i]
         speed = w[S.speed_first + c] + w[S.speed_end + c]
-        way = min(_FARTHEST * w[S.size + c], max(w[S.geometry + GEOMETRY * c], WAY * w[S.size + c]))
+        way = min(_FARTHEST * w[S.size + c], max(w[S.geometry + GEOMETRY * c + GAP], WAY * w[S.size + c]))
         if way < least * speed:
             least = way / speed
     return float(max(least, _SHORTEST * h))
@@ -204,7 +212,9 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     fired = first_fired(S, w, k, 1, -1)
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + 2 * c], w[S.guard_end + 2 * c]):
+        if k[S.mode + c] != OPEN and w[S.least_force + c] < min(
+            w[S.guard_first + normal_guard(c)], w[S.guard_end + normal_guard(c)]
+        ):
             S.suspect = 1
     forces = closed if S.suspect == 1 else 0
     looks = forces + S.n_own_guards
@@ -215,7 +225,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
                 guards_within(S, w, k, h, _MIDDLE, closed)
             return _MIDDLE
         arm_further(S, w, k, forces)
-        for i in range(3 * S.n_contacts + S.n_own_guards):
+        for i in range(number_of_guards(S)):
             w[S.guard_middle + i] = w[S.guard + i]
         if forces == 1 and fired < 0:
             theta = _force_dip(S, w, k, h)
@@ -229,7 +239,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             return theta
     if looks > 0:
         evaluate_bodies(S, w, k, S.t + h, S.y_new)
-        for i in range(3 * S.n_contacts + S.n_own_guards):
+        for i in range(number_of_guards(S)):
             w[S.guard + i] = w[S.guard_end + i]
         for c in range(S.n_contacts):
             w[S.gap_rate + c] = w[S.gap_rate_end + c]
@@ -275,7 +285,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
         if is_gap(S, w, k, i) == 1:
-            S.guard_slope = w[S.gap_rate + i // 2]
+            S.guard_slope = w[S.gap_rate + contact_of(i)]
             if k[S.guard_deflated + i] == 1:
                 S.guard_slope = (S.guard_slope - g) / (theta * h)
         if g == 0.0 or (high - low) * h <= fine or abs(g) <= -fine * S.guard_slope:
@@ -318,7 +328,7 @@ def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
             return step
         # so short a way is straight
         for j in range(S.n_y):
-            w[S.y_new + j] += way * w[S.slopes + 6 * S.n_y + j]
+            w[S.y_new + j] += way * w[S.slopes + LAST_STAGE * S.n_y + j]
         step += way
         way *= 2.0
     return -1.0
@@ -341,7 +351,7 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
         if k[S.guard_deflated + i] == 1:
             value -= w[S.guard_start + i]
         if is_gap(S, w, k, i) == 1:
-            slope = w[S.gap_rate + i // 2]
+            slope = w[S.gap_rate + contact_of(i)]
         elif k[S.guard_deflated + i] == 1:
             value /= step
         # a gap that closes slower than what counts as rest does not tell where
@@ -351,7 +361,7 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
         if abs(correction) <= _SHORT * h:
             # so short a way is straight
             for j in range(S.n_y):
-                w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
+                w[S.y_new + j] += correction * w[S.slopes + LAST_STAGE * S.n_y + j]
             return float(step + correction)
         if value > 0.0:
             early = step
@@ -370,9 +380,9 @@ def _overtaken(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if a correction went past the closing of another contact than that of the guard ``trigger``."""
     for c in range(S.n_contacts):
         block = S.geometry + GEOMETRY * c
-        if k[S.mode + c] == OPEN and c != S.trigger // 2 and w[block + PAST_END] <= 0.0:
-            start = min(0.0, w[S.guard_start + 2 * c])
-            if w[block] < start - _FAR_BEHIND * S.gap_tolerance and w[S.gap_rate + c] < 0.0:
+        if k[S.mode + c] == OPEN and c != contact_of(S.trigger) and w[block + PAST_END] <= 0.0:
+            start = min(0.0, w[S.guard_start + normal_guard(c)])
+            if w[block + GAP] < start - _FAR_BEHIND * S.gap_tolerance and w[S.gap_rate + c] < 0.0:
                 return 1
     return 0
 
@@ -390,7 +400,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     theta = high
     S.trigger = max(0, first)
     roots = 0
-    while first >= 0 and roots < 3 * S.n_contacts + S.n_own_guards:
+    while first >= 0 and roots < number_of_guards(S):
         if closed == 1 and roots == _MOST_ROOTS:
             return -1.0
         if closed == 1 and roots > _FEW_ROOTS and w[S.guard_first + first] < 0.0:
@@ -416,7 +426,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     i = S.trigger
     step = theta * h
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
-    jumps = 1 if i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and is_gap(S, w, k, i) == 0 else 0
+    jumps = 1 if i < first_own_guard(S) and k[S.mode + contact_of(i)] == OPEN and is_gap(S, w, k, i) == 0 else 0
     if S.step_error <= _NEGLIGIBLE or jumps == 1:
         dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
         return step

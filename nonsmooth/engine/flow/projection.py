@@ -10,7 +10,7 @@ from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, own_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
-from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import JOINTS_APART, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED, RUNNING, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 

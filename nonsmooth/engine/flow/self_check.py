@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END, POINT_A, POINT_B
+from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, RUNNING
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 
@@ -25,7 +26,7 @@ def blame(S: Scalars, status: int, number: int, found: float, allowed: float) ->
 def held_gap(S: Scalars, w: Floats, c: int) -> float:
     """Return the gap that a closed contact is to lose; past the end of its features it only tells how far."""
     block = S.geometry + GEOMETRY * c
-    return w[block] if w[block + PAST_END] <= 0.0 else 0.0
+    return w[block + GAP] if w[block + PAST_END] <= 0.0 else 0.0
 
 
 @kernel("f8(S, F, I, i8)")
@@ -37,7 +38,7 @@ def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     length = 0.0
     for side in range(2):
         frame = k[S.frame_a + c] if side == 0 else k[S.frame_b + c]
-        point = S.geometry + GEOMETRY * c + 7 + 3 * side
+        point = S.geometry + GEOMETRY * c + (POINT_A if side == 0 else POINT_B)
         far = 0.0
         for i in range(3):
             far += abs(w[point + i]) + abs(w[point + i] - w[frame + i])
@@ -98,7 +99,7 @@ def close_account(S: Scalars, w: Floats, k: Integers) -> None:
     kinetic, potential = energy_of_bodies(S, w, k, 0), energy_of_bodies(S, w, k, 1)
     booked = _booked(S) - S.booked_before
     change = kinetic - S.kinetic_before + (potential - S.potential_before)
-    exchanged = abs(w[S.y + S.n_q + S.n_u + 2])
+    exchanged = abs(w[S.y + S.n_q + S.n_u + EXCHANGED])
     explained = EXPLAINED * S.impact_rtol * (S.kinetic_before + kinetic + abs(booked))
     explained += _ROUND_OFF * (exchanged + abs(potential) + abs(S.potential_before))
     share = abs(change - booked) / explained if explained > 0.0 else 0.0
@@ -112,6 +113,6 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
     evaluate_bodies(S, w, k, S.t, S.y)
     for c in range(S.n_contacts):
         evaluate_geometry(S, w, k, c)
-        w[S.gap_end + c] = w[S.geometry + GEOMETRY * c]
+        w[S.gap_end + c] = w[S.geometry + GEOMETRY * c + GAP]
     close_account(S, w, k)
     check_gaps(S, w, k)

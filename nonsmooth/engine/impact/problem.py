@@ -14,6 +14,10 @@ from nonsmooth.engine.impact.clock import change_clock
 from nonsmooth.engine.impact.end import account, cut_short, empty, end_trapped, faded, finish, finished
 from nonsmooth.engine.impact.friction import break_away, choose_friction
 from nonsmooth.engine.impact.guards import (
+    ENERGY_GUARD,
+    FRICTION_GUARD,
+    GUARDS,
+    RATE_GUARD,
     TOGETHER,
     aim,
     arm_impact_guards,
@@ -24,9 +28,12 @@ from nonsmooth.engine.impact.guards import (
 )
 from nonsmooth.engine.impact.rates import (
     COMPRESSION,
+    DEFORMATION,
+    ENERGY,
     EXPANSION,
     HELD,
     IDLE,
+    LOST,
     NOISE,
     STRIDE,
     efficiency,
@@ -35,6 +42,7 @@ from nonsmooth.engine.impact.rates import (
 )
 from nonsmooth.engine.impact.scales import scale_impact
 from nonsmooth.engine.impact.step import try_impact_step, try_linear_step
+from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.runge_kutta import step_factor
@@ -74,25 +82,25 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     """Change the phases whose guards have come to zero; they are evaluated."""
     friction = 0
     for a in range(S.n_active):
-        guard = S.impact_guard + 3 * a
+        guard = GUARDS * a
         phase = k[S.phase + a]
         loaded = phase == EXPANSION or phase == COMPRESSION
-        if loaded and (S.trigger == 3 * a + 1 or w[guard + 1] < TOGETHER):
+        if loaded and (S.trigger == guard + ENERGY_GUARD or w[S.impact_guard + guard + ENERGY_GUARD] < TOGETHER):
             account(S, w, k, a)
             k[S.waves + k[S.active + a]] += 1
             k[S.phase + a] = IDLE
             # a contact that opens under load leaves the others with forces that they did not have
-            friction += 1 if w[S.impact_y + STRIDE * a + 7] > 0.0 else 0
+            friction += 1 if w[S.impact_y + STRIDE * a + LOST] > 0.0 else 0
             empty(S, w, a)
             k[S.tangent_held + a] = 0
             S.phases += 1
             continue
-        if S.trigger == 3 * a or w[guard] < TOGETHER:
+        if S.trigger == guard + RATE_GUARD or w[S.impact_guard + guard + RATE_GUARD] < TOGETHER:
             friction += _turn(S, w, k, a)
             S.phases += 1
             # where joints leave a line to move on, slip and approach come to rest together
             friction += _rests(S, w, k, a)
-        elif S.trigger == 3 * a + 2 or w[guard + 2] < TOGETHER:
+        elif S.trigger == guard + FRICTION_GUARD or w[S.impact_guard + guard + FRICTION_GUARD] < TOGETHER:
             S.phases += 1
             if k[S.tangent_held + a] == 1:
                 break_away(S, w, k, a)
@@ -128,7 +136,7 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
         share = efficiency(S, w, k, a, 0.0)
         if min(share, efficiency(S, w, k, a, 1e-300)) > _NO_RETURN:
             k[S.phase + a] = EXPANSION
-            w[S.impact_y + STRIDE * a + 7] = (1.0 - share) * w[S.impact_y + STRIDE * a + 6]
+            w[S.impact_y + STRIDE * a + LOST] = (1.0 - share) * w[S.impact_y + STRIDE * a + ENERGY]
             return 0
         # without restitution the stored energy is lost at once and the contact stays closed
         empty(S, w, a)
@@ -161,7 +169,7 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         if S.painleve == 1 and k[S.impacting + k[S.active + a]] == 1:
             # an impact without collision starts from a seed of deformation instead of a speed
             pushed = True
-            w[S.impact_y + STRIDE * a + 3] = 1e-3 * w[S.impact_x_scale + a]
+            w[S.impact_y + STRIDE * a + DEFORMATION] = 1e-3 * w[S.impact_x_scale + a]
         k[S.phase + a] = COMPRESSION if pushed else IDLE
         S.phases += 1 if pushed else 0
     choose_friction(S, w, k, probe)
@@ -205,7 +213,7 @@ def _fade(S: Scalars, w: Floats, k: Integers) -> None:
     They start again at twice the rate, so that the two do not chase each other.
     """
     for a in range(S.n_active):
-        x = S.impact_y + STRIDE * a + 3
+        x = S.impact_y + STRIDE * a + DEFORMATION
         passed = k[S.phase + a] == EXPANSION or (k[S.phase + a] == COMPRESSION and k[S.waves + k[S.active + a]] > 0)
         # the energy is known to the tolerance only, the deformation better
         weak = w[S.f + 3 * a] * w[x] <= S.faint * S.faint * w[S.impact_energy_scale + a]
@@ -334,7 +342,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) ->
             _orient(S, w, k)
             arm_impact_guards(S, w, k)
             for i in range(n):
-                w[S.impact_slopes + i] = w[S.impact_slopes + 6 * n + i]
+                w[S.impact_slopes + i] = w[S.impact_slopes + LAST_STAGE * n + i]
         h = min(grown, _LARGEST * shortest)
     return ENDLESS
 
@@ -346,8 +354,8 @@ def _at_event(S: Scalars, w: Floats, k: Integers) -> float:
     Of a contact that opens under load the energy guard is what is still to come back, a part of all that may be small.
     """
     a = S.lone
-    lost = w[S.impact_y + STRIDE * a + 7]
-    if S.aimed != 3 * a + 1 or lost == 0.0:
+    lost = w[S.impact_y + STRIDE * a + LOST]
+    if S.aimed != GUARDS * a + ENERGY_GUARD or lost == 0.0:
         return _AT_EVENT
     share = efficiency(S, w, k, a, 0.0)
     returned = lost * share / ((1.0 - share) * w[S.impact_energy_scale + a])
@@ -363,7 +371,7 @@ def _orient(S: Scalars, w: Floats, k: Integers) -> None:
         if k[S.phase + a] != IDLE and k[S.tangent_held + a] == 0 and speed > w[S.rest_slip + a]:
             c = k[S.active + a]
             w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
-            w[S.impact_guard + 3 * a + 2] = NOISE + speed / S.speed_scale
+            w[S.impact_guard + GUARDS * a + FRICTION_GUARD] = NOISE + speed / S.speed_scale
 
 
 @kernel("f8(S, F, I, f8)")
@@ -371,7 +379,7 @@ def _graded(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Shorten the step towards the end of an expansion, where the force law is not smooth, geometrically."""
     small = _LAST * S.impact_rtol**0.4
     for a in range(S.n_active):
-        x, rate = w[S.impact_y + STRIDE * a + 3], w[S.impact_slopes + STRIDE * a + 3]
+        x, rate = w[S.impact_y + STRIDE * a + DEFORMATION], w[S.impact_slopes + STRIDE * a + DEFORMATION]
         if k[S.phase + a] == EXPANSION and x > small * w[S.impact_x_scale + a] and h * rate < -_SHARE * x:
             h = -_SHARE * x / rate
     return h

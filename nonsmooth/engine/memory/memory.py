@@ -10,16 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.layout import (
-    FLOAT_ARRAYS,
-    GEOMETRY,
-    GUARD,
-    INTEGER_ARRAYS,
-    N_STAGES,
-    PAIR,
-    SCALARS,
-    UNTOUCHED,
-)
+from nonsmooth.engine.memory.blocks import GEOMETRY, GUARD, PAIR, UNTOUCHED
+from nonsmooth.engine.memory.layout import FLOAT_ARRAYS, INTEGER_ARRAYS, N_STAGES, SCALARS
 from nonsmooth.parameters import Table
 
 
