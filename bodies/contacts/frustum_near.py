@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
+from nonsmooth.engine.memory.blocks import POSITION
 from bodies.contacts.across import across
 from bodies.contacts.frames import vector_in_body
 from bodies.contacts.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
@@ -35,7 +36,7 @@ def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     ax, ay, az = vector_in_body(b, ax, ay, az)
-    cx, cy, cz = vector_in_body(b, cx - b[0], cy - b[1], cz - b[2])
+    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
     return cx, cy, cz, ax, ay, az
 
 
