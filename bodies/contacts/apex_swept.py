@@ -8,7 +8,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from nonsmooth.engine.memory.blocks import POSITION
 from bodies.contacts.frames import vector_in_body, vector_in_world
 from bodies.contacts.frustum import axis_in_world, center_in_world
 from bodies.contacts.frustum_edge import size_of_both
@@ -18,6 +17,7 @@ from bodies.contacts.swept_vertex import END, write_vertex_over
 from bodies.shapes.frustum import COS, HIGH, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from nonsmooth.engine.memory.blocks import POSITION
 from bodies.contacts.across import across
 from bodies.contacts.frames import vector_in_body
 from bodies.contacts.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
@@ -19,6 +18,7 @@ from bodies.contacts.swept_near import steepest
 from bodies.contacts.vertex_face import DEEP
 from bodies.shapes.frustum import LOW, SIDE, SIN, SWEEP
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 FrustumPose: TypeAlias = tuple[float, float, float, float, float, float]

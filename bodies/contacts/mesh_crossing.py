@@ -87,7 +87,9 @@ def judge_crossing(
         return
     if past > 0.0 or gap >= -DEEP * size:
         return
-    x, y, z = vector_in_body(b, out[POINT_A] - b[POSITION], out[POINT_A + 1] - b[POSITION + 1], out[POINT_A + 2] - b[POSITION + 2])
+    x, y, z = vector_in_body(
+        b, out[POINT_A] - b[POSITION], out[POINT_A + 1] - b[POSITION + 1], out[POINT_A + 2] - b[POSITION + 2]
+    )
     if depth_inside(surface, x, y, z) > 0.0:
         return
     along, away, _, _, _ = across(

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self
 
-from nonsmooth.engine.memory.blocks import POSITION
 from bodies.contacts.apart import NO_CANDIDATE
 from bodies.contacts.frames import point_in_world, vector_in_body
 from bodies.contacts.surface_near import patches_near
 from bodies.contacts.surface_tables import N_PATCHES, surface_numbers
 from bodies.meshes.features import Features
 from bodies.meshes.patches import Patches
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.blocks import POSITION
 from bodies.contacts.frames import point_in_world, vector_in_body
 from bodies.contacts.surface_search import Point, box_square, in_triangle
 from bodies.contacts.surface_tables import (
@@ -26,6 +25,7 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.surface_vertex import ASTRAY, leaning
 from nonsmooth.compiled import block_at, compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0

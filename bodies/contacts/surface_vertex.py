@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.blocks import POSITION
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.surface_search import (
     box_square,
@@ -29,6 +28,7 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.vertex_face import DEEP, REACH
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 ASTRAY = 0.25

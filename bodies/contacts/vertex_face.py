@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.blocks import POSITION
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.polytope_tables import FACE
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 REACH = 1e-9

@@ -5,7 +5,21 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import ACCELERATION, AXIS, JOINT_ROW, MOMENT, POINT_A, POINT_B, POSITION, RESIDUAL, ROTATION, ROW_BIAS, SPIN, SPIN_ACCELERATION, VELOCITY
+from nonsmooth.engine.memory.blocks import (
+    ACCELERATION,
+    AXIS,
+    JOINT_ROW,
+    MOMENT,
+    POINT_A,
+    POINT_B,
+    POSITION,
+    RESIDUAL,
+    ROTATION,
+    ROW_BIAS,
+    SPIN,
+    SPIN_ACCELERATION,
+    VELOCITY,
+)
 from nonsmooth.types import Floats
 
 

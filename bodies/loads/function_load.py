@@ -15,7 +15,11 @@ from nonsmooth.types import Floats
 
 
 def _pull(t: float, a: Floats, b: Floats, out: Floats, force: float) -> None:
-    distance = math.sqrt((b[POSITION] - a[POSITION]) ** 2 + (b[POSITION + 1] - a[POSITION + 1]) ** 2 + (b[POSITION + 2] - a[POSITION + 2]) ** 2)
+    distance = math.sqrt(
+        (b[POSITION] - a[POSITION]) ** 2
+        + (b[POSITION + 1] - a[POSITION + 1]) ** 2
+        + (b[POSITION + 2] - a[POSITION + 2]) ** 2
+    )
     for i in range(3):
         out[i] = -force * (b[i] - a[i]) / distance
         out[LOAD_POINT + i] = b[i]

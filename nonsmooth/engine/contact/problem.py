@@ -101,7 +101,7 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
         k[S.mode_past + a] = k[S.mode_tried + a]
         if k[S.mode_tried + a] < 0:
             past = 0
-    if past == 1 and verify(S, w, k) == 1:
+    if past == 1 and verify(S, w, k, 0) == 1:
         return 1
     if S.solver != AUTO:
         return find_modes(S, w, k, S.solver)

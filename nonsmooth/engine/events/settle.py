@@ -34,6 +34,7 @@ from nonsmooth.engine.impact.instant import jam_slips, map_impact
 from nonsmooth.engine.impact.problem import ENDLESS, FINISHED, energetic_impact
 from nonsmooth.engine.impact.window import LARGE, windowed_impact
 from nonsmooth.engine.memory.modes import (
+    COMPLIANT,
     FEATURE_CHANGE,
     IMPACT,
     IMPACT_ENDLESS,
@@ -76,6 +77,13 @@ def _fastest_approach(S: Scalars, w: Floats, k: Integers) -> int:
     return contact
 
 
+@kernel("i8(S, F, I)")
+def _approaches(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a touching contact approaches, after an impact."""
+    contact = _fastest_approach(S, w, k)
+    return 1 if contact >= 0 and w[S.rate + 3 * contact] < -S.velocity_tolerance else 0
+
+
 @kernel("i8(S, F, I, i8, i8)")
 def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     """Return 1 if the active contacts collide: one of them approaches, or it is the one that jams or has no force."""
@@ -86,10 +94,13 @@ def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) ->
     return 0
 
 
-@room("i8(S, F, I, i8, i8)")
-def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
-    """Run the impact law on the touching contacts, island by island, book and record it; return the status."""
-    S.painleve = 1 if cause == PAINLEVE else 0
+@room("i8(S, F, I, i8, i8, f8)")
+def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, seed: float) -> int:
+    """Run the impact law on the touching contacts, island by island, book and record it; return the status.
+
+    An impact without collision needs a speed for its ``seed`` [m/s].
+    """
+    S.lossless = 1 if cause == PAINLEVE and S.policy == COMPLIANT else 0
     remember(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
@@ -97,7 +108,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
         activate_group(S, w, k, group)
         if _takes_part(S, w, k, cause, contact) == 0:
             continue
-        status = _collide_island(S, w, k, cause)
+        status = _collide_island(S, w, k, cause, seed)
         if status != RUNNING:
             # what the islands before have done is in no account yet
             for i in range(S.n_u):
@@ -111,7 +122,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
     S.restitution_loss += w[S.event_head + RESTITUTION_LOSS]
     S.friction_loss += w[S.event_head + FRICTION_LOSS]
     # until the instant is settled: apart is open, the rest goes by its slip
-    S.approaching = touch(S, w, k)
+    touch(S, w, k)
     for c in range(S.n_contacts):
         if k[S.code_during + c] != k[S.code_before + c] or k[S.mode + c] != OPEN:
             _provisional_mode(S, w, k, c)
@@ -119,11 +130,11 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
     return RUNNING
 
 
-@kernel("i8(S, F, I, i8)")
-def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
+@kernel("i8(S, F, I, i8, f8)")
+def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float) -> int:
     """Run the impact law on the active contacts and give the bodies its impulses; return the status."""
     m = S.n_active
-    large = m > LARGE and S.painleve == 0 and S.impact_map == 0 and cause != JAM
+    large = m > LARGE and S.impact_map == 0 and cause == IMPACT
     if not large:
         assemble_delassus(S, w, k)
     for a in range(m):
@@ -138,7 +149,7 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     elif S.impact_map != 0:
         map_impact(S, w, k)
     else:
-        outcome = windowed_impact(S, w, k) if large else energetic_impact(S, w, k)
+        outcome = windowed_impact(S, w, k) if large else energetic_impact(S, w, k, seed)
         if outcome != FINISHED:
             return IMPACT_ENDLESS if outcome == ENDLESS else NOT_FINITE
     for i in range(3 * m):
@@ -260,19 +271,17 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
     """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
     for c in range(S.n_contacts):
         k[S.impacting + c] = 0
-    contact = -1
+    contact, seed = -1, 0.0
     for a in range(S.n_active):
         if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
             contact = k[S.active + a]
             k[S.impacting + contact] = 1
-            S.impact_seed = max(S.impact_seed, slip_speed(S, w, k, contact))
+            seed = max(seed, slip_speed(S, w, k, contact))
     if contact < 0:
         return NO_CONTACT_SOLUTION
     if S.policy == REFUSE:
         return PARADOX_REFUSED
-    status = collide(S, w, k, PAINLEVE, contact)
-    S.impact_seed = 0.0
-    return status
+    return int(collide(S, w, k, PAINLEVE, contact, seed))
 
 
 @kernel("i8(S, F, I)")
@@ -297,10 +306,10 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     if cause == JAM:
         if S.policy == REFUSE:
             return PARADOX_REFUSED
-        status = collide(S, w, k, JAM, contact)
+        status = collide(S, w, k, JAM, contact, 0.0)
         if status != RUNNING:
             return status
-        approaching = S.approaching
+        approaching = _approaches(S, w, k)
     for _attempt in range(_ATTEMPTS):
         if interrupted(S, S.n_contacts) == 1:
             return SETTLE_ENDLESS
@@ -308,10 +317,10 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
             approaching = touch(S, w, k)
             continue
         if approaching == 1:
-            status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k))
+            status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k), 0.0)
             if status != RUNNING:
                 return status
-            approaching = S.approaching
+            approaching = _approaches(S, w, k)
             continue
         if S.recorded == 0 and projected == 0:
             remember(S, w, k)
@@ -332,7 +341,7 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
             status = _impact_without_collision(S, w, k)
             if status != RUNNING:
                 return status
-            approaching = S.approaching
+            approaching = _approaches(S, w, k)
             continue
         _adopt(S, w, k)
         if close_contacts(S, w, k) == 0:

@@ -15,7 +15,7 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
-from nonsmooth.engine.flow.guard_numbers import contact_of, normal_guard
+from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.guards import grown, has_fired
 from nonsmooth.engine.memory.blocks import (
     ACCELERATION,
@@ -355,12 +355,12 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     return 0.0
 
 
-@room("f8(S, F, I, f8, f8)")
-def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
+@room("f8(S, F, I, f8, f8, i8)")
+def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float, asked: int) -> float:
     """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
 
     Contacts are to stand at ``high``, unless some are astray.  If none closes, those that were looked at stand at the
-    end of the step again, if that is ``high``, and that of the guard ``trigger`` in any case; what others report is
+    end of the step again, if that is ``high``, and the contact ``asked`` at ``high`` in any case; what others report is
     not asked for at an event.
     """
     found = 0.0
@@ -372,6 +372,6 @@ def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> 
         if theta > 0.0:
             found = high = theta
             stands = 0
-        elif S.looked == 1 and (high == 1.0 or c == contact_of(S.trigger)):
+        elif S.looked == 1 and (high == 1.0 or c == asked):
             _look(S, w, k, h, high, c, S.sectors)
     return found

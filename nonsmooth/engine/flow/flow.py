@@ -23,17 +23,19 @@ _SHARE = tableau.NODES[1] / tableau.NODES[2]
 """Where the second stage lies between the first and the third."""
 
 
-@room("void(S, F, I, f8, i8)")
-def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+@room("i8(S, F, I, f8, i8, i8)")
+def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosing: int) -> int:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
-    The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.
+    The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.  With ``choosing``
+    (1) the share of forces that are not unique is chosen anew; return 0 if somewhere none keeps every bound, else 1.
     """
+    keeps = 1
     S.singular = -1
     evaluate_free_bodies(S, w, k, t, y)
     free_acceleration(S, w, k)
     if S.n_grouped == 0:
-        return
+        return keeps
     evaluate_driven_bodies(S, w, k, t, y)
     refresh_states(S, w, k, y)
     for group in range(S.n_groups):
@@ -47,7 +49,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
             _set_friction(S, w, k, a, y)
             evaluate_bias(S, w, k, c, 1 + 2 * k[S.tangent_held + a])
             lay_rows(S, w, k, a)
-        hold_contacts(S, w, k)
+        keeps = min(keeps, hold_contacts(S, w, k, choosing))
         for a in range(S.n_active):
             c = k[S.active + a]
             k[S.tied + c] = k[S.redundant + a]
@@ -55,6 +57,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> Non
             w[S.static_margin + c] = _static_margin(S, w, k, a)
             for r in range(3):
                 w[S.force + 3 * c + r] = w[S.f + 3 * a + r]
+    return keeps
 
 
 @kernel("f8(S, F, I, i8)")
@@ -120,13 +123,14 @@ def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     return w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
 
 
-@room("void(S, F, I, f8, i8, i8)")
-def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> None:
+@room("void(S, F, I, f8, i8, i8, i8)")
+def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosing: int) -> None:
     """Write dy/dt: coordinate rates, accelerations, and four powers.
 
-    These are of the driven bodies, lost to friction, exchanged in all, and of the loads.
+    These are of the driven bodies, lost to friction, exchanged in all, and of the loads.  For ``choosing`` see
+    :func:`right_hand_side`.
     """
-    right_hand_side(S, w, k, t, y)
+    right_hand_side(S, w, k, t, y, choosing)
     for body in range(S.n_bodies):
         rates = k[S.body_tail + body]
         for i in range(k[S.body_nq + body]):
@@ -180,7 +184,7 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for stage in range(1, N_STAGES):
         out = S.y_new if stage == LAST_STAGE else S.y_stage
         stage_state(S, w, S.y, S.slopes, n, stage, h, out)
-        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n)
+        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0)
     step_errors(S, w, S.slopes, n, h, S.y_stage)
     worst = 0.0
     worst = _worst_error(S, w, 0, S.n_q + S.n_u, worst)

@@ -101,7 +101,7 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
 def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapsed: float, forces: int) -> None:
     """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step."""
     if forces == 1:
-        right_hand_side(S, w, k, t, y)
+        right_hand_side(S, w, k, t, y, 0)
     else:
         evaluate_bodies(S, w, k, t, y)
     write_guards(S, w, k, t, y, forces)

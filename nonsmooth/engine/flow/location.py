@@ -125,7 +125,8 @@ def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Look for a dip of a normal force or a static margin between the samples."""
     for c in range(S.n_contacts):
         if k[S.mode + c] != OPEN:
-            for i in range(normal_guard(c), (friction_guard(c) if k[S.mode + c] == STICK else normal_guard(c)) + 1):
+            last = friction_guard(c) if k[S.mode + c] == STICK else normal_guard(c)
+            for i in range(normal_guard(c), last + 1):
                 if k[S.guard_armed + i] == 1:
                     theta = _lowest(S, w, k, h, i)
                     if theta > 0.0:
@@ -182,15 +183,18 @@ def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float
     return 0.0
 
 
-@kernel("f8(S, F, I, f8, f8)")
-def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float) -> float:
-    """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0."""
+@kernel("f8(S, F, I, f8, f8, i8)")
+def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, asked: int) -> float:
+    """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0.
+
+    If none has, the contact ``asked`` stands at ``theta``.
+    """
     if S.n_astray > 0:
         found = _sampled(S, w, k, h, theta)
         if found > 0.0:
             return found
     if S.n_doubtful > 0:
-        found = first_closing(S, w, k, h, theta)
+        found = first_closing(S, w, k, h, theta, asked)
         if found > 0.0:
             guards_within(S, w, k, h, found, _any_closed(S, w, k))
             return found
@@ -211,12 +215,12 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     deflate(S, w, k, h)
     fired = first_fired(S, w, k, 1, -1)
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
+    suspect = S.suspect == 1
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN and w[S.least_force + c] < min(
-            w[S.guard_first + normal_guard(c)], w[S.guard_end + normal_guard(c)]
-        ):
-            S.suspect = 1
-    forces = closed if S.suspect == 1 else 0
+        i = normal_guard(c)
+        if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + i], w[S.guard_end + i]):
+            suspect = True
+    forces = closed if suspect else 0
     looks = forces + S.n_own_guards
     if looks > 0:
         guards_within(S, w, k, h, _MIDDLE, forces)
@@ -234,7 +238,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     # what has fired at the end is located first, and what closes before it searched then
     if fired < 0 and S.n_astray + S.n_doubtful > 0:
         looks += S.n_astray
-        theta = _closed_before(S, w, k, h, 1.0)
+        theta = _closed_before(S, w, k, h, 1.0, -1)
         if theta > 0.0:
             return theta
     if looks > 0:
@@ -315,16 +319,16 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     return theta
 
 
-@kernel("f8(S, F, I, f8)")
-def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
-    """Step to right behind the jump of the guard ``trigger`` that the interpolant has at ``step``; return the step."""
+@kernel("f8(S, F, I, f8, i8)")
+def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> float:
+    """Step to right behind the jump of guard ``i`` that the interpolant has at ``step``; return the step."""
     S.h = step
     if not try_step(S, w, k, step) <= _TRUSTED:
         return -1.0
     way = _FINE * S.time_tolerance
     for _doubling in range(_WAYS):
         evaluate_guards(S, w, k, S.t + step, S.y_new, step, 1)
-        if w[S.guard + S.trigger] < 0.0:
+        if w[S.guard + i] < 0.0:
             return step
         # so short a way is straight
         for j in range(S.n_y):
@@ -334,10 +338,9 @@ def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
     return -1.0
 
 
-@kernel("f8(S, F, I, f8)")
-def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
-    """Step to where the guard ``trigger`` vanishes, on the interpolant after the time ``root``; return the step."""
-    i = S.trigger
+@kernel("f8(S, F, I, f8, i8)")
+def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float:
+    """Step to where guard ``i`` vanishes, on the interpolant after the time ``root``; return the step."""
     h, step = S.h, root
     # the guard is positive before the first and not after the second of these steps
     early, late = 0.0, 1e300
@@ -375,12 +378,12 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
     return -1.0
 
 
-@kernel("i8(S, F, I)")
-def _overtaken(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if a correction went past the closing of another contact than that of the guard ``trigger``."""
+@kernel("i8(S, F, I, i8)")
+def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
     for c in range(S.n_contacts):
         block = S.geometry + GEOMETRY * c
-        if k[S.mode + c] == OPEN and c != contact_of(S.trigger) and w[block + PAST_END] <= 0.0:
+        if k[S.mode + c] == OPEN and c != contact_of(i) and w[block + PAST_END] <= 0.0:
             start = min(0.0, w[S.guard_start + normal_guard(c)])
             if w[block + GAP] < start - _FAR_BEHIND * S.gap_tolerance and w[S.gap_rate + c] < 0.0:
                 return 1
@@ -398,7 +401,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     closed = _any_closed(S, w, k)
     first = first_fired(S, w, k, 1, -1)
     theta = high
-    S.trigger = max(0, first)
+    fired = max(0, first)
     roots = 0
     while first >= 0 and roots < number_of_guards(S):
         if closed == 1 and roots == _MOST_ROOTS:
@@ -412,10 +415,10 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             # it jumps where the one before does
             first = -1
         else:
-            S.trigger = first
-            first = first_fired(S, w, k, closed, S.trigger)
+            fired = first
+            first = first_fired(S, w, k, closed, fired)
         if first < 0 and S.n_astray + S.n_doubtful > 0:
-            earlier = _closed_before(S, w, k, h, theta)
+            earlier = _closed_before(S, w, k, h, theta, contact_of(fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
             elif S.n_astray > 0:
@@ -423,14 +426,16 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     if first >= 0:
         # guards that go on firing one before the other hide what closed before them
         return -1.0
-    i = S.trigger
+    S.trigger = fired
     step = theta * h
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
-    jumps = 1 if i < first_own_guard(S) and k[S.mode + contact_of(i)] == OPEN and is_gap(S, w, k, i) == 0 else 0
+    jumps = (
+        1 if fired < first_own_guard(S) and k[S.mode + contact_of(fired)] == OPEN and is_gap(S, w, k, fired) == 0 else 0
+    )
     if S.step_error <= _NEGLIGIBLE or jumps == 1:
         dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
         return step
     if S.guard_slope == -math.inf:
-        return _behind_jump(S, w, k, step)
-    step = _corrected(S, w, k, step)
-    return -1.0 if step > 0.0 and _overtaken(S, w, k) == 1 else step
+        return _behind_jump(S, w, k, step, fired)
+    step = _corrected(S, w, k, step, fired)
+    return -1.0 if step > 0.0 and _overtaken(S, w, k, fired) == 1 else step

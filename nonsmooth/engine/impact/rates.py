@@ -14,7 +14,6 @@ import math
 
 from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.contact.problem import friction_coefficient
-from nonsmooth.engine.memory.modes import COMPLIANT
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
@@ -43,7 +42,7 @@ def normal_force(S: Scalars, w: Floats, k: Integers, a: int, x: float) -> float:
 @kernel("f8(S, F, I, i8, f8)")
 def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float:
     """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
-    if S.painleve == 1 and S.policy == COMPLIANT:
+    if S.lossless == 1:
         return 1.0
     c = k[S.active + a]
     return call_scalar(k[S.efficiency_function + c], rate, at(w, k[S.efficiency_parameters + c]))

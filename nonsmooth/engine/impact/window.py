@@ -15,6 +15,7 @@ from nonsmooth.engine.impact.problem import (
     ENDLESS,
     INVALID,
     MOVED,
+    PROBE,
     first_step,
     run_impact,
     start_impact,
@@ -59,15 +60,15 @@ def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
             k[S.linkage_head + linkage] = _SIDES * c + side
 
 
-@kernel("void(S, F, I, i8)")
-def _draw(S: Scalars, w: Floats, k: Integers, first: int) -> None:
-    """Make the contacts that act, at first those that approach, and their neighbours the active ones."""
+@kernel("void(S, F, I, f8)")
+def _draw(S: Scalars, w: Floats, k: Integers, fastest: float) -> None:
+    """Make the contacts that act and their neighbours the active ones; at first, given the fastest, who approaches."""
     m = 0
     for i in range(S.n_colliding):
         c = k[S.colliding + i]
         acts = k[S.phase_kept + c] != IDLE
-        if first == 1:
-            acts = w[S.rate + 3 * c] < -NOISE * S.impact_seed
+        if fastest > 0.0:
+            acts = w[S.rate + 3 * c] < -NOISE * fastest
         k[S.depth + c] = 0 if acts else -1
         k[S.rim + c] = 0
         if acts:
@@ -135,10 +136,9 @@ def _store(S: Scalars, w: Floats, k: Integers) -> None:
 @room("i8(S, F, I)")
 def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     """Do what ``energetic_impact`` does, for many contacts; the Delassus matrix of all of them is not needed."""
-    S.impact_seed = 0.0
+    fastest = 0.0
     for a in range(S.n_active):
-        S.impact_seed = max(S.impact_seed, -w[S.rate + 3 * k[S.active + a]])
-    S.windowed = 1
+        fastest = max(fastest, -w[S.rate + 3 * k[S.active + a]])
     S.faint = _FAINT * S.impact_rtol
     S.may_be_lone = 1
     S.truncated = 0
@@ -146,22 +146,20 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     _gather_colliding(S, w, k)
     outcome = MOVED
     for window in range(_MOST_WINDOWS):
-        _draw(S, w, k, 1 if window == 0 else 0)
+        _draw(S, w, k, fastest if window == 0 else 0.0)
         _load(S, w, k)
         S.lone = -1
-        shortest = scale_impact(S, w, k)
+        shortest = scale_impact(S, w, k, fastest)
         if not shortest > 0.0:
             outcome = INVALID
             break
         if window == 0:
-            start_impact(S, w, k, 1e-2 * shortest)
+            start_impact(S, w, k, PROBE * shortest, 0.0)
             S.impact_h = first_step(S, shortest)
-        outcome = run_impact(S, w, k, S.impact_h, shortest)
+        outcome = run_impact(S, w, k, S.impact_h, shortest, 1)
         _store(S, w, k)
         if outcome != MOVED:
             break
-    S.impact_seed = 0.0
-    S.windowed = 0
     S.faint = 0.0
     S.n_active = S.n_colliding
     for a in range(S.n_active):
