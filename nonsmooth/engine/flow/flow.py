@@ -10,7 +10,7 @@ from nonsmooth.engine.bodies.compliance import evaluate_given_force, refresh_sta
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.contact.held_contacts import hold_contacts, lay_rows
-from nonsmooth.engine.contact.problem import free_acceleration, friction_coefficient
+from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.memory import tableau
 from nonsmooth.engine.memory.blocks import GAP, GEOMETRY
@@ -74,10 +74,7 @@ def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
 
 @kernel("void(S, F, I, i8, i8)")
 def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
-    """Set what is held and the slip direction, continued smoothly through a reversal within the step.
-
-    Where the slip is too slow to have a direction of its own, that at the start of the step holds.
-    """
+    """Set what the active contact ``a`` holds, and its slip direction and friction where it slides."""
     c = k[S.active + a]
     k[S.normal_held + a] = 1
     k[S.tangent_held + a] = 0
@@ -93,14 +90,7 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
         if w[S.mu_static + a] > 0.0:
             k[S.tangent_held + a] = 1
             return
-    d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
-    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-    speed = math.sqrt(v1 * v1 + v2 * v2)
-    if speed > S.velocity_tolerance:
-        inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
-        d1, d2 = inverse * v1, inverse * v2
-    w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
-    w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+    follow_slip(S, w, k, a, S.rate + 3 * c + 1, S.velocity_tolerance)
     if k[S.normal_held + a] == 0:
         # what pulls does not rub
         w[S.mu + a] *= 1.0 if w[S.given + c] > 0.0 else 0.0

@@ -32,6 +32,7 @@ from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
 _MIDDLE = 0.5
@@ -302,12 +303,10 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             guards_within(S, w, k, h, high, forces)
             return high
         if g < 0.0:
-            ratio = 1.0 - g / g_high
-            g_low *= ratio if ratio > 0.0 else 0.5
+            g_low = weakened(g_low, g, g_high)
             high, g_high = theta, g
         else:
-            ratio = 1.0 - g / g_low
-            g_high *= ratio if ratio > 0.0 else 0.5
+            g_high = weakened(g_high, g, g_low)
             low, g_low = theta, g
             left = g
         following = high - g_high * (high - low) / (g_high - g_low)

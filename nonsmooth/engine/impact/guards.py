@@ -28,6 +28,7 @@ from nonsmooth.engine.impact.step import try_impact_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
 _SLACK = 1e-9
@@ -163,12 +164,10 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
         if abs(g) <= min(_ROUGH, _SMALL * largest) or high - low <= 1e-14:
             return theta
         if g < 0.0:
-            ratio = 1.0 - g / g_high
-            g_low *= ratio if ratio > 0.0 else 0.5
+            g_low = weakened(g_low, g, g_high)
             high, g_high = theta, g
         else:
-            ratio = 1.0 - g / g_low
-            g_high *= ratio if ratio > 0.0 else 0.5
+            g_high = weakened(g_high, g, g_low)
             low, g_low = theta, g
     return theta
 

@@ -10,10 +10,8 @@ a polynomial that the integrator follows exactly.
 
 from __future__ import annotations
 
-import math
-
-from nonsmooth.engine.contact.forces import resolve
-from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.forces import friction_of_slip, resolve
+from nonsmooth.engine.contact.problem import follow_slip
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
@@ -80,28 +78,12 @@ def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
         k[S.normal_held + a] = 1 if phase == HELD else 0
         held += k[S.normal_held + a] + k[S.tangent_held + a]
         if k[S.tangent_held + a] == 0:
-            _slide(S, w, k, a)
+            follow_slip(S, w, k, a, S.impact_z + 3 * a + 1, w[S.rest_slip + a])
+            friction_of_slip(S, w, a)
     if held > 0:
         for i in range(3 * S.n_active):
             w[S.b + i] = 0.0
         resolve(S, w, k)
-
-
-@kernel("void(S, F, I, i8)")
-def _slide(S: Scalars, w: Floats, k: Integers, a: int) -> None:
-    """Write the friction of a sliding contact, its direction continued smoothly through a reversal."""
-    c = k[S.active + a]
-    d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
-    v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-    speed = math.sqrt(v1 * v1 + v2 * v2)
-    if speed > w[S.rest_slip + a]:
-        inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
-        d1, d2 = inverse * v1, inverse * v2
-    mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
-    w[S.mu + a] = mu
-    w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
-    w[S.f + 3 * a + 1] = -mu * w[S.f + 3 * a] * d1
-    w[S.f + 3 * a + 2] = -mu * w[S.f + 3 * a] * d2
 
 
 @kernel("void(S, F, I, i8, i8)")
