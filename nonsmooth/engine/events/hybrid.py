@@ -57,7 +57,7 @@ from nonsmooth.engine.memory.modes import (
     STOPPED,
     TOUCH,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
@@ -72,24 +72,26 @@ _NO_STEP = 1e-3
 def _orient_slips(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the present slip directions as those of the step that begins."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] == SLIDE:
-            v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE:
+            v1, v2 = contact.rate_end[1], contact.rate_end[2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
             if speed > S.velocity_tolerance:
-                w[S.direction + 2 * c] = v1 / speed
-                w[S.direction + 2 * c + 1] = v2 / speed
+                contact.direction[0] = v1 / speed
+                contact.direction[1] = v2 / speed
 
 
 @kernel("i8(S, F, I)")
 def _drifted(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            rate, gap = abs(w[S.rate_end + 3 * c]), abs(w[S.gap_end + c])
-            if k[S.normal_function + c] != 0:
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN:
+            rate, gap = abs(contact.rate_end[0]), abs(contact.gap_end)
+            if contact.normal_function != 0:
                 rate = gap = 0.0
-            if k[S.mode + c] == STICK:
-                rate += abs(w[S.rate_end + 3 * c + 1]) + abs(w[S.rate_end + 3 * c + 2])
+            if contact.mode == STICK:
+                rate += abs(contact.rate_end[1]) + abs(contact.rate_end[2])
             if rate > _DRIFT * S.velocity_tolerance or gap > _DRIFT * S.gap_tolerance:
                 return 1
     return 0
@@ -158,9 +160,10 @@ def _closing_cause(S: Scalars, k: Integers, c: int) -> int:
 def _cause(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
     """Return what it means that a guard of a contact has fired."""
     c = contact_of(guard)
+    contact = contact_at(S, w, k, c)
     if is_friction_guard(guard) == 0:
-        return _closing_cause(S, k, c) if k[S.mode + c] == OPEN else LIFT_OFF
-    if k[S.mode + c] != STICK:
+        return _closing_cause(S, k, c) if contact.mode == OPEN else LIFT_OFF
+    if contact.mode != STICK:
         return SLIP_TO_STICK
     # the static bound vanishes with the normal force
     return LIFT_OFF if w[S.guard + normal_guard(c)] <= 1e-9 * w[S.guard_first + normal_guard(c)] else STICK_TO_SLIP
@@ -186,8 +189,9 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
     So close to rest the direction of the slip is stiff, and what is left of it below the tolerance.
     """
     for c in range(S.n_contacts):
-        if k[S.mode + c] == SLIDE and k[S.traction_function + c] == 0:
-            v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE and contact.traction_function == 0:
+            v1, v2 = contact.rate_end[1], contact.rate_end[2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
             if speed <= S.velocity_tolerance and speed < w[S.guard_first + friction_guard(c)]:
                 return c
@@ -260,24 +264,26 @@ def _evaluate_start(S: Scalars, w: Floats, k: Integers) -> None:
 def _keep_start(S: Scalars, w: Floats, k: Integers) -> None:
     """Take what is known of the gaps at the end of the step before as what they start from."""
     for c in range(S.n_contacts):
-        w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
-        w[S.past_first + c], w[S.speed_first + c] = w[S.past_end + c], w[S.speed_end + c]
+        contact = contact_at(S, w, k, c)
+        contact.gap_rate_first = contact.gap_rate_end
+        contact.past_first, contact.speed_first = contact.past_end, contact.speed_end
         for r in range(FALL):
-            w[S.fall_first + FALL * c + r] = w[S.fall_end + FALL * c + r] if S.fresh == 1 else -1.0
+            contact.fall_first[r] = contact.fall_end[r] if S.fresh == 1 else -1.0
         for r in range(3):
-            w[S.arm_first + 3 * c + r] = w[S.arm_end + 3 * c + r]
+            contact.arm_first[r] = contact.arm_end[r]
 
 
 @kernel("i8(S, F, I)")
 def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
     """Return a contact of which an event is due before any step, or -1."""
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
         # a gap that closes exactly where the last step ended is an event of that step
-        arrived = w[S.guard_end + normal_guard(c)] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance
-        if k[S.mode + c] == OPEN and arrived:
+        arrived = w[S.guard_end + normal_guard(c)] <= S.gap_tolerance and contact.gap_rate_end < -S.velocity_tolerance
+        if contact.mode == OPEN and arrived:
             return c
         # what put the contacts on their constraints may have put one past its end
-        if k[S.mode + c] != OPEN and w[S.guard_end + first_end_guard(S) + c] < 0.0:
+        if contact.mode != OPEN and w[S.guard_end + first_end_guard(S) + c] < 0.0:
             return c
     return -1
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.modes import GUARD, OPEN, SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
 TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
@@ -29,7 +29,8 @@ MOST_EVENTS = 204
 @kernel("i8(S, F, I, i8)")
 def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
-    mode = k[S.mode + c]
+    contact = contact_at(S, w, k, c)
+    mode = contact.mode
     if mode == OPEN:
         return 0
     return 5 if mode == SLIDE else 1
@@ -38,12 +39,13 @@ def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 @kernel("i8(S, F, I, i8)")
 def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits of contact ``c`` at the start of an impact, from its rates."""
-    if k[S.touching + c] == 0:
+    contact = contact_at(S, w, k, c)
+    if contact.touching == 0:
         return 0
     bits = 1
-    if w[S.rate + 3 * c] < -S.velocity_tolerance:
+    if contact.rate[0] < -S.velocity_tolerance:
         bits += 2
-    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    v1, v2 = contact.rate[1], contact.rate[2]
     if math.sqrt(v1 * v1 + v2 * v2) > S.velocity_tolerance:
         bits += 4
     return bits
@@ -53,10 +55,11 @@ def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 def remember(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep modes and velocities as they are before an event, and clear its account."""
     for c in range(S.n_contacts):
-        k[S.code_before + c] = code(S, w, k, c)
-        k[S.code_during + c] = k[S.code_before + c]
+        contact = contact_at(S, w, k, c)
+        contact.code_before = code(S, w, k, c)
+        contact.code_during = contact.code_before
         for r in range(3):
-            w[S.event_impulse + 3 * c + r] = 0.0
+            contact.event_impulse[r] = 0.0
     for i in range(S.n_u):
         w[S.u_before + i] = w[S.y + S.n_q + i]
     for i in range(1, EVENT_HEAD):

@@ -54,7 +54,7 @@ from nonsmooth.engine.memory.modes import (
     STICK,
     STICK_TO_SLIP,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 from nonsmooth.engine.native.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
@@ -139,9 +139,10 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
         assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
-        k[S.code_during + c] = impact_code(S, w, k, c)
+        contact = contact_at(S, w, k, c)
+        contact.code_during = impact_code(S, w, k, c)
         for r in range(3):
-            w[S.impact_z0 + 3 * a + r] = w[S.rate + 3 * c + r]
+            w[S.impact_z0 + 3 * a + r] = contact.rate[r]
     S.phases, S.truncated = 1, 0
     if cause == JAM:
         if jam_slips(S, w, k) == 0:
@@ -158,12 +159,13 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
     add_response(S, w, k, S.impulse, S.y + S.n_q)
     for a in range(m):
         c = k[S.active + a]
+        contact = contact_at(S, w, k, c)
         w[S.event_head + RESTITUTION_LOSS] += w[S.stored + a] - w[S.returned + a]
         w[S.event_head + FRICTION_LOSS] += w[S.rubbed + a]
         for r in range(3):
             impulse = w[S.impulse + 3 * a + r]
-            w[S.event_impulse + 3 * c + r] = impulse
-            w[S.event_head + DRIVEN_WORK] -= impulse * w[S.prescribed_rate + 3 * c + r]
+            contact.event_impulse[r] = impulse
+            w[S.event_head + DRIVEN_WORK] -= impulse * contact.prescribed_rate[r]
         if k[S.oriented + c] == 1:
             unstretch_force(S, w, k, c, S.event_impulse + 3 * c)
     return RUNNING
@@ -171,28 +173,30 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
 
 @kernel("void(S, F, I, i8)")
 def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
-    rigid = k[S.normal_function + c] == 0
-    if k[S.touching + c] == 0 or (rigid and w[S.rate + 3 * c] > S.velocity_tolerance):
-        k[S.mode + c] = OPEN
+    contact = contact_at(S, w, k, c)
+    rigid = contact.normal_function == 0
+    if contact.touching == 0 or (rigid and contact.rate[0] > S.velocity_tolerance):
+        contact.mode = OPEN
         return
-    if k[S.mode + c] == OPEN:
+    if contact.mode == OPEN:
         begin_contact(S, w, k, c)
     speed = slip_speed(S, w, k, c)
-    k[S.mode + c] = SLIDE if speed > S.velocity_tolerance else STICK
+    contact.mode = SLIDE if speed > S.velocity_tolerance else STICK
     if speed > S.velocity_tolerance:
         for i in range(2):
-            w[S.direction + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
+            contact.direction[i] = contact.rate[1 + i] / speed
 
 
 @kernel("i8(S, F, I, i8)")
 def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return 1 if the normal force of a closed contact has gone together with that which fired."""
+    contact = contact_at(S, w, k, c)
     largest = 0.0
     for other in range(S.n_contacts):
         if k[S.mode + other] != OPEN and k[S.normal_function + other] == 0:
             largest = max(largest, w[S.guard_first + normal_guard(other)])
-    rigid = k[S.normal_function + c] == 0
-    return 1 if rigid and k[S.mode + c] != OPEN and w[S.guard + normal_guard(c)] <= 1e-9 * largest else 0
+    rigid = contact.normal_function == 0
+    return 1 if rigid and contact.mode != OPEN and w[S.guard + normal_guard(c)] <= 1e-9 * largest else 0
 
 
 @kernel("void(S, F, I, i8, i8)")
@@ -256,10 +260,11 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
         accelerate(S, w, k)
         for a in range(S.n_active):
             c = k[S.active + a]
-            w[S.small_force_of + c] = small_force(S, w, k, a)
-            k[S.mode_agreed + c] = k[S.mode_tried + a]
+            contact = contact_at(S, w, k, c)
+            contact.small_force_of = small_force(S, w, k, a)
+            contact.mode_agreed = k[S.mode_tried + a]
             for i in range(2):
-                w[S.direction_agreed + 2 * c + i] = w[S.d + 2 * a + i]
+                contact.direction_agreed[i] = w[S.d + 2 * a + i]
             if k[S.at_rest + a] == 1 and k[S.mode_tried + a] != OPEN:
                 turned += turn_facing(S, w, k, c, w[S.f + 3 * a + 1])
     # friction that turned out to oppose the other way has another bound
@@ -289,7 +294,8 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if one of several closed contacts slips so slowly that projecting the others may turn its slip."""
     closed = creeping = 0
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN and k[S.normal_function + c] == 0:
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN and contact.normal_function == 0:
             closed += 1
             if S.velocity_tolerance < slip_speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
                 creeping += 1
@@ -359,12 +365,13 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
 def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
     """Take over the modes and slip directions that the contact problem found."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] == OPEN and k[S.mode_agreed + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.mode == OPEN and contact.mode_agreed != OPEN:
             begin_contact(S, w, k, c)
-        k[S.mode + c] = k[S.mode_agreed + c]
-        if k[S.mode + c] == SLIDE:
+        contact.mode = contact.mode_agreed
+        if contact.mode == SLIDE:
             for i in range(2):
-                w[S.direction + 2 * c + i] = w[S.direction_agreed + 2 * c + i]
+                contact.direction[i] = contact.direction_agreed[i]
 
 
 @kernel("void(S, F, I, i8, i8)")

@@ -10,7 +10,7 @@ from nonsmooth.engine.flow.clearance import foresee
 from nonsmooth.engine.flow.flow import try_step
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 
 _BEGINS = 10.0
@@ -27,11 +27,12 @@ def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
     """
-    if k[S.normal_function + c] == 0 or w[S.guard_end + normal_guard(c)] > _BEGINS * S.gap_tolerance:
+    contact = contact_at(S, w, k, c)
+    if contact.normal_function == 0 or w[S.guard_end + normal_guard(c)] > _BEGINS * S.gap_tolerance:
         return 1e300
     rate = S.rate_end + 3 * c
     speed = math.sqrt(w[rate] * w[rate] + w[rate + 1] * w[rate + 1] + w[rate + 2] * w[rate + 2])
-    return float(_FIRST_WAY * w[S.size + c] / max(speed, S.velocity_tolerance))
+    return float(_FIRST_WAY * contact.size / max(speed, S.velocity_tolerance))
 
 
 @kernel("i8(S, I)")
@@ -55,7 +56,8 @@ def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
     h = min(wanted, S.h_listed, S.h_sampled, S.h_valid)
     if S.fresh == 0:
         for c in range(S.n_contacts):
-            if k[S.mode + c] != OPEN:
+            contact = contact_at(S, w, k, c)
+            if contact.mode != OPEN:
                 S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
         h = min(h, S.h_first)
         foresee(S, w, k, h)

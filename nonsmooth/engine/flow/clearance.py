@@ -31,7 +31,7 @@ from nonsmooth.engine.memory.blocks import (
 )
 from nonsmooth.engine.memory.layout import FALL, LAST_STAGE, SECTOR, SECTORS
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import dense_part
 
 _CURVED = 4.0
@@ -92,11 +92,12 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     last_a = last_b = -1
     speed = turning = 0.0
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN:
             continue
-        a, b, lever = k[S.frame_a + c], k[S.frame_b + c], w[S.lever_b + c]
-        if lever > w[S.lever_a + c]:
-            a, b, lever = b, a, w[S.lever_a + c]
+        a, b, lever = contact.frame_a, contact.frame_b, contact.lever_b
+        if lever > contact.lever_a:
+            a, b, lever = b, a, contact.lever_a
         # the contacts of two bodies follow one another
         if a != last_a or b != last_b:
             speed, turning = _speed_seen(w, a, b), -1.0
@@ -104,7 +105,7 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
         if lever > 0.0 and turning < 0.0:
             x, y, z = w[b + SPIN] - w[a + SPIN], w[b + SPIN + 1] - w[a + SPIN + 1], w[b + SPIN + 2] - w[a + SPIN + 2]
             turning = math.sqrt(x * x + y * y + z * z)
-        w[S.speed_end + c] = speed + turning * lever if lever > 0.0 else speed
+        contact.speed_end = speed + turning * lever if lever > 0.0 else speed
         if lever > 0.0:
             _write_arm(S, w, k, c, S.arm_end + 3 * c)
 
@@ -112,18 +113,20 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("void(S, F, I, i8, i8)")
 def _write_arm(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
     """Write where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
-    second = w[S.lever_b + c] <= w[S.lever_a + c]
-    frame, point = (k[S.frame_b + c], POINT_B) if second else (k[S.frame_a + c], POINT_A)
+    contact = contact_at(S, w, k, c)
+    second = contact.lever_b <= contact.lever_a
+    frame, point = (contact.frame_b, POINT_B) if second else (contact.frame_a, POINT_A)
     for r in range(3):
-        w[out + r] = w[S.geometry + GEOMETRY * c + point + r] - w[frame + r]
+        w[out + r] = contact.geometry[point + r] - w[frame + r]
 
 
 @kernel("void(S, F, I, i8, i8, i8, i8)")
 def _frame_acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, du: int, out: int) -> None:
     """Write the acceleration of the origin of a frame and its angular acceleration."""
-    frame = k[S.frame_a + c] if side == 0 else k[S.frame_b + c]
+    contact = contact_at(S, w, k, c)
+    frame = contact.frame_a if side == 0 else contact.frame_b
     n_u = k[S.nu_a + c] if side == 0 else k[S.nu_b + c]
-    first = du + k[S.body_u + (k[S.body_a + c] if side == 0 else k[S.body_b + c])]
+    first = du + k[S.body_u + (contact.body_a if side == 0 else contact.body_b)]
     for r in range(6):
         total = w[frame + ACCELERATION + r]
         for j in range(n_u):
@@ -139,8 +142,9 @@ def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) ->
     normal fixed to the first body a convex second one is no nearer than along this normal, whatever the normal does;
     the terms of the turning bodies hold for all points of its surface.
     """
-    second = w[S.lever_b + c] <= w[S.lever_a + c]
-    a, b = (k[S.frame_a + c], k[S.frame_b + c]) if second else (k[S.frame_b + c], k[S.frame_a + c])
+    contact = contact_at(S, w, k, c)
+    second = contact.lever_b <= contact.lever_a
+    a, b = (contact.frame_a, contact.frame_b) if second else (contact.frame_b, contact.frame_a)
     _relative_motion(S, w, a, b)
     d = S.relative
     velocity, turning, of_a, of_b, carried = d + 3, d + 6, d + 9, d + 15, d + 21
@@ -158,14 +162,14 @@ def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) ->
     _add_cross(w, a + SPIN, turning, -1.0, of_b + 3)
     along = _dot(w, S.geometry + GEOMETRY * c + NORMAL, of_b)
     speed, rate = math.sqrt(_dot(w, velocity, velocity)), math.sqrt(_dot(w, turning, turning))
-    lever = min(w[S.lever_a + c], w[S.lever_b + c])
+    lever = min(contact.lever_a, contact.lever_b)
     fall = max(0.0, -along if second else along)
     fall += (math.sqrt(_dot(w, of_b + 3, of_b + 3)) + rate * rate) * lever
     grows = 0.0
     if lever > 0.0:
         fall += _CURVED * rate * rate * lever
         grows = _CURVED * rate * math.sqrt(_dot(w, of_b, of_b))
-        if max(w[S.lever_a + c], w[S.lever_b + c]) < 1e300:
+        if max(contact.lever_a, contact.lever_b) < 1e300:
             fall += _CURVED * rate * speed
     w[out + _NOW], w[out + _GROWTH], w[out + _TURNING] = fall, grows, rate
 
@@ -177,8 +181,9 @@ def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     The bodies stand there; later they would have to be put there.
     """
     for c in range(S.n_contacts):
-        faces = k[S.mode + c] == OPEN and w[S.past_first + c] <= 0.0
-        if faces and w[S.guard_end + normal_guard(c)] <= 2.0 * h * w[S.speed_first + c]:
+        contact = contact_at(S, w, k, c)
+        faces = contact.mode == OPEN and contact.past_first <= 0.0
+        if faces and w[S.guard_end + normal_guard(c)] <= 2.0 * h * contact.speed_first:
             write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + FALL * c)
 
 
@@ -202,14 +207,15 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """
     S.n_doubtful = S.n_astray = 0
     for c in range(S.n_contacts):
-        w[S.fall_end + FALL * c + _NOW] = -1.0
-        if k[S.mode + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        contact.fall_end[_NOW] = -1.0
+        if contact.mode != OPEN:
             continue
         start = 0.0 if k[S.guard_deflated + normal_guard(c)] == 1 else w[S.guard_first + normal_guard(c)]
-        way = h * (w[S.speed_first + c] + w[S.speed_end + c])
-        if _too_far(start, w[S.past_first + c], w[S.gap_end + c], w[S.past_end + c], way) == 1:
+        way = h * (contact.speed_first + contact.speed_end)
+        if _too_far(start, contact.past_first, contact.gap_end, contact.past_end, way) == 1:
             continue
-        if w[S.past_first + c] > 0.0 or w[S.past_end + c] > 0.0:
+        if contact.past_first > 0.0 or contact.past_end > 0.0:
             k[S.astray + S.n_astray] = c
             S.n_astray += 1
             continue
@@ -221,9 +227,10 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
 @kernel("void(S, F, I, f8, f8, i8)")
 def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
     """Put the two bodies of a contact where they are at a fraction of the step, and evaluate its geometry."""
+    contact = contact_at(S, w, k, c)
     S.looked = 1
     for side in range(2):
-        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        body = contact.body_a if side == 0 else contact.body_b
         if k[S.body_nu + body] == 0:
             evaluate_driven_bodies(S, w, k, S.t + theta * h, S.y)
             continue
@@ -252,14 +259,15 @@ def _largest_fall(S: Scalars, w: Floats, k: Integers, h: float, c: int) -> float
 @kernel("void(S, F, I, f8, f8, i8, i8)")
 def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
     """Write an end of a part of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
-    gap = w[S.geometry + GEOMETRY * c + GAP]
-    w[S.gap_rate + c] = w[S.rate + 3 * c]
+    contact = contact_at(S, w, k, c)
+    gap = contact.geometry[GAP]
+    contact.gap_rate = contact.rate[0]
     w[S.guard + normal_guard(c)] = grown(S, w, k, normal_guard(c), gap, theta * h)
     if w[S.guard + normal_guard(c)] > 0.0:
         k[S.guard_armed + normal_guard(c)] = 1
-    w[out + _THETA], w[out + _RATE] = theta, w[S.rate + 3 * c]
+    w[out + _THETA], w[out + _RATE] = theta, contact.rate[0]
     w[out + _GAP] = gap - w[S.guard_start + normal_guard(c)] if k[S.guard_deflated + normal_guard(c)] == 1 else gap
-    w[out + _PAST] = w[S.geometry + GEOMETRY * c + PAST_END]
+    w[out + _PAST] = contact.geometry[PAST_END]
     _write_arm(S, w, k, c, out + _ARM)
 
 
@@ -309,30 +317,31 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
 
     It has been evaluated at ``high`` if the contact stands there (1).
     """
+    contact = contact_at(S, w, k, c)
     left, n = S.sectors, 1
     deflated = k[S.guard_deflated + normal_guard(c)] == 1
     w[left + _THETA], w[left + _GAP] = 0.0, 0.0 if deflated else w[S.guard_first + normal_guard(c)]
-    w[left + _RATE], w[left + _PAST] = w[S.gap_rate_first + c], w[S.past_first + c]
+    w[left + _RATE], w[left + _PAST] = contact.gap_rate_first, contact.past_first
     right = left + SECTOR
     for r in range(3):
-        w[left + _ARM + r], w[right + _ARM + r] = w[S.arm_first + 3 * c + r], w[S.arm_end + 3 * c + r]
+        w[left + _ARM + r], w[right + _ARM + r] = contact.arm_first[r], contact.arm_end[r]
     if high < 1.0:
         if stands == 1:
             _keep(S, w, k, h, high, c, right)
         else:
             _look(S, w, k, h, high, c, right)
     else:
-        w[right + _THETA], w[right + _RATE], w[right + _PAST] = 1.0, w[S.gap_rate_end + c], w[S.past_end + c]
-        w[right + _GAP] = w[S.gap_end + c] - (w[S.guard_start + normal_guard(c)] if deflated else 0.0)
-    speed = w[S.speed_first + c] + w[S.speed_end + c]
+        w[right + _THETA], w[right + _RATE], w[right + _PAST] = 1.0, contact.gap_rate_end, contact.past_end
+        w[right + _GAP] = contact.gap_end - (w[S.guard_start + normal_guard(c)] if deflated else 0.0)
+    speed = contact.speed_first + contact.speed_end
     if (
         high < 1.0
         and _too_far(w[left + _GAP], w[left + _PAST], w[right + _GAP], w[right + _PAST], high * h * speed) == 1
     ):
         return 0.0
     fall = _largest_fall(S, w, k, h, c)
-    turning = w[S.fall_first + FALL * c + _TURNING] + w[S.fall_end + FALL * c + _TURNING]
-    lever = min(w[S.lever_a + c], w[S.lever_b + c])
+    turning = contact.fall_first[_TURNING] + contact.fall_end[_TURNING]
+    lever = min(contact.lever_a, contact.lever_b)
     while n > 0:
         right = left + SECTOR * n
         span = w[right + _THETA] - w[left + _THETA]
@@ -342,7 +351,7 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
             rates = max(abs(w[left + _RATE]), abs(w[right + _RATE]))
             rests = gaps <= _RESTS * S.gap_tolerance and rates <= _RESTS * S.velocity_tolerance
             astray = w[left + _PAST] > 0.0 or w[right + _PAST] > 0.0
-            enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * w[S.size + c]))
+            enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * contact.size))
             if span * h > S.time_tolerance and not enough:
                 n += 1
                 _look(S, w, k, h, w[left + _THETA] + 0.5 * span, c, left + SECTOR * n)

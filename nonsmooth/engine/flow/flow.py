@@ -13,10 +13,10 @@ from nonsmooth.engine.contact.held_contacts import hold_contacts, lay_rows
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.blocks import GAP, GEOMETRY
+from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LAST_STAGE, LOADS, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
 
 _SHARE = tableau.NODES[1] / tableau.NODES[2]
@@ -42,9 +42,10 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
         activate_group(S, w, k, group)
         for a in range(S.n_active):
             c = k[S.active + a]
+            contact = contact_at(S, w, k, c)
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
-            if k[S.normal_function + c] != 0:
+            if contact.normal_function != 0:
                 evaluate_given_force(S, w, k, c)
             _set_friction(S, w, k, a, y)
             evaluate_bias(S, w, k, c, 1 + 2 * k[S.tangent_held + a])
@@ -52,11 +53,12 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
         keeps = min(keeps, hold_contacts(S, w, k, choosing))
         for a in range(S.n_active):
             c = k[S.active + a]
-            k[S.tied + c] = k[S.redundant + a]
-            k[S.holds + c] = k[S.tangent_held + a]
-            w[S.static_margin + c] = _static_margin(S, w, k, a)
+            contact = contact_at(S, w, k, c)
+            contact.tied = k[S.redundant + a]
+            contact.holds = k[S.tangent_held + a]
+            contact.static_margin = _static_margin(S, w, k, a)
             for r in range(3):
-                w[S.force + 3 * c + r] = w[S.f + 3 * a + r]
+                contact.force[r] = w[S.f + 3 * a + r]
     return keeps
 
 
@@ -64,8 +66,9 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
 def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return how far the friction of an active contact is from its bound [N]; without any, its slip from one [m/s]."""
     c = k[S.active + a]
+    contact = contact_at(S, w, k, c)
     if k[S.tangent_held + a] == 0:
-        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+        v1, v2 = contact.rate[1], contact.rate[2]
         return float(S.velocity_tolerance - math.sqrt(v1 * v1 + v2 * v2))
     t1, t2 = facing_force(S, w, k, c, w[S.f + 3 * a + 1]), w[S.f + 3 * a + 2]
     slack = w[S.slack + c] * k[S.redundant + a]
@@ -76,16 +79,17 @@ def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
 def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
     """Set what the active contact ``a`` holds, and its slip direction and friction where it slides."""
     c = k[S.active + a]
+    contact = contact_at(S, w, k, c)
     k[S.normal_held + a] = 1
     k[S.tangent_held + a] = 0
     w[S.turned + c] = 0.0
-    if k[S.normal_function + c] != 0:
+    if contact.normal_function != 0:
         k[S.normal_held + a] = 0
-        w[S.f + 3 * a] = w[S.given + c]
-        if k[S.traction_function + c] != 0:
+        w[S.f + 3 * a] = contact.given
+        if contact.traction_function != 0:
             rub_by_traction(S, w, k, c, S.f + 3 * a, y)
             return
-    if k[S.mode + c] == STICK:
+    if contact.mode == STICK:
         w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
         if w[S.mu_static + a] > 0.0:
             k[S.tangent_held + a] = 1
@@ -93,24 +97,26 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
     follow_slip(S, w, k, a, S.rate + 3 * c + 1, S.velocity_tolerance)
     if k[S.normal_held + a] == 0:
         # what pulls does not rub
-        w[S.mu + a] *= 1.0 if w[S.given + c] > 0.0 else 0.0
+        w[S.mu + a] *= 1.0 if contact.given > 0.0 else 0.0
         friction_of_slip(S, w, a)
 
 
 @kernel("f8(S, F, I, i8)")
 def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach."""
-    if k[S.normal_function + c] != 0:
-        return w[S.reach + c] - w[S.geometry + GEOMETRY * c + GAP]
-    return w[S.force + 3 * c]
+    contact = contact_at(S, w, k, c)
+    if contact.normal_function != 0:
+        return float(contact.reach - contact.geometry[GAP])
+    return float(contact.force[0])
 
 
 @kernel("f8(S, F, I, i8)")
 def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the slip along its direction at the start of the step, or 1 where nothing depends on its sign."""
-    if k[S.traction_function + c] != 0:
+    contact = contact_at(S, w, k, c)
+    if contact.traction_function != 0:
         return 1.0
-    return w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
+    return float(contact.rate[1] * contact.direction[0] + contact.rate[2] * contact.direction[1])
 
 
 @room("void(S, F, I, f8, i8, i8, i8)")
@@ -134,13 +140,14 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
             own += w[h + i] * w[y + S.n_q + k[S.body_u + body] + i]
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
-        sticks = k[S.mode + c] == STICK
+        contact = contact_at(S, w, k, c)
+        sticks = contact.mode == STICK
         if not sticks:
             for r in range(1, 3):
-                lost -= w[S.force + 3 * c + r] * w[S.rate + 3 * c + r]
+                lost -= contact.force[r] * contact.rate[r]
         lost -= w[S.turned + c]
         hold = hold_guard(S, w, k, c)
-        w[S.least_force + c] = min(w[S.least_force + c], hold)
+        contact.least_force = min(contact.least_force, hold)
         if sticks or hold < 0.0 or slip_guard(S, w, k, c) < 0.0:
             S.suspect = 1
     powers = out + S.n_q + S.n_u
@@ -170,7 +177,8 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     n = S.n_y
     S.suspect = 0
     for c in range(S.n_contacts):
-        w[S.least_force + c] = 1e300
+        contact = contact_at(S, w, k, c)
+        contact.least_force = 1e300
     for stage in range(1, N_STAGES):
         out = S.y_new if stage == LAST_STAGE else S.y_stage
         stage_state(S, w, S.y, S.slopes, n, stage, h, out)

@@ -30,7 +30,7 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_guard, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_guard, contact_at, kernel
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
@@ -47,9 +47,10 @@ _LATE = 2.0
 @kernel("f8(S, F, I, i8)")
 def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the way left to the end of the features of a closed contact, negative if it has other ones than before."""
+    contact = contact_at(S, w, k, c)
     block = S.geometry + GEOMETRY * c
     left = _LATE * S.gap_tolerance - w[block + PAST_END] if w[block + PAST_END] != 0.0 else 1.0
-    if left < 0.0 or k[S.feature + c] < 0 or int(w[block + FEATURE]) == k[S.feature + c]:
+    if left < 0.0 or contact.feature < 0 or int(w[block + FEATURE]) == contact.feature:
         return float(left)
     return float(-left)
 
@@ -62,7 +63,8 @@ def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
     """
     looks = S.t - S.feature_t > S.time_tolerance
     for c in range(S.n_contacts):
-        k[S.feature + c] = int(w[S.geometry + GEOMETRY * c + FEATURE]) if looks and k[S.mode + c] != OPEN else -1
+        contact = contact_at(S, w, k, c)
+        contact.feature = int(contact.geometry[FEATURE]) if looks and contact.mode != OPEN else -1
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
@@ -73,27 +75,30 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
     elif forces == 1:
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
+            contact = contact_at(S, w, k, c)
             w[S.guard + normal_guard(c)] = hold_guard(S, w, k, c)
-            w[S.gap_rate + c] = w[S.rate + 3 * c]
-            if k[S.mode + c] == STICK:
-                w[S.guard + friction_guard(c)] = w[S.static_margin + c]
+            contact.gap_rate = contact.rate[0]
+            if contact.mode == STICK:
+                w[S.guard + friction_guard(c)] = contact.static_margin
             else:
                 w[S.guard + friction_guard(c)] = slip_guard(S, w, k, c)
     for c in range(S.n_contacts):
-        if k[S.mode + c] == OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.mode == OPEN:
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
-            w[S.guard + normal_guard(c)] = w[S.geometry + GEOMETRY * c + GAP]
+            w[S.guard + normal_guard(c)] = contact.geometry[GAP]
             w[S.guard + friction_guard(c)] = 1.0
-            w[S.gap_rate + c] = w[S.rate + 3 * c]
+            contact.gap_rate = contact.rate[0]
     for g in range(S.n_own_guards):
         w[S.guard + first_own_guard(S) + g] = call_guard(
             k[S.own_guard_function + g], t, at(w, y), at(w, y + S.n_q), at(w, k[S.own_guard_parameters + g])
         )
     ends = first_end_guard(S)
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
         w[S.guard + ends + c] = 1.0
-        if k[S.mode + c] != OPEN and forces == 1 and S.n_grouped > 0:
+        if contact.mode != OPEN and forces == 1 and S.n_grouped > 0:
             w[S.guard + ends + c] = _feature_guard(S, w, k, c)
 
 
@@ -134,13 +139,14 @@ def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
 def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep guards and rates of the end of a step, where the next one starts."""
     for c in range(S.n_contacts):
-        w[S.gap_rate_end + c] = w[S.gap_rate + c]
-        w[S.gap_end + c] = w[S.geometry + GEOMETRY * c + GAP]
-        w[S.past_end + c] = w[S.geometry + GEOMETRY * c + PAST_END]
+        contact = contact_at(S, w, k, c)
+        contact.gap_rate_end = contact.gap_rate
+        contact.gap_end = contact.geometry[GAP]
+        contact.past_end = contact.geometry[PAST_END]
         for i in range(normal_guard(c), friction_guard(c) + 1):
             w[S.guard_end + i] = w[S.guard + i]
         for r in range(3):
-            w[S.rate_end + 3 * c + r] = w[S.rate + 3 * c + r]
+            contact.rate_end[r] = contact.rate[r]
     for i in range(first_own_guard(S), number_of_guards(S)):
         w[S.guard_end + i] = w[S.guard + i]
 
@@ -149,23 +155,24 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
 def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the kept guards as those of the start: arm the positive ones, deflate those that start from zero."""
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
         normal, friction = normal_guard(c), friction_guard(c)
         for i in range(normal, friction + 1):
             k[S.guard_deflated + i] = 0
             w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
-        if k[S.mode + c] == OPEN:
+        if contact.mode == OPEN:
             if w[S.guard_first + normal] <= S.gap_tolerance:
                 k[S.guard_deflated + normal] = 1
                 w[S.guard_start + normal] = min(0.0, w[S.guard_start + normal])
-                if w[S.gap_rate_end + c] <= S.velocity_tolerance:
+                if contact.gap_rate_end <= S.velocity_tolerance:
                     w[S.guard_start + normal] -= _ROUND_OFF * S.gap_tolerance
-                w[S.guard_first + normal] = w[S.gap_rate_end + c]
-        elif k[S.normal_function + c] != 0 and w[S.guard_first + normal] <= S.gap_tolerance:
+                w[S.guard_first + normal] = contact.gap_rate_end
+        elif contact.normal_function != 0 and w[S.guard_first + normal] <= S.gap_tolerance:
             # it has just touched down, and lets go when it comes back to here
             k[S.guard_deflated + normal] = 1
             w[S.guard_start + normal] = min(0.0, w[S.guard_start + normal]) - _ROUND_OFF * S.gap_tolerance
-            w[S.guard_first + normal] = -w[S.gap_rate_end + c]
-        if k[S.mode + c] == SLIDE and w[S.guard_first + friction] <= S.velocity_tolerance:
+            w[S.guard_first + normal] = -contact.gap_rate_end
+        if contact.mode == SLIDE and w[S.guard_first + friction] <= S.velocity_tolerance:
             k[S.guard_deflated + friction] = 1
             w[S.guard_start + friction] = min(0.0, w[S.guard_start + friction]) - _ROUND_OFF * S.velocity_tolerance
             w[S.guard_first + friction] = 0.0
@@ -201,23 +208,25 @@ def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
 def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap that came over the end of a feature to where it rests; it does not close."""
     c = contact_of(i)
-    if k[S.mode + c] != OPEN or is_friction_guard(i) == 1 or k[S.guard_deflated + i] == 1:
+    contact = contact_at(S, w, k, c)
+    if contact.mode != OPEN or is_friction_guard(i) == 1 or k[S.guard_deflated + i] == 1:
         return 0
-    rests = w[S.guard + i] > -S.gap_tolerance and w[S.gap_rate + c] > -S.velocity_tolerance
-    return 1 if w[S.geometry + GEOMETRY * c + PAST_END] != 0.0 and rests else 0
+    rests = w[S.guard + i] > -S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance
+    return 1 if contact.geometry[PAST_END] != 0.0 and rests else 0
 
 
 @kernel("f8(S, F, I, i8)")
 def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
     """Return below what guard ``i`` of a contact fires though it is not armed."""
     c = contact_of(i)
+    contact = contact_at(S, w, k, c)
     if k[S.guard_deflated + i] == 1:
         return float(_WRONG_SLIP * S.velocity_tolerance)
     normal = is_friction_guard(i) == 0
-    if normal and (k[S.mode + c] == OPEN or k[S.normal_function + c] != 0):
+    if normal and (contact.mode == OPEN or contact.normal_function != 0):
         return float(_WRONG_GAP * S.gap_tolerance)
-    if normal or (k[S.mode + c] == STICK and k[S.holds + c] == 1):
-        return _WRONG_FORCE * w[S.small_force_of + c]
+    if normal or (contact.mode == STICK and contact.holds == 1):
+        return float(_WRONG_FORCE * contact.small_force_of)
     return float(_WRONG_SLIP * S.velocity_tolerance)
 
 

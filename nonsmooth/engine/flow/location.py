@@ -31,7 +31,7 @@ from nonsmooth.engine.flow.guards import (
 from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
@@ -75,7 +75,8 @@ _SHORT = 1e-7
 @kernel("i8(S, F, I)")
 def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN:
             return 1
     return 0
 
@@ -125,8 +126,9 @@ def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
 def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Look for a dip of a normal force or a static margin between the samples."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            last = friction_guard(c) if k[S.mode + c] == STICK else normal_guard(c)
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN:
+            last = friction_guard(c) if contact.mode == STICK else normal_guard(c)
             for i in range(normal_guard(c), last + 1):
                 if k[S.guard_armed + i] == 1:
                     theta = _lowest(S, w, k, h, i)
@@ -140,8 +142,9 @@ def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
     """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
     soonest = 1e300
     for c in range(S.n_contacts):
-        gap, rate = w[S.geometry + GEOMETRY * c + GAP], w[S.gap_rate + c]
-        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c + PAST_END] <= 0.0 and gap > 0.0 and rate < 0.0:
+        contact = contact_at(S, w, k, c)
+        gap, rate = contact.geometry[GAP], contact.gap_rate
+        if contact.mode == OPEN and contact.geometry[PAST_END] <= 0.0 and gap > 0.0 and rate < 0.0:
             soonest = min(soonest, -gap / rate)
     return soonest
 
@@ -156,8 +159,9 @@ def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     least = longest
     for i in range(S.n_astray):
         c = k[S.astray + i]
-        speed = w[S.speed_first + c] + w[S.speed_end + c]
-        way = min(_FARTHEST * w[S.size + c], max(w[S.geometry + GEOMETRY * c + GAP], WAY * w[S.size + c]))
+        contact = contact_at(S, w, k, c)
+        speed = contact.speed_first + contact.speed_end
+        way = min(_FARTHEST * contact.size, max(contact.geometry[GAP], WAY * contact.size))
         if way < least * speed:
             least = way / speed
     return float(max(least, _SHORTEST * h))
@@ -218,8 +222,9 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
     suspect = S.suspect == 1
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
         i = normal_guard(c)
-        if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + i], w[S.guard_end + i]):
+        if contact.mode != OPEN and contact.least_force < min(w[S.guard_first + i], w[S.guard_end + i]):
             suspect = True
     forces = closed if suspect else 0
     looks = forces + S.n_own_guards
@@ -247,8 +252,9 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         for i in range(number_of_guards(S)):
             w[S.guard + i] = w[S.guard_end + i]
         for c in range(S.n_contacts):
-            w[S.gap_rate + c] = w[S.gap_rate_end + c]
-            w[S.geometry + GEOMETRY * c + PAST_END] = w[S.past_end + c]
+            contact = contact_at(S, w, k, c)
+            contact.gap_rate = contact.gap_rate_end
+            contact.geometry[PAST_END] = contact.past_end
         deflate(S, w, k, h)
     elif fired >= 0 or S.n_doubtful == 0:
         return 1.0 if fired >= 0 else 0.0
@@ -381,10 +387,11 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
 def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
         block = S.geometry + GEOMETRY * c
-        if k[S.mode + c] == OPEN and c != contact_of(i) and w[block + PAST_END] <= 0.0:
+        if contact.mode == OPEN and c != contact_of(i) and w[block + PAST_END] <= 0.0:
             start = min(0.0, w[S.guard_start + normal_guard(c)])
-            if w[block + GAP] < start - _FAR_BEHIND * S.gap_tolerance and w[S.gap_rate + c] < 0.0:
+            if w[block + GAP] < start - _FAR_BEHIND * S.gap_tolerance and contact.gap_rate < 0.0:
                 return 1
     return 0
 

@@ -23,6 +23,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
 from nonsmooth.engine.native.build import CFunction, EnginePasses, numbered, raw, raw_inside, typed_once, uncollected
 from nonsmooth.engine.native.cache import Store, folders
+from nonsmooth.engine.native.contact_view import contact_at as contact_at
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE
 from nonsmooth.notices import say
 
