@@ -16,9 +16,9 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_c
 
 
 @kernel("void(S, F, I, i8)")
-def evaluate_given_force(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+def evaluate_compliant_force(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write the normal force of the compliant contact ``c``, its geometry and rates being known."""
-    w[S.given + c] = call_compliance(
+    w[S.compliant_force + c] = call_compliance(
         k[S.normal_function + c],
         -w[S.geometry + GEOMETRY * c + GAP],
         -w[S.rate + 3 * c],
@@ -49,7 +49,7 @@ def evaluate_traction(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> Non
     out = k[S.traction_out + c]
     call_load(
         k[S.traction_function + c],
-        w[S.given + c],
+        w[S.compliant_force + c],
         at(w, S.motion),
         at(w, state_at(S, k, c, y)),
         at(w, k[S.traction_parameters + c]),
@@ -127,13 +127,13 @@ def lay_wrench(S: Scalars, w: Floats, k: Integers, c: int, f: int) -> None:
 def rub_by_traction(S: Scalars, w: Floats, k: Integers, c: int, f: int, y: int) -> None:
     """Write the forces of a contact with a law of traction to ``f``."""
     evaluate_traction(S, w, k, c, y)
-    w[f] = w[S.given + c]
+    w[f] = w[S.compliant_force + c]
     for r in range(2):
         w[f + 1 + r] = w[k[S.traction_out + c] + TRACTION + r]
 
 
 @kernel()
-def push_given(S: Scalars, w: Floats, k: Integers) -> None:
+def push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
     """Add to ``du`` what the touching compliant contacts are known to do, all of it or the normal force alone."""
     for c in range(S.n_contacts):
         if k[S.normal_function + c] == 0 or k[S.touching + c] == 0:
@@ -143,13 +143,13 @@ def push_given(S: Scalars, w: Floats, k: Integers) -> None:
             lay_wrench(S, w, k, c, S.force + 3 * c)
             push_response(S, w, k, c, 0, 1.0, S.du)
         else:
-            push_response(S, w, k, c, 0, w[S.given + c], S.du)
+            push_response(S, w, k, c, 0, w[S.compliant_force + c], S.du)
 
 
 @kernel("i8(S, F, I, i8)")
 def rubs_unasked(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return 1 if the friction of the compliant contact ``c`` is no question: by a law of traction, or without load."""
-    return 1 if k[S.traction_function + c] != 0 or w[S.given + c] <= 0.0 else 0
+    return 1 if k[S.traction_function + c] != 0 or w[S.compliant_force + c] <= 0.0 else 0
 
 
 @kernel()
@@ -166,7 +166,7 @@ def decouple_normals(S: Scalars, w: Floats, k: Integers) -> None:
             g, d = S.delassus + 9 * block, k[S.block_column + block]
             if d == a and not rigid:
                 own = w[g] if w[g] > 0.0 else 1.0
-                w[S.b + 3 * a] = -own * w[S.given + k[S.active + a]]
+                w[S.b + 3 * a] = -own * w[S.compliant_force + k[S.active + a]]
                 for i in range(1, 3):
                     w[g + i] = w[g + 3 * i] = 0.0
                 w[g] = own

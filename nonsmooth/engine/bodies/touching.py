@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.bodies.compliance import evaluate_given_force, refresh_states
+from nonsmooth.engine.bodies.compliance import evaluate_compliant_force, refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.memory.blocks import GAP, PAST_END
 from nonsmooth.engine.memory.modes import OPEN
@@ -51,7 +51,7 @@ def _touch_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> None:
         contact.touching = 0
         return
     evaluate_contact(S, w, k, c, 3)
-    evaluate_given_force(S, w, k, c)
+    evaluate_compliant_force(S, w, k, c)
 
 
 @kernel("f8(S, F, I, i8)")

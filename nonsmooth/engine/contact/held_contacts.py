@@ -11,7 +11,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.compliance import lay_wrench
 from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
 from nonsmooth.engine.contact.forces import friction_of_slip, solve_doubtful, solve_unknowns
-from nonsmooth.engine.contact.shares import add_share, choose_share
+from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.numerics.band import open_band
@@ -109,7 +109,7 @@ def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) ->
 
 
 @kernel()
-def _push_given(S: Scalars, w: Floats, k: Integers) -> None:
+def _push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
     """Add to ``du`` what the active compliant contacts are known to do, and note the powers."""
     for a in range(S.n_active):
         if k[S.normal_held + a] == 1:
@@ -146,16 +146,16 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
     """Write the forces ``f`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
 
     Rows and columns must be laid, and the given forces; the free accelerations stand in ``du``.  With ``choosing`` (1)
-    the share of forces that are not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
+    the null-space force of those not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
     """
     keeps = 1
-    _push_given(S, w, k)
+    _push_compliant(S, w, k)
     if _solve_held(S, w, k) == 0:
         return keeps
     if S.deficient == 1:
         if choosing == 1:
-            keeps = choose_share(S, w, k)
-        add_share(S, w, k)
+            keeps = choose_null_space_force(S, w, k)
+        add_null_space_force(S, w, k)
     for a in range(S.n_active):
         c = k[S.active + a]
         sticks = k[S.tangent_held + a]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
-from nonsmooth.engine.contact.spread import spread
 from nonsmooth.engine.delassus.delassus import add_product, own_block
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
@@ -122,9 +122,9 @@ def _compare(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
 
 @kernel("i8(S, F, I, i8)")
 def judge(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
-    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, once spread where they are not unique."""
+    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, once distributed where they are not unique."""
     result = _compare(S, w, k, lenient)
-    if result == 2 and spread(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
+    if result == 2 and distribute(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
         for a in range(S.n_active):
             if k[S.mode_tried + a] == SLIDE:

@@ -6,7 +6,12 @@ import math
 
 from nonsmooth.engine.bodies.anisotropy import facing_force
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies, evaluate_free_bodies
-from nonsmooth.engine.bodies.compliance import evaluate_given_force, refresh_states, rub_by_traction, write_state_rates
+from nonsmooth.engine.bodies.compliance import (
+    evaluate_compliant_force,
+    refresh_states,
+    rub_by_traction,
+    write_state_rates,
+)
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.contact.held_contacts import hold_contacts, lay_rows
@@ -28,7 +33,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
     The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.  With ``choosing``
-    (1) the share of forces that are not unique is chosen anew; return 0 if somewhere none keeps every bound, else 1.
+    (1) the null-space force of those not unique is chosen anew; return 0 if somewhere none keeps every bound, else 1.
     """
     keeps = 1
     S.singular = -1
@@ -46,7 +51,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
             if contact.normal_function != 0:
-                evaluate_given_force(S, w, k, c)
+                evaluate_compliant_force(S, w, k, c)
             _set_friction(S, w, k, a, y)
             evaluate_bias(S, w, k, c, 1 + 2 * k[S.tangent_held + a])
             lay_rows(S, w, k, a)
@@ -85,7 +90,7 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
     w[S.turned + c] = 0.0
     if contact.normal_function != 0:
         k[S.normal_held + a] = 0
-        w[S.f + 3 * a] = contact.given
+        w[S.f + 3 * a] = contact.compliant_force
         if contact.traction_function != 0:
             rub_by_traction(S, w, k, c, S.f + 3 * a, y)
             return
@@ -97,7 +102,7 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
     follow_slip(S, w, k, a, S.rate + 3 * c + 1, S.velocity_tolerance)
     if k[S.normal_held + a] == 0:
         # what pulls does not rub
-        w[S.mu + a] *= 1.0 if contact.given > 0.0 else 0.0
+        w[S.mu + a] *= 1.0 if contact.compliant_force > 0.0 else 0.0
         friction_of_slip(S, w, a)
 
 

@@ -34,7 +34,7 @@ def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any
 
 def room_addresses() -> tuple[int, ...]:
     """Return as many numbers as there are rooms; nothing reads them."""
-    importlib.import_module("nonsmooth.engine.events.hybrid")
+    importlib.import_module("nonsmooth.engine.events.event_loop")
     return (0,) * len(ROOMS)
 
 

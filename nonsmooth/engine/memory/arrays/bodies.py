@@ -20,7 +20,7 @@ ARRAYS = Arrays(
         "tangents": fixed(6),
         "motion": fixed(5),
         "wrench": fixed(6),
-        "given": per(1, "n_slots"),
+        "compliant_force": per(1, "n_slots"),
         "reach": per(1, "n_slots"),
         "closing_rate": per(1, "n_slots"),
         "turned": per(1, "n_slots"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.anisotropy import turn_facing, unstretch_force
 from nonsmooth.engine.bodies.compliance import (
     begin_contact,
-    push_given,
+    push_compliant,
     rubs_unasked,
 )
 from nonsmooth.engine.bodies.touching import slip_speed, touch
@@ -14,7 +14,7 @@ from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_
 from nonsmooth.engine.contact.trial import small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
-from nonsmooth.engine.events.closing import close_contacts, hand_over
+from nonsmooth.engine.events.accumulation import close_contacts, hand_over
 from nonsmooth.engine.events.record import (
     DRIVEN_WORK,
     FRICTION_LOSS,
@@ -248,7 +248,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
     Return 2 where all is to be done again, some friction having another bound than it seemed.
     """
     free_acceleration(S, w, k)
-    push_given(S, w, k)
+    push_compliant(S, w, k)
     turned = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
@@ -303,7 +303,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @room("i8(S, F, I, i8, i8)")
-def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     """Carry the system through an instant that ``contact`` makes one by ``cause``; return the status."""
     S.recorded = 0
     resting = projected = 0

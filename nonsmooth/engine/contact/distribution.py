@@ -1,4 +1,4 @@
-"""Forces that are not unique, spread so that every contact keeps Coulomb's bound, the motion left as it is."""
+"""Forces that are not unique, distributed so that every contact keeps Coulomb's bound, the motion left as it is."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> i
 
 
 @room("i8(S, F, I, f8, f8)")
-def spread(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
+def distribute(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 
     ``f`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the

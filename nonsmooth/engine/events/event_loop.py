@@ -10,8 +10,8 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS, record_event, record_samples, remember
-from nonsmooth.engine.events.settle import settle
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.flow import right_hand_side, slope, try_step
@@ -170,8 +170,8 @@ def _cause(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
 
 
 @kernel("i8(S, F, I, i8, i8)")
-def _settle_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
-    """Settle the instant of an event; return the status."""
+def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Carry out an event: count it, and update modes and velocities at its instant; return the status."""
     S.fresh = 0
     if S.t - S.last_event_t > S.time_tolerance:
         S.repeated = 0
@@ -179,7 +179,7 @@ def _settle_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) 
     S.last_event_t = S.t
     if S.repeated > _EVENTS_AT_ONCE + S.n_contacts:
         return EVENTS_ENDLESS
-    return settle(S, w, k, cause, contact)
+    return update_at_event(S, w, k, cause, contact)
 
 
 @kernel("i8(S, F, I)")
@@ -227,7 +227,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     contact = _due_at_start(S, w, k)
     if contact >= 0:
         cause = _closing_cause(S, k, contact) if k[S.mode + contact] == OPEN else FEATURE_END
-        return _settle_event(S, w, k, cause, contact)
+        return _carry_out(S, w, k, cause, contact)
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
     status = accepted_step(S, w, k)
@@ -292,7 +292,7 @@ def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
 def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
     contact = _singular(S, w, k) if status == STEP_TOO_SMALL else -1
-    return _settle_event(S, w, k, JAM, contact) if contact >= 0 else _up_to_end(S, status)
+    return _carry_out(S, w, k, JAM, contact) if contact >= 0 else _up_to_end(S, status)
 
 
 @kernel("i8(S, F, I)")
@@ -303,7 +303,7 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     _commit(S, w, k, S.h)
     contact = _stopping(S, w, k)
     if contact >= 0:
-        return _settle_event(S, w, k, SLIP_TO_STICK, contact)
+        return _carry_out(S, w, k, SLIP_TO_STICK, contact)
     S.fresh = 1
     return RUNNING
 
@@ -341,7 +341,7 @@ def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
         _commit(S, w, k, h)
         if changed:
             S.feature_t = S.t
-        return _settle_event(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, contact)
+        return _carry_out(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, contact)
     if guard >= first_own_guard(S):
         _commit(S, w, k, h)
         return _own_event(S, w, k, guard - first_own_guard(S))
@@ -349,13 +349,13 @@ def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, contact)
     _commit(S, w, k, h)
-    if k[S.tied + contact] == 1 and _shares_hold(S, w, k, guard) == 1:
+    if k[S.tied + contact] == 1 and _null_space_forces_hold(S, w, k, guard) == 1:
         return RUNNING
-    return _settle_event(S, w, k, cause, contact)
+    return _carry_out(S, w, k, cause, contact)
 
 
 @kernel("i8(S, F, I, i8)")
-def _shares_hold(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
+def _null_space_forces_hold(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
     """Choose the forces that are not unique anew; return 1 if all closed contacts can keep their bounds.
 
     The ``guard`` that fired must be that of a force.  A second time within the time tolerance there is no choice: then
@@ -383,8 +383,8 @@ def _own_event(S: Scalars, w: Floats, k: Integers, number: int) -> int:
 @kernel("void(S, F, I, i8)")
 def _break_direction(S: Scalars, w: Floats, k: Integers, contact: int) -> None:
     """Let a contact that breaks away slip against the friction that held it, that of least norm if it is not unique."""
-    t1 = w[S.force + 3 * contact + 1] - w[S.share + 3 * contact + 1] * k[S.tied + contact]
-    t2 = w[S.force + 3 * contact + 2] - w[S.share + 3 * contact + 2] * k[S.tied + contact]
+    t1 = w[S.force + 3 * contact + 1] - w[S.null_space_force + 3 * contact + 1] * k[S.tied + contact]
+    t2 = w[S.force + 3 * contact + 2] - w[S.null_space_force + 3 * contact + 2] * k[S.tied + contact]
     norm = math.sqrt(t1 * t1 + t2 * t2)
     if norm > 0.0:
         turn_facing(S, w, k, contact, t1)
@@ -402,7 +402,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
         S.started = 1
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
         evaluate_bodies(S, w, k, S.t, S.y)
-        status = settle(S, w, k, START, -1)
+        status = update_at_event(S, w, k, START, -1)
         if S.crowded == 1:
             return NO_SLOT
         if status != RUNNING:
