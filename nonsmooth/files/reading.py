@@ -50,8 +50,6 @@ class Setup:
         How to run it.
     system : System
         Bodies, contacts, starts.
-    names : tuple of str
-        Names of the bodies, in the order of the system.
     changes : mapping of str to str
         What was changed of the file, by key.
     """
@@ -62,7 +60,6 @@ class Setup:
     sample_interval: float | None
     options: Options
     system: System
-    names: tuple[str, ...]
     changes: Mapping[str, str]
     _tables: Table = field(repr=False)
 
@@ -114,4 +111,4 @@ def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
     )
     options = component(f"{path}: options", tables.get("options", {}), Options, path.parent)
     made = assembling.system(tables, path)
-    return Setup(path, title, t_end, interval, options, made, tuple(tables["bodies"]), dict(changes), tables)
+    return Setup(path, title, t_end, interval, options, made, dict(changes), tables)

@@ -63,7 +63,7 @@ def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
         state = model.memory.array("y", model.n_y)[first_state + start :][:n]
         for part in law_functions(contact.friction, contact.impact, contact.normal):
             parameters = int(row[CATALOGUE.index(f"{part.name}_parameters")])
-            yield without_value(model.memory.floats[parameters:], part, state, contact.name)
+            yield without_value(model.memory.floats[parameters:], part, state, str(contact))
 
 
 def _in_the_blocks(model: LaidOut) -> str:
@@ -97,7 +97,7 @@ def _in_the_map(model: LaidOut) -> str:
     except Exception as error:
         what = raised(law.impulses, error)
     listed = memory.array("identity", int(memory.scalars["n_contacts"][0]))
-    among = [model.system.contacts[int(i)].name for i in listed[memory.array("active", n)]]
+    among = [str(model.system.contacts[int(i)]) for i in listed[memory.array("active", n)]]
     before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
     return (
         f"{type(law).__name__}: {described(law.impulses)}, {what} for the rates {before} m/s "

@@ -58,7 +58,7 @@ def check_state(model: LaidOut, state: State) -> None:
             start = first + body.quaternion
             length = float(np.linalg.norm(state.q[start : start + 4]))
             if not abs(length - 1.0) <= _UNIT:
-                thing = f"State.q[{start}:{start + 4}], the quaternion of {type(body).__name__},"
+                thing = f"State.q[{start}:{start + 4}], the quaternion of {system.name_of(body)!r},"
                 raise InvalidInput(thing, "must have unit length", length, "Divide it by its norm.")
         first += body.n_q
 
@@ -104,7 +104,7 @@ def check_closed(model: LaidOut, state: State) -> None:
         reach = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
         if not gaps[number] <= reach + allowed:
             raise InvalidInput(
-                f"State.modes[{number}], the {model.system.contacts[number].name},",
+                f"State.modes[{number}], the {model.system.contacts[number]},",
                 f"must be 0, open, where there is a gap of {gaps[number]:.3g} m",
                 int(state.modes[number]),
                 "Where q has been changed, begin with State.at(system, time, q, u).",
