@@ -68,7 +68,7 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
         rates = _entry(model, "body_tail", i) - start + body.n_q + body.n_u
         written = FRAME if body.n_u == 0 else rates
         yield Block(
-            functools.partial(_words, f"body {names[i]!r}", body.evaluator),
+            functools.partial("body {!r}, {!r}:".format, names[i], body),
             body.evaluator,
             start,
             rates + body.n_u**2 + 2,

@@ -98,11 +98,12 @@ def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:
     InvalidInput
         If one has no finite value.
     """
-    for guard in system.guards:
+    for watched in system.watched:
+        guard = watched.guard
         value = guard_value(guard, t, q, u)
         if not isinstance(value, float) or not math.isfinite(value):
             raise InvalidInput(
-                f"{type(guard).__name__}.value",
+                f"{watched}: {type(guard).__name__}.value",
                 "must return a finite number at the start",
                 value,
                 f"Look at {guard.value.__qualname__} with t = {t:g} and the q and u of the start.",

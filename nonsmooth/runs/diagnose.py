@@ -109,9 +109,10 @@ def _guard_without_value(model: LaidOut) -> str:
     """Look at the guards at the end of the step that failed."""
     scalars, state = model.memory.scalars[0], model.memory.array("y_new", model.n_y)
     q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]
-    for guard in model.system.guards:
+    for watched in model.system.watched:
+        guard = watched.guard
         value = guard_value(guard, float(scalars["t"] + scalars["h"]), q, u)
         if not isinstance(value, float) or not math.isfinite(value):
             what = raised(guard.value, value) if isinstance(value, Exception) else f"gives {value!r}"
-            return f"{type(guard).__name__}: {described(guard.value)}, {what} within {float(scalars['h']):g} s."
+            return f"{watched}: {described(guard.value)}, {what} within {float(scalars['h']):g} s."
     return ""

@@ -70,11 +70,8 @@ def solution_of(
     t, q = table[:, 0], table[:, 1 : 1 + n_q]
     worst = float(record["open_t"]), float(record["open_energy"]), float(record["open_share"])
     tolerances = float(record["rtol"]), float(record["impact_rtol"])
-    found = (
-        suspicions(worst, state.energy, model.system.bodies, (t, q), tolerances, counters.steps)
-        if word == "done"
-        else ""
-    )
+    bodies = dict(zip(model.system.names.bodies, model.system.bodies, strict=True))
+    found = suspicions(worst, state.energy, bodies, (t, q), tolerances, counters.steps) if word == "done" else ""
     if found:
         word, message = "suspect", f"{message}, but {found}"
     return Solution(

@@ -27,8 +27,8 @@ class Events:
     cause : array
         Index into :data:`nonsmooth.engine.memory.modes.CAUSES`, shape [n].
     contact : array
-        The contact that caused it, counted from 0, -1 at the start; the number of the guard where that is the
-        cause; shape [n].
+        Index into ``system.contacts`` of the contact that caused it, or into ``system.guards`` where that is the cause;
+        -1 at the start; shape [n].
     phases : array
         Changes of phase within an impact, else 0; shape [n].
     truncated : array

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.modes import IMPACT, JAM, PAINLEVE
+from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
@@ -115,9 +115,15 @@ class Solution:
         columns = (self.events.words(which) for which in ("before", "during", "after"))
         return list(zip(self.events.time.tolist(), self.events.causes(), *columns, strict=True))
 
+    def triggers(self) -> list[str]:
+        """Return the name of the contact, or of the guard, that caused each event; "" at the start."""
+        names = self.system.names
+        pairs = zip(self.events.cause.tolist(), self.events.contact.tolist(), strict=True)
+        return ["" if i < 0 else (names.guards if cause == GUARD else names.contacts)[i] for cause, i in pairs]
+
     def transition_graph(self) -> TransitionGraph:
         """Return the modes visited, their shares of the time, and how often which cause led from one to another."""
-        return transition_graph(self.events, self.t_end)
+        return transition_graph(self.events, self.system.names.contacts, self.t_end)
 
     def of(self, body: Body) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the samples of q and u of one body, shapes [n, body.n_q] and [n, body.n_u]."""

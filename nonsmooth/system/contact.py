@@ -107,6 +107,10 @@ class Watched:
     chosen: bool
     guard: Guard
 
+    def __str__(self) -> str:
+        """Return what messages call it."""
+        return f"guard {self.name!r}"
+
 
 @dataclass(frozen=True)
 class Tie:

@@ -414,7 +414,7 @@ FAILING: dict[str, tuple[Callable[[], Any], float, tuple[str, ...]]] = {
     "motion raises after its time": (
         lambda: _run(motion=_motion(_after), t_end=2.0),
         1.0,
-        ("body 'plate': ", "_after", "at t = 1 s"),
+        ("body 'plate', Plate(motion=FunctionMotion(", "_after", "at t = 1 s"),
     ),
 }
 

@@ -188,7 +188,7 @@ def test_what_is_refused(build: Any) -> None:
     _refused(("placing: direction", "three finite"), ns.touching, system, ball, direction=(0.0, 0.0, 0.0))
     _refused(("placing: direction", "three finite"), ns.touching, system, ball, direction=(0.0, 1.0))
     _refused(("at_height: height", "must not be negative", "-0.1"), ns.at_height, system, ball, -0.1)
-    _refused(("resting Ball", "velocities"), ns.resting, system, ball, velocity=(1.0, 0.0, 0.0))
+    _refused(("resting 'ball'", "velocities"), ns.resting, system, ball, velocity=(1.0, 0.0, 0.0))
     _refused(("velocity of Ball", "3 finite numbers"), ns.touching, system, ball, velocity=1.0)
     np.testing.assert_array_equal(system.start(ball)[0][:3], [0.0, 0.0, 0.7])
     free = ns.System([DrivenBody(Rest(), (Sphere(1.0),)), ball], gravity=0.0)
