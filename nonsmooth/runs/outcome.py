@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.engine.memory.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
+from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Difference, Guards, Image
@@ -28,7 +29,7 @@ def reason(model: LaidOut, guards: Guards, ending: Ending) -> tuple[str, str]:
     status = ending.status
     if past or status not in (DONE, STOPPED, PAUSED):
         message = f"At t = {float(model.memory.scalars['t'][0]):.9g} s {REASONS[status]}."
-        return "failed", f"{message} {past or culprit(model, status)}".strip()
+        return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
     return "interrupted" if ending.interrupted else "done", REASONS[status]
 
 
@@ -65,6 +66,9 @@ def solution_of(
         rejected=int(record["rejected"]),
         impacts=int(record["impacts"]),
         impact_steps=int(record["impact_steps"]),
+        limits={word: int(n) for word, n in zip(LIMITS, model.memory.array("limits", len(LIMITS)), strict=True) if n},
+        gap_looks=int(record["gap_looks"]),
+        listings=int(record["listings"]),
         wall_seconds=wall,
     )
     t, q = table[:, 0], table[:, 1 : 1 + n_q]

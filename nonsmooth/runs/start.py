@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from nonsmooth.engine.memory.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
+from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.image import Image
@@ -118,9 +119,10 @@ def go_on(model: LaidOut, blank: Image, state: State) -> None:
     blank.put(model.memory)
     continuation.difference.put(model.memory)
     scalars = model.memory.scalars
-    for name in ("steps", "rejected", "impacts", "impact_steps", "n_events", "n_samples", "floats_used"):
+    for name in ("steps", "rejected", "impacts", "impact_steps", "gap_looks", "listings"):
         scalars[name] = 0
-    for name in ("integers_used", "last_floats", "stopped"):
+    for name in ("n_events", "n_samples", "floats_used", "integers_used", "last_floats", "stopped"):
         scalars[name] = 0
+    model.memory.array("limits", len(LIMITS))[:] = 0
     scalars["h_valid"] = math.inf
     scalars["told"], scalars["resumed"] = continuation.told, 1

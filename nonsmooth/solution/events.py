@@ -159,6 +159,18 @@ class Events:
         codes: Integers = {"before": self.before, "during": self.during, "after": self.after}[which]
         return words(codes)
 
+    def intervals(self) -> dict[str, int]:
+        """Return how many events followed the one before after which time, by the decade that it begins with [s].
+
+        "1e-05" stands for 1e-5 s and more, below 1e-4 s, and "0" for the same instant.
+        """
+        passed = np.diff(self.time)
+        decades = np.floor(np.log10(passed[passed > 0.0])).astype(int)
+        found = {"0": int(np.count_nonzero(passed <= 0.0))} | {
+            f"1e{decade:+03d}": int(n) for decade, n in zip(*np.unique(decades, return_counts=True), strict=True)
+        }
+        return {decade: n for decade, n in found.items() if n}
+
     def count(self, *causes: int) -> int:
         """Return how many events have one of the causes."""
         return int(np.isin(self.cause, causes).sum())

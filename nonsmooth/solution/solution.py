@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -32,6 +33,12 @@ class Counters:
         Accepted and rejected steps of the flow.
     impacts, impact_steps : int
         Impacts and the steps taken inside them.
+    limits : mapping of str to int
+        How many steps were limited by what (:data:`nonsmooth.engine.memory.limits.LIMITS`).
+    gap_looks : int
+        How often open gaps had to be looked at within a step to prove that they stay open.
+    listings : int
+        How often the contacts that are near each other were listed anew.
     wall_seconds : float
         Wall time of the engine [s].
     """
@@ -40,6 +47,9 @@ class Counters:
     rejected: int
     impacts: int
     impact_steps: int
+    limits: Mapping[str, int]
+    gap_looks: int
+    listings: int
     wall_seconds: float
 
 

@@ -22,8 +22,18 @@ from nonsmooth.engine.flow.projection import (
     project_joints,
 )
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
+from nonsmooth.engine.flow.step_length import first_of_compliant, limit_of, wanted_step
 from nonsmooth.engine.impact.instant import is_jammed
 from nonsmooth.engine.memory.layout import FALL, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.limits import (
+    BY_CROWD,
+    BY_END,
+    BY_ERROR,
+    BY_EVENT,
+    BY_LIST,
+    BY_SINGULARITY,
+    NO_STEP,
+)
 from nonsmooth.engine.memory.modes import (
     DONE,
     EVENTS_ENDLESS,
@@ -50,10 +60,6 @@ from nonsmooth.engine.memory.modes import (
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 
-_BEGINS = 10.0
-"""A compliant contact begins so many gap tolerances from its reach at most."""
-_FIRST_WAY = 1e-3
-"""Way that surfaces go in the first step of one, in units of the smaller body."""
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
 _DRIFT = 0.3
@@ -75,28 +81,6 @@ def _orient_slips(S: Scalars, w: Floats, k: Integers) -> None:
                 w[S.direction + 2 * c + 1] = v2 / speed
 
 
-@kernel("f8(S, F, I, i8)")
-def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
-    """Return how long the first step of a closed contact may be: a compliant one that begins has no force as yet.
-
-    Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
-    """
-    if k[S.normal_function + c] == 0 or w[S.guard_end + 2 * c] > _BEGINS * S.gap_tolerance:
-        return 1e300
-    rate = S.rate_end + 3 * c
-    speed = math.sqrt(w[rate] * w[rate] + w[rate + 1] * w[rate + 1] + w[rate + 2] * w[rate + 2])
-    return float(_FIRST_WAY * w[S.size + c] / max(speed, S.velocity_tolerance))
-
-
-@kernel("f8(S, I)")
-def _wanted_step(S: Scalars, k: Integers) -> float:
-    """Return how long the next step is if nothing cuts it short; it is never longer."""
-    for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            return float(min(S.h_closed, S.h_max))
-    return float(min(S.h_free, S.h_max))
-
-
 @kernel("i8(S, F, I)")
 def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
@@ -105,9 +89,9 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.mode + c] != OPEN:
             closed = 1
             if S.fresh == 0:
-                S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
-    wanted = _wanted_step(S, k)
-    h = min(wanted, S.h_listed, S.h_sampled, S.h_valid)
+                S.h_first = min(S.h_first, first_of_compliant(S, w, k, c))
+    wanted = wanted_step(S, k)
+    h, limit = min(wanted, S.h_listed, S.h_sampled, S.h_valid), limit_of(S, wanted)
     if S.fresh == 0:
         h = min(h, S.h_first)
         foresee(S, w, k, h)
@@ -118,7 +102,7 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         if error <= 1.0 and S.singular >= 0:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
             h *= 0.5
-            wanted = 0.0
+            wanted, limit = 0.0, BY_SINGULARITY
             if h < S.time_tolerance:
                 return STEP_TOO_SMALL
             continue
@@ -126,11 +110,13 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             evaluate_driven_bodies(S, w, k, S.t + h, S.y_new)
             if overran_list(S, w, k, h) == 1:
                 h *= 0.5
+                limit = BY_LIST
                 if h < S.time_tolerance:
                     return STEP_TOO_SMALL
                 continue
         if error <= 1.0:
             S.h = h
+            S.limit = limit
             S.step_error = error
             # the touch-down that was due is behind it, or is an event of it
             S.h_first = 1e300
@@ -144,7 +130,7 @@ def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
                 S.h_free = following
             return RUNNING
         S.rejected += 1
-        wanted = 0.0
+        wanted, limit = 0.0, BY_ERROR
         if not error < 1e300:
             if h < S.time_tolerance:
                 return NOT_FINITE
@@ -344,6 +330,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
             return _up_to_end(S, NOT_FINITE)
     if high == 0.0:
         if h > S.t_end - S.t:
+            S.limit = BY_END
             return _end_within(S, w, k)
         _commit(S, w, k, h)
         contact = _stopping(S, w, k)
@@ -352,9 +339,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
             return RUNNING
         S.fresh = 0
         return _settle_event(S, w, k, SLIP_TO_STICK, contact)
-    S.fresh = 0
+    S.fresh, S.limit = 0, BY_EVENT
     h = locate(S, w, k, h, high)
     if h < 0.0:
+        S.limit = BY_CROWD
         if S.h < _NO_STEP * S.time_tolerance:
             return STEP_TOO_SMALL
         if S.n_grouped > 0:
@@ -363,6 +351,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
             S.h_free = 0.25 * S.h
         return RUNNING
     if h > S.t_end - S.t:
+        S.limit = BY_END
         return _end_within(S, w, k)
     ends = 2 * S.n_contacts + S.n_own_guards
     if S.trigger >= ends:
@@ -448,7 +437,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
-        if wary == 1 and _wanted_step(S, k) > S.t_end - S.t:
+        if wary == 1 and wanted_step(S, k) > S.t_end - S.t:
             return PAUSED
         if S.t_end - S.t <= S.time_tolerance:
             return _arrived(S, w, k)
@@ -458,7 +447,9 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
             return PAUSED
         if 2 * S.n_samples > S.sample_capacity:
             return PAUSED
+        S.limit = NO_STEP
         status = _step(S, w, k)
+        k[S.limits + S.limit] += 1
         if status == RUNNING:
             status = int(S.failed)
         if S.crowded == 1:

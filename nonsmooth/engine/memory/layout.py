@@ -51,6 +51,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from nonsmooth.engine.memory import tableau
+from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.rooms import ROOMS
 from nonsmooth.engine.memory.scalars import FLOAT_SCALARS, INTEGER_SCALARS
 
@@ -409,6 +410,7 @@ INTEGER_ARRAYS: dict[str, Size] = {
     "pool_contacts": _per(1, "n_pools"),
     "pool_unit_a": _per(1, "n_pools"),
     "pool_unit_b": _per(1, "n_pools"),
+    "limits": lambda n: len(LIMITS),
     # what no step reads of those before: that of the table of floats begins with ``events``
     "event_codes": _per(1, "event_integers"),
     "block_column": _blocks,
