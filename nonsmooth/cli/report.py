@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.cli.table import lines
+from nonsmooth.engine.memory.limits import LIMITS, NO_STEP
 from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
@@ -17,7 +18,18 @@ _COMMONEST = 5
 """Words of modes that are told; the others are counted."""
 _ROUND_OFF, _NOTHING = 1e-15, 1e-12
 """Numbers below which, in SI units, and beside the largest of their list, nothing is told."""
-_NUMBERS = ("t_end", "wall_seconds", "n_events", "n_impacts", "n_steps", "mode_words", "energy_residual")
+_NUMBERS = (
+    "t_end",
+    "wall_seconds",
+    "n_events",
+    "n_impacts",
+    "n_steps",
+    "step_limits",
+    "event_intervals",
+    "contacts",
+    "mode_words",
+    "energy_residual",
+)
 
 
 def of_solution(solution: Solution | None) -> Report:
@@ -30,6 +42,9 @@ def of_solution(solution: Solution | None) -> Report:
         "n_events": len(solution.events),
         "n_impacts": solution.counters.impacts,
         "n_steps": solution.counters.steps,
+        "step_limits": dict(solution.counters.limits),
+        "event_intervals": solution.events.intervals(),
+        "contacts": list(solution.system.names.contacts),
         "mode_words": solution.modes,
         "energy_residual": solution.energy.residual,
     }
@@ -57,7 +72,9 @@ def as_text(report: Report) -> str:
     ]
     residual = plain["energy_residual"]
     rows.append(("energy residual", "none" if residual is None else f"{residual:.6g}"))
+    rows.append(("steps limited by", _limits(plain["step_limits"])))
     rows += [("time in modes" * (i == 0), line) for i, line in enumerate(_modes(plain["mode_words"]))]
+    rows.append(("contacts", _contacts(plain["contacts"])))
     judged = plain.get("acceptance")
     table = [] if judged is None else ["", *_judged(judged)]
     return "\n".join([head, *lines(rows), *table])
@@ -68,6 +85,18 @@ def _modes(shares: dict[str, float]) -> list[str]:
     found = [f"{_shortened(word)} {share:7.2%}" for word, share in list(shares.items())[:_COMMONEST]]
     others = len(shares) - len(found)
     return [*found, f"and {others} more"] if others > 0 else found
+
+
+def _limits(counts: dict[str, int]) -> str:
+    """Return what limited the steps, the commonest first."""
+    ranked = sorted(counts.items(), key=lambda item: -item[1])
+    return ", ".join(f"{limit} {n}" for limit, n in ranked if limit != LIMITS[NO_STEP]) or "none"
+
+
+def _contacts(names: list[str]) -> str:
+    """Return how many contacts there are, and, where they fit into a line, which digit of a word is whose."""
+    text = f"from the right {', '.join(names)}"
+    return text if names and len(text) <= _LONG_WORD else str(len(names))
 
 
 def _shortened(word: str) -> str:

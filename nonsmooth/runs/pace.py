@@ -109,9 +109,9 @@ class Pace:
     def _held_up(self) -> str:
         counts = self._limits - self._since
         ranked = [i for i in np.argsort(-counts, kind="stable").tolist() if counts[i] > 0][:_NAMED]
-        limits = ", ".join(f"{counts[i]} by {LIMITS[i]}" for i in ranked)
+        limits = ", ".join(f"{LIMITS[i]} ({counts[i]})" for i in ranked)
         error = _of_error(self.model) if ranked[:1] == [BY_ERROR] else ""
-        text = f"of the last {self._passes} steps were limited {limits}. {error} {self._of_events()}"
+        text = f"the last {self._passes} steps were limited by: {limits}. {error} {self._of_events()}"
         return " ".join(text.split())
 
     def _of_events(self) -> str:
@@ -120,10 +120,10 @@ class Pace:
         if not counted:
             return ""
         named = [
-            f"{n} {CAUSES[cause]} of {(names.guards if cause == GUARD else names.contacts)[i]!r}"
+            f"{CAUSES[cause]} of {(names.guards if cause == GUARD else names.contacts)[i]!r} ({n})"
             for (cause, i), n in counted.most_common(_NAMED)
         ]
-        return f"Of the last {counted.total()} events are {_listed(named, len(counted))}."
+        return f"The last {counted.total()} events are: {_listed(named, len(counted))}."
 
 
 def _of_error(model: LaidOut) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.limits import BY_END, BY_ERROR, BY_LARGEST, BY_LIST, BY_SAMPLES, BY_TOUCH
+from nonsmooth.engine.memory.limits import BY_END, BY_ERROR, BY_FIRST, BY_LARGEST, BY_LIST, BY_SAMPLES
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 
@@ -41,7 +41,7 @@ def limit_of(S: Scalars, wanted: float) -> int:
     """Return what limits a step that has not been tried yet; ``wanted`` is how long it is if nothing cuts it short."""
     h = min(wanted, S.h_listed, S.h_sampled, S.h_valid)
     if S.fresh == 0 and S.h_first < h:
-        return BY_TOUCH
+        return BY_FIRST
     if h == wanted:
         return BY_LARGEST if wanted == S.h_max else BY_ERROR
     if h == S.h_listed:
