@@ -14,8 +14,8 @@ from nonsmooth.solution.solution import Solution
 Report = dict[str, Any]
 _LONG_WORD = 80
 """Characters of a word of modes up to which it is told; of longer ones the contacts are."""
-_NAMED = 2
-"""Contacts that are named then; the others are counted."""
+_NAMED = 1
+"""Contacts that are named then of each kind; the others are counted."""
 _COMMONEST = 5
 """Words of modes that are told; the others are counted."""
 _ROUND_OFF, _NOTHING = 1e-15, 1e-12
