@@ -102,7 +102,7 @@ def _compute(job: request.Job, system: System) -> tuple[Solution | None, str, st
 
     try:
         with Interrupt() as interrupt:
-            model = assemble(system, job.options)
+            model = assemble(system, job.engine)
             solution = model.run(job.scenario.t_end, sample_interval=job.scenario.sample_interval, progress=after_steps)
     except RunFailed as error:
         kept = cast("Solution | None", error.solution)

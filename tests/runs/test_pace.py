@@ -53,7 +53,7 @@ def test_every_step_has_a_limit() -> None:
     system = ns.System([plate, ball])
     system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(0.2), impact=EnergeticImpact(0.5))
     system.place(ball, position=(0.0, 0.0, 0.3), velocity=(0.5, 0.0, 0.0))
-    model = ns.assemble(system, ns.Options(largest_step=0.02))
+    model = ns.assemble(system, ns.EventDriven(largest_step=0.02))
     whole, part = model.run(2.0), model.run(1.0)
     rest = model.run(2.0, start=part.state)
     for found in (whole, part, rest):
@@ -88,7 +88,7 @@ def test_where_time_hardly_passes_the_limit_and_the_contact_are_told(
 ) -> None:
     """Once, in a run that would take days."""
     with pytest.warns(TimeHardlyPasses, match=said) as told, pytest.raises(_EnoughError):
-        ns.simulate(build(), 100.0, options=ns.Options(**options), progress=_for(12))
+        ns.simulate(build(), 100.0, engine=ns.EventDriven(**options), progress=_for(12))
     assert len(told) == 1
 
 
@@ -106,4 +106,4 @@ def test_steps_that_become_too_small_are_told_with_the_body() -> None:
 def test_endless_events_are_told_with_their_contact() -> None:
     """Bounces that are faster than the tolerance of times."""
     with pytest.raises(ns.RunFailed, match=r"without end .* events are: impact of 'plate - hammer' \(\d+\)"):
-        ns.simulate(_bouncing(1e4, 1e-5), 1.0, options=ns.Options(time_tolerance=1e-8))
+        ns.simulate(_bouncing(1e4, 1e-5), 1.0, engine=ns.EventDriven(time_tolerance=1e-8))
