@@ -11,7 +11,16 @@ import math
 from nonsmooth.engine.bodies.kinematics import evaluate_row_response, push_response, wrench_row
 from nonsmooth.engine.memory.layout import GEOMETRY, N_ACCOUNTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_compliance, call_load, kernel
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    at,
+    call_compliance,
+    call_rates,
+    call_traction,
+    kernel,
+)
 
 
 @kernel("void(S, F, I, i8)")
@@ -46,7 +55,7 @@ def evaluate_traction(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> Non
     """Let the law of traction of contact ``c`` write force, moment and rates of its states."""
     _evaluate_motion(S, w, k, c)
     out = k[S.traction_out + c]
-    call_load(
+    call_traction(
         k[S.traction_function + c],
         w[S.given + c],
         at(w, S.motion),
@@ -100,8 +109,8 @@ def write_state_rates(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> N
             source = k[S.rates_out + c]
             v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
             speed = 0.0 if k[S.mode + c] == STICK else math.sqrt(v1 * v1 + v2 * v2)
-            states = at(w, state_at(S, k, c, y))
-            call_load(k[S.rates_function + c], speed, states, states, at(w, k[S.rates_parameters + c]), at(w, source))
+            states, parameters = at(w, state_at(S, k, c, y)), at(w, k[S.rates_parameters + c])
+            call_rates(k[S.rates_function + c], speed, states, parameters, at(w, source))
         for i in range(n):
             w[state_at(S, k, c, out) + i] = w[source + i]
 
