@@ -37,7 +37,7 @@ class Number(FunctionPass):
     A symbol is made of a function's name, types and number, and cached code of several processes is linked by symbols.
     """
 
-    _name = "nonsmooth_number"
+    _name = "number"
 
     def __init__(self) -> None:
         """Leave all to the state."""
@@ -74,7 +74,7 @@ _typed: dict[Any, Any] = {}
 class TypeOnce(NopythonTypeInference):
     """Type inference that remembers; a tenth of the time of compiling."""
 
-    _name = "nonsmooth_type_once"
+    _name = "remembering_type_inference"
 
     def run_pass(self, state: Any) -> bool:
         """Infer the types of all variables."""
@@ -109,7 +109,7 @@ class _RawLibrary(JITCodeLibrary):
 class LowerRaw(NativeLowering):
     """Lowering that leaves what it makes to the callers; half of the time of compiling."""
 
-    _name = "nonsmooth_lower_raw"
+    _name = "raw_native_lowering"
 
     def run_pass(self, state: Any) -> bool:
         """Lower to intermediate code."""

@@ -235,8 +235,13 @@ class _Shared:
 
     def __init__(self, function: Callable[..., Any], inner: Callable[..., Any] | None = None) -> None:
         self.function = function
-        self.dispatcher = jit(inner or function)
+        self._compiled = inner or function
         functools.update_wrapper(self, function)
+
+    @functools.cached_property
+    def dispatcher(self) -> Any:
+        """What numba calls; made when asked for, as a start asks for few."""
+        return jit(self._compiled)
 
     def __call__(self, *arguments: Any) -> Any:
         return self.function(*arguments)
