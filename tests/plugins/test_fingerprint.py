@@ -112,7 +112,7 @@ def filled(x, p):
 
 @pytest.mark.skipif(PLAIN, reason="nothing is compiled")
 def test_another_process_finds_a_law_until_it_changes(tmp_path: Path) -> None:
-    """Compiled once, then found, one that allocates memory, too; compiled again for a new constant or a damaged file."""
+    """Compiled once, then found, as is one that allocates; compiled again for a new constant or a damaged file."""
 
     def run(source: str, name: str = "law") -> tuple[float, int]:
         (tmp_path / "own_law.py").write_text("from nonsmooth.compiled import compiled\n" + source)

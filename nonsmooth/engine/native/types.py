@@ -14,7 +14,6 @@ from typing import Any
 
 from llvmlite import ir
 from numba import types
-from numba.core import cgutils
 from numba.core.typing.templates import AttributeTemplate
 from numba.extending import (
     infer_getattr,
@@ -84,7 +83,7 @@ class Callee:
 def call_at(builder: Any, address: Any, result: Any, arguments: Sequence[Any]) -> Any:
     """Call the C function at an address, a number; ``result`` is the type of what it returns."""
     function_type = ir.FunctionType(result, [argument.type for argument in arguments])
-    return builder.call(Callee(builder.inttoptr(address, cgutils.voidptr_t), function_type), arguments)
+    return builder.call(Callee(builder.inttoptr(address, function_type.as_pointer()), function_type), arguments)
 
 
 def _tag(access: Any, name: str) -> None:
