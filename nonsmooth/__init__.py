@@ -2,15 +2,16 @@
 
 from nonsmooth.contact import solve_contact
 from nonsmooth.contact_result import ContactResult
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, NoDistance, NonsmoothError, PluginError, RunFailed, RunsInPython, UnknownName
 from nonsmooth.files.reading import Setup, load_system
 from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.interfaces import Criterion
-from nonsmooth.model.options import Options
-from nonsmooth.placing import at_height, resting, touching
+from nonsmooth.placing.starts import at_height, resting, touching
 from nonsmooth.queries.distance import distance
 from nonsmooth.queries.proximity import proximity
+from nonsmooth.restitution import restitution
 from nonsmooth.runs.model import Model
 from nonsmooth.simulate import assemble, simulate
 from nonsmooth.solution.solution import Solution
@@ -26,13 +27,13 @@ __all__ = [
     "ContactLaws",
     "ContactResult",
     "Criterion",
+    "EventDriven",
     "ImpactResult",
     "InvalidInput",
     "Materials",
     "Model",
     "NoDistance",
     "NonsmoothError",
-    "Options",
     "PluginError",
     "RunFailed",
     "RunsInPython",
@@ -47,6 +48,7 @@ __all__ = [
     "load_system",
     "proximity",
     "resting",
+    "restitution",
     "save_system",
     "simulate",
     "solve_contact",

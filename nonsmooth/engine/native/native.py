@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import functools
 import importlib
@@ -103,33 +104,39 @@ def by_address(signature: Any) -> Any:
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
     importlib.import_module("nonsmooth.engine.events.hybrid")
-    if not all(_store(name).is_filled() for name in ROOMS):
+    if missing := _missing():
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
-        _fill_cache()
+        _compile_apart(missing)
+        compile_rooms(_missing())
     return tuple(_compiled(name) for name in ROOMS)
 
 
-def _fill_cache() -> None:
-    """Compile all rooms, half of them in a process of its own where there are two processors."""
-    middle = len(ROOMS) // 2
-    helper = _helper(middle) if numba.config.NUMBA_DEFAULT_NUM_THREADS > 1 and folders()[1] else None
-    if helper is None:
-        compile_rooms(0, len(ROOMS))
-    else:
-        with helper:
-            compile_rooms(0, middle)
-        if helper.returncode != 0:
-            compile_rooms(middle, len(ROOMS))
+def _missing() -> tuple[str, ...]:
+    return tuple(name for name in ROOMS if not _store(name).is_filled())
 
 
-def _helper(start: int) -> subprocess.Popen[bytes] | None:
-    """Compile the rooms from one on in another process; it may fail, as only the cache knows of it."""
+def _compile_apart(names: tuple[str, ...]) -> None:
+    """Compile rooms into the cache, half of them each in two processes of their own, or all in one on one processor.
+
+    They may fail, as only the cache knows of them.  In this process the compiler would leave half a gigabyte.
+    """
+    if folders()[1] is None:
+        return
+    n = min(2, numba.config.NUMBA_DEFAULT_NUM_THREADS)
+    parts = [names[i * len(names) // n : (i + 1) * len(names) // n] for i in range(n)]
+    with contextlib.ExitStack() as stack:
+        for part in parts:
+            if part and (helper := _helper(part)) is not None:
+                stack.enter_context(helper)
+
+
+def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
     # an interpreter of our own: multiprocessing would run the user's script again, a frozen program itself
     if "python" not in Path(sys.executable or "").name:
         return None
     task = (
         f"import sys; sys.path[:] = {sys.path!r}; from nonsmooth.engine.native import native; "
-        f"import nonsmooth.engine.events.hybrid; native.compile_rooms({start}, {len(ROOMS)})"
+        f"import nonsmooth.engine.events.hybrid; native.compile_rooms({names!r})"
     )
     try:
         quiet = subprocess.DEVNULL
@@ -138,12 +145,12 @@ def _helper(start: int) -> subprocess.Popen[bytes] | None:
         return None
 
 
-def compile_rooms(start: int, stop: int) -> None:
-    """Compile a range of ``ROOMS`` into the cache."""
+def compile_rooms(names: tuple[str, ...]) -> None:
+    """Compile some of ``ROOMS`` into the cache."""
     with uncollected():
-        for inner, typed in _kernels_of(ROOMS[start:stop]):
+        for inner, typed in _kernels_of(names):
             inner.compile(typed)
-        for name in ROOMS[start:stop]:
+        for name in names:
             _compiled(name)
 
 

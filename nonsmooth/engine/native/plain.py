@@ -7,9 +7,9 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from nonsmooth.engine.memory.layout import SCALARS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
+from nonsmooth.engine.memory.tables import SCALARS
 from nonsmooth.engine.native.forms import FORMS
 
 _functions: list[Callable[..., Any]] = []
