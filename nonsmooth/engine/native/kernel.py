@@ -42,6 +42,8 @@ room_addresses: Callable[[], tuple[int, ...]] = _half.room_addresses
 call_room: Callable[..., Any] = _half.call_room
 """``call_room(name, memory, *numbers)``: call a room from Python."""
 
+contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.contact_at
+"""A contact with its fields by name (:mod:`nonsmooth.engine.memory.contact_fields`)."""
 at: Callable[[Floats, int], Floats] = _half.at
 """The heap from an offset on."""
 
@@ -111,6 +113,7 @@ __all__ = [
     "call_traction",
     "call_watch",
     "calls",
+    "contact_at",
     "forget_watch",
     "jit",
     "kernel",

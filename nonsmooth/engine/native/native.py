@@ -23,6 +23,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
 from nonsmooth.engine.native.build import CFunction, KernelPasses, LawPasses, RoomPasses, ShimPasses, uncollected
 from nonsmooth.engine.native.cache import Store, folders
+from nonsmooth.engine.native.contact_view import contact_at as contact_at
 from nonsmooth.engine.native.forms import C_TYPES, FORMS
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, call_at, moved
 from nonsmooth.notices import say
@@ -103,7 +104,7 @@ def by_address(signature: Any) -> Any:
 @functools.cache
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
-    importlib.import_module("nonsmooth.engine.events.hybrid")
+    importlib.import_module("nonsmooth.engine.events.event_loop")
     if missing := _missing():
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
         _compile_apart(missing)
@@ -136,7 +137,7 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
         return None
     task = (
         f"import sys; sys.path[:] = {sys.path!r}; from nonsmooth.engine.native import native; "
-        f"import nonsmooth.engine.events.hybrid; native.compile_rooms({names!r})"
+        f"import nonsmooth.engine.events.event_loop; native.compile_rooms({names!r})"
     )
     try:
         quiet = subprocess.DEVNULL

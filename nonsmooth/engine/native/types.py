@@ -86,7 +86,7 @@ def call_at(builder: Any, address: Any, result: Any, arguments: Sequence[Any]) -
     return builder.call(Callee(builder.inttoptr(address, function_type.as_pointer()), function_type), arguments)
 
 
-def _tag(access: Any, name: str) -> None:
+def tag(access: Any, name: str) -> None:
     """Mark a load or store as one of the memory called ``name``."""
     module = access.function.module
     zero = ir.Constant(ir.IntType(64), 0)
@@ -117,7 +117,7 @@ def _type_setitem(context: Any) -> Any:
 def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     heap = signature.args[0]
     load = builder.load(moved(context, builder, heap, *args), typ=context.get_value_type(heap.dtype))
-    _tag(load, heap.name)
+    tag(load, heap.name)
     return load
 
 
@@ -126,7 +126,7 @@ def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     heap, _index, value = signature.args
     place = moved(context, builder, heap, args[0], args[1])
     store = builder.store(context.cast(builder, args[2], value, heap.dtype), place)
-    _tag(store, heap.name)
+    tag(store, heap.name)
     return context.get_dummy_value()
 
 
@@ -149,9 +149,10 @@ class _TableFields(AttributeTemplate):  # type: ignore[misc]
 
 
 @lower_getattr_generic(Table)  # type: ignore[untyped-decorator]
-def _get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
+def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
+    """Load a scalar of the record."""
     load = builder.load(_field(context, builder, value, name), typ=context.get_value_type(_field_type(name)))
-    _tag(load, name)
+    tag(load, name)
     if name in CONSTANT_SCALARS:
         load.set_metadata("invariant.load", builder.module.add_metadata([]))
     return load
@@ -160,4 +161,4 @@ def _get_field(context: Any, builder: Any, table: Table, value: Any, name: str) 
 @lower_setattr_generic(Table)  # type: ignore[untyped-decorator]
 def _set_field(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
     value = context.cast(builder, args[1], signature.args[1], _field_type(name))
-    _tag(builder.store(value, _field(context, builder, args[0], name)), name)
+    tag(builder.store(value, _field(context, builder, args[0], name)), name)
