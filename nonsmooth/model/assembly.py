@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
-from nonsmooth.engine.memory.layout import COUNTS, N_ACCOUNTS
+from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
+from nonsmooth.engine.memory.layout import BOOKED, COUNTS, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.modes import POLICIES
 from nonsmooth.engine.memory.solvers import pivoted_contacts, solver_number
@@ -71,7 +71,8 @@ def lay(system: System, options: Options) -> LaidOut:
     n_states = sum(len(initial_state(contact)) for contact in contacts)
     groups = linkages(system)
     units = find_units(contacts)
-    row = EVENT_HEAD + 3 * units.n_slots + n_q + 2 * n_u
+    n_y = n_q + n_u + N_ACCOUNTS + n_states
+    head = EVENT_HEAD + n_u + n_y + BOOKED
     counts = {
         "n_bodies": len(bodies),
         "n_slots": units.n_slots,
@@ -86,11 +87,12 @@ def lay(system: System, options: Options) -> LaidOut:
         "n_linkages": len(groups),
         "n_q": n_q,
         "n_u": n_u,
-        "n_y": n_q + n_u + N_ACCOUNTS + n_states,
+        "n_y": n_y,
         "n_states": n_states,
         "n_pivoted": pivoted_contacts(solver_number(options.solver), units.n_slots),
         "map_width": map_width(contacts),
-        "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + MOST_EVENTS * row,
+        "event_floats": _EVENTS * (head + LISTED * min(units.n_slots, _TYPICAL))
+        + MOST_EVENTS * (head + LISTED * units.n_slots),
         "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL))
         + MOST_EVENTS * (CODE_HEAD + 2 * units.n_slots),
         "sample_capacity": _SAMPLE_ROWS,

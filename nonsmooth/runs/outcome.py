@@ -9,14 +9,16 @@ from nonsmooth.engine.memory.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Difference, Guards, Image
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.options import Options
 from nonsmooth.runs.diagnose import culprit
 from nonsmooth.runs.loop import Ending
 from nonsmooth.runs.records import Records
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
-from nonsmooth.solution.state import Continuation, State
+from nonsmooth.solution.state import Continuation, Floats, State
 from nonsmooth.solution.suspicion import suspicions
+from nonsmooth.solution.track import Track
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
@@ -39,6 +41,7 @@ def solution_of(
     said: tuple[str, str],
     state: State,
     wall: float,
+    options: Options,
 ) -> Solution:
     """Return the solution of a run.
 
@@ -56,6 +59,8 @@ def solution_of(
         Where the run ended.
     wall : float
         Time that the engine took [s].
+    options : Options
+        Its tolerances.
     """
     record, n_q, n_u = model.memory.scalars[0], model.n_q, model.n_u
     word, message = said
@@ -82,7 +87,7 @@ def solution_of(
         t,
         q,
         table[:, 1 + n_q : 1 + n_q + n_u],
-        Events.from_buffers(floats, integers, len(model.system.contacts), n_q, n_u),
+        Events.from_buffers(floats, integers, len(model.system.contacts), n_q, n_u, model.n_y),
         state.energy,
         counters,
         state.time,
@@ -91,7 +96,15 @@ def solution_of(
         word,
         message,
         state,
+        _track(model, table, options),
     )
+
+
+def _track(model: LaidOut, samples: Floats, options: Options) -> Track:
+    record, y = model.memory.scalars[0], model.memory.array("y", model.n_y)
+    booked = (record[name] for name in ("driven_work", "restitution_loss", "friction_loss", "closing_loss"))
+    table = np.vstack([samples, [record["t"], *y, *booked]])
+    return Track(table[:, 0], table[:, 1 : 1 + model.n_y], table[:, 1 + model.n_y :], options)
 
 
 def state_of(model: LaidOut, blank: Image, key: str, start: tuple[float, float], ending: Ending) -> State:

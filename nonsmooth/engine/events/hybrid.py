@@ -10,10 +10,19 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step, overran_list
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS, record_event, record_samples, remember
+from nonsmooth.engine.events.record import (
+    CODE_HEAD,
+    EVENT_HEAD,
+    LISTED,
+    MOST_EVENTS,
+    record_event,
+    record_samples,
+    remember,
+)
 from nonsmooth.engine.events.settle import settle
 from nonsmooth.engine.flow.clearance import bound_speeds, foresee
 from nonsmooth.engine.flow.flow import right_hand_side, slope, try_step
+from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guards import arm_guards, keep_end, watch_features, write_guards
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (
@@ -23,7 +32,7 @@ from nonsmooth.engine.flow.projection import (
 )
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.impact.instant import is_jammed
-from nonsmooth.engine.memory.layout import FALL, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.layout import BOOKED, FALL, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import (
     DONE,
     EVENTS_ENDLESS,
@@ -61,18 +70,6 @@ _SPACINGS = 4.0 * 2.0**-52
 """Times closer than this part of the time are not told apart."""
 _NO_STEP = 1e-3
 """A step below this part of the time tolerance in which guards crowd or the error grows leads nowhere."""
-
-
-@kernel("void(S, F, I)")
-def _orient_slips(S: Scalars, w: Floats, k: Integers) -> None:
-    """Take the present slip directions as those of the step that begins."""
-    for c in range(S.n_contacts):
-        if k[S.mode + c] == SLIDE:
-            v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
-            speed = math.sqrt(v1 * v1 + v2 * v2)
-            if speed > S.velocity_tolerance:
-                w[S.direction + 2 * c] = v1 / speed
-                w[S.direction + 2 * c + 1] = v2 / speed
 
 
 @kernel("f8(S, F, I, i8)")
@@ -326,7 +323,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         if k[S.mode + c] != OPEN and w[S.guard_end + 2 * S.n_contacts + S.n_own_guards + c] < 0.0:
             S.fresh = 0
             return _settle_event(S, w, k, FEATURE_END, c)
-    _orient_slips(S, w, k)
+    orient_slips(S, w, k, S.rate_end)
     arm_guards(S, w, k)
     status = _accepted_step(S, w, k)
     if status == STEP_TOO_SMALL:
@@ -452,7 +449,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
             return PAUSED
         if S.t_end - S.t <= S.time_tolerance:
             return _arrived(S, w, k)
-        row = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * S.n_contacts
+        row = EVENT_HEAD + S.n_u + S.n_y + BOOKED + LISTED * S.n_contacts
         floats_left, integers_left = S.event_floats - S.floats_used, S.event_integers - S.integers_used
         if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * S.n_contacts):
             return PAUSED

@@ -124,6 +124,8 @@ ORIENTED = 7
 """Numbers of an anisotropic law: side of the body, its axis, friction forward, backward and across."""
 N_ACCOUNTS = 4
 """Energies integrated with the state: work of driven bodies, loss to friction, gross exchange, work of loads."""
+BOOKED = 4
+"""Energies booked at instants and projections: work of driven bodies, losses by restitution, friction and closing."""
 MOST_BLOCKS = 2**22
 """Pairs of contacts that act on one another, of which a system has room for all up to so many."""
 MOST_ENTRIES = 2**26
@@ -269,7 +271,7 @@ FLOAT_ARRAYS: dict[str, Size] = {
     "impact_total": _per(TOTALS, "n_slots"),
     # output
     "events": _per(1, "event_floats"),
-    "samples": lambda n: n["sample_capacity"] * (n["n_y"] + 1),
+    "samples": lambda n: n["sample_capacity"] * (1 + n["n_y"] + BOOKED),
     # room for the worst case and mostly unused: they come last and cost no memory before they are written
     "delassus": lambda n: 9 * _blocks(n),
     "reduced": _entries,
