@@ -34,6 +34,21 @@ def orient_slips(S: Scalars, w: Floats, k: Integers, rates: int) -> None:
                 w[S.direction + 2 * c + 1] = v2 / speed
 
 
+@kernel("i8(S, F, I)")
+def _turned_round(S: Scalars, w: Floats, k: Integers) -> int:
+    """Orient the slips by the rates at hand; return 1 if one goes against the direction that friction took it to go.
+
+    A slip may turn round without an event, as where a belt pulls on.
+    """
+    against = 0
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        if k[S.mode + c] == SLIDE and slip_guard(S, w, k, c) < -S.velocity_tolerance:
+            against = 1
+    orient_slips(S, w, k, S.rate)
+    return against
+
+
 @kernel("f8(S, F, I)")
 def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
     """Return the part of the step that was tried up to where a slip turns round, 1 if none does.
@@ -88,8 +103,9 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
     S.choosing = 1
     while S.t < t:
         slope(S, w, k, S.t, S.y, S.slopes)
+        if _turned_round(S, w, k) == 1:
+            slope(S, w, k, S.t, S.y, S.slopes)
         S.choosing = 0
-        orient_slips(S, w, k, S.rate)
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
             w[S.guard_first + 2 * c + 1] = slip_guard(S, w, k, c)
@@ -122,6 +138,8 @@ def evaluate_forces(S: Scalars, w: Floats, k: Integers) -> None:
     evaluate_driven_bodies(S, w, k, S.t, S.y)
     S.choosing = 1
     right_hand_side(S, w, k, S.t, S.y)
+    if _turned_round(S, w, k) == 1:
+        right_hand_side(S, w, k, S.t, S.y)
     S.choosing = 0
     if S.n_joints > 0:
         evaluate_joint_forces(S, w, k)
