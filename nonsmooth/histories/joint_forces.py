@@ -31,7 +31,8 @@ class JointForces:
     time : array
         [s], shape [n].
     point : array
-        Origin of the frame of the second body [m], shape [n, n_joints, 3].
+        Where the joint holds the second body [m]; the origin of its frame if it holds angles only; shape
+        [n, n_joints, 3].
     force : array
         [N], shape [n, n_joints, 3].
     moment : array
@@ -72,7 +73,10 @@ class _Joint:
     def look(self) -> tuple[Floats, Floats, Floats]:
         """Return point, force and moment."""
         axes, moments, points = self.rows[:, 1:4], self.rows[:, 4:7], self.rows[:, 10:13]
-        return self.origin, self.along @ axes, self.along @ (moments + np.cross(points - self.origin, axes))
+        # a row of angles has no axis, and no point
+        holding = np.flatnonzero(np.any(axes != 0.0, axis=1))
+        point = points[holding[0]] if len(holding) > 0 else self.origin
+        return point, self.along @ axes, self.along @ (moments + np.cross(points - point, axes))
 
 
 def _joints(laid: LaidOut) -> list[_Joint]:

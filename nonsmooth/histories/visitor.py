@@ -12,6 +12,7 @@ import numpy as np
 
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS
 from nonsmooth.engine.memory.modes import OPEN, RUNNING, SLIDE, STICK
+from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.laid_out import LaidOut
@@ -57,6 +58,7 @@ class Visitor:
         self._time, self._y = time[order], np.concatenate([track.y, at_events])[order]
         self._booked = np.concatenate([track.booked, events.booked])[order]
         self._event = np.cumsum(kinds[order] == _EVENT) - 1
+        self._event_row = np.flatnonzero(kinds[order] == _EVENT)
         self._put_event = -2
         self._alone = threading.Lock()
 
@@ -118,21 +120,29 @@ class Visitor:
                 if status != RUNNING:
                     raise RunFailed(f"At t = {times[i]:.9g} s nothing is known. {culprit(self.laid, status)}".strip())
                 if forces:
-                    watch.call("evaluate_forces")
+                    watch.call("evaluate_forces", 0)
                 look(i)
 
     def _row(self, times: Floats) -> Integers:
         return np.searchsorted(self._time, times, side="right") - 1
 
     def _put(self, row: int) -> None:
-        """Put the model where a state was stored."""
+        """Put the model where a state was stored, with the modes that the event before it left."""
+        event = int(self._event[row])
+        if event != self._put_event:
+            self._put_event = -2
+            self._put_state(int(self._event_row[event]) if event >= 0 else row)
+            self._put_modes(event)
+            call_room("evaluate_forces", self.laid.memory, 1)
+            self._put_event = event
+        self._put_state(row)
+
+    def _put_state(self, row: int) -> None:
         scalars = self.laid.memory.scalars
         scalars["t"] = self._time[row]
         for name, value in zip(_BOOKED, self._booked[row].tolist(), strict=True):
             scalars[name] = value
         self.laid.memory.array("y", self.laid.n_y)[:] = self._y[row]
-        if self._event[row] != self._put_event:
-            self._put_modes(int(self._event[row]))
 
     def _put_modes(self, event: int) -> None:
         """Close the contacts that an event left closed, and put them into slots with what they go on with."""
@@ -150,11 +160,9 @@ class Visitor:
         for number, features in zip(numbers.tolist(), kept[:, 4:], strict=True):
             if places[number] > 0:
                 memory.floats[places[number] : places[number] + len(features)] = features
-        self._put_event = -2
         memory.scalars["n_contacts"] = 0
         self.laid.list_contacts()
         slots = int(memory.scalars["n_contacts"][0])
         facing = np.ones(n)
         facing[numbers] = kept[:, 3]
         memory.array("facing", slots)[:] = facing[memory.array("identity", slots)]
-        self._put_event = event

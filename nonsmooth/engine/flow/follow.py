@@ -10,7 +10,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
 from nonsmooth.engine.delassus.islands import group_closed
-from nonsmooth.engine.flow.flow import right_hand_side, slip_guard, slope, try_step
+from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope, try_step
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.self_check import energy_of_bodies
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
@@ -18,6 +18,8 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, ro
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 
 _ATTEMPTS = 200
+_EXCESS = 1e-8
+"""Forces past their bounds by this part of the largest are so by more than round-off."""
 _SHORTEST = 0.1
 """A step in which a slip turns is cut to this part of it at most."""
 
@@ -100,12 +102,10 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
     """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
     group_closed(S, w, k)
     wanted = S.h_max
-    S.choosing = 1
     while S.t < t:
         slope(S, w, k, S.t, S.y, S.slopes)
         if _turned_round(S, w, k) == 1:
             slope(S, w, k, S.t, S.y, S.slopes)
-        S.choosing = 0
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
             w[S.guard_first + 2 * c + 1] = slip_guard(S, w, k, c)
@@ -124,21 +124,36 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
         if S.failed != RUNNING:
             return int(S.failed)
         wanted = min(S.h_max, 2.0 * h)
-    S.choosing = 0
     return RUNNING
 
 
-@room()
-def evaluate_forces(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel("i8(S, F, I)")
+def _past_bounds(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if forces that are not unique pull, or pass the bound of their friction."""
+    least = largest = 0.0
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        if k[S.tied + c] == 1:
+            largest = max(largest, abs(w[S.force + 3 * c]))
+            least = min(least, hold_guard(S, w, k, c))
+            if k[S.holds + c] == 1:
+                least = min(least, w[S.static_margin + c])
+    return 1 if least < -_EXCESS * largest else 0
+
+
+@room("void(S, F, I, i8)")
+def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
     """Evaluate bodies, closed contacts and joints with their forces, and the energies, at the present state.
 
-    Forces that are not unique are shared out anew.
+    Of forces that are not unique the share is chosen as an event does it (1), or if that at hand is past its bounds.
     """
     group_closed(S, w, k)
     evaluate_driven_bodies(S, w, k, S.t, S.y)
-    S.choosing = 1
+    S.choosing = choosing
     right_hand_side(S, w, k, S.t, S.y)
-    if _turned_round(S, w, k) == 1:
+    turned = _turned_round(S, w, k)
+    S.choosing = max(choosing, _past_bounds(S, w, k))
+    if turned + S.choosing > choosing:
         right_hand_side(S, w, k, S.t, S.y)
     S.choosing = 0
     if S.n_joints > 0:
