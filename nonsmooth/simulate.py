@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from nonsmooth.model.options import Options
+from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.interfaces import Engine
 from nonsmooth.queries.undeclared import warn_of_overlaps
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model, check_times
@@ -12,15 +13,15 @@ from nonsmooth.system.system import System
 __all__ = ["Progress", "assemble", "simulate"]
 
 
-def assemble(system: System, options: Options | None = None) -> Model:
+def assemble(system: System, engine: Engine | None = None) -> Model:
     """Lay out a system once, to be run often: ``model.run(t_end, start=...)``.
 
     Parameters
     ----------
     system : System
         Bodies, contacts, starts; what is changed in it later the model does not know.
-    options : Options, optional
-        Tolerances.
+    engine : Engine, optional
+        What integrates it, with its options; :class:`EventDriven` by default.
 
     Returns
     -------
@@ -35,9 +36,9 @@ def assemble(system: System, options: Options | None = None) -> Model:
     Raises
     ------
     InvalidInput
-        If the start is not valid.
+        If the engine cannot run the system, or the start is not valid.
     """
-    model = Model.of(system, options or Options())
+    model = Model.of(system, engine or EventDriven())
     warn_of_overlaps(system)
     return model
 
@@ -47,7 +48,7 @@ def simulate(
     t_end: float,
     *,
     sample_interval: float | None = None,
-    options: Options | None = None,
+    engine: Engine | None = None,
     progress: Progress | None = None,
 ) -> Solution:
     """Simulate a system from t = 0: assemble it and run it once.
@@ -60,8 +61,8 @@ def simulate(
         End time [s].
     sample_interval : float, optional
         Time between stored samples [s]; t_end / 2000 by default.  Events are stored exactly in any case.
-    options : Options, optional
-        Tolerances.
+    engine : Engine, optional
+        What integrates it, with its options; :class:`EventDriven` by default.
     progress : callable, optional
         Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
         raises ends the run and is raised.
@@ -80,11 +81,11 @@ def simulate(
     Raises
     ------
     InvalidInput
-        If the start or a number is not valid; nothing has run then.
+        If the engine cannot run the system, or the start or a number is not valid; nothing has run then.
     RunFailed
         If the run cannot go on; its ``solution`` holds what was computed.
     """
     check_times("simulate", t_end, sample_interval)
-    model = Model.of(system, options or Options())
+    model = Model.of(system, engine or EventDriven())
     warn_of_overlaps(system)
     return model.run(t_end, sample_interval=sample_interval, progress=progress)

@@ -106,7 +106,7 @@ def _compute(job: request.Job, system: System) -> tuple[Solution | None, str, st
                 system,
                 job.scenario.t_end,
                 sample_interval=job.scenario.sample_interval,
-                options=job.options,
+                engine=job.engine,
                 progress=after_steps,
             )
     except RunFailed as error:

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import formats
 from nonsmooth.files.components import TYPE, Table, table_of
-from nonsmooth.interfaces import Body
-from nonsmooth.model.options import Options
+from nonsmooth.interfaces import Body, Engine
 from nonsmooth.plugins import registry
 from nonsmooth.solution.files import replacing
 from nonsmooth.system.contact import Declaration, Tie
@@ -23,7 +23,7 @@ def save_system(
     *,
     t_end: float | None = None,
     sample_interval: float | None = None,
-    options: Options | None = None,
+    engine: Engine | None = None,
     title: str = "",
     names: Sequence[str] = (),
 ) -> None:
@@ -39,8 +39,8 @@ def save_system(
         The file, ending in .toml, .yaml or .yml.
     t_end, sample_interval : float, optional
         End time and time between samples [s].
-    options : Options, optional
-        How to run it; the defaults are not written.
+    engine : Engine, optional
+        What is to run it; the defaults are not written.
     title : str
         One line that says what it is.
     names : sequence of str
@@ -60,8 +60,8 @@ def save_system(
     times = {"t_end": t_end, "sample_interval": sample_interval}
     tables |= {name: float(value) for name, value in times.items() if value is not None}
     tables["gravity"] = 0.0 - system.gravity[2]
-    if options is not None and options != Options():
-        tables["options"] = table_of(options, "options", Options)
+    if engine is not None and engine != EventDriven():
+        tables["engine"] = table_of(engine, "engine", EventDriven)
     known = dict(zip(map(id, system.bodies), _names(system.bodies, names), strict=True))
     laws = _Laws()
     contacts = [_contact(said, known, laws, f"contacts[{i}]") for i, said in enumerate(system.declarations)]

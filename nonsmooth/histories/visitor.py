@@ -48,7 +48,7 @@ class Visitor:
 
     def __init__(self, solution: Solution) -> None:
         track, events = solution.track, solution.events
-        self._system, self._options, self._events = solution.system, track.options, events
+        self._system, self._engine, self._events = solution.system, track.engine, events
         at_events = np.hstack([events.q, events.u_after, events.integrated])
         kind = np.full(len(track.time), _SAMPLE)
         kind[-1] = _END
@@ -69,9 +69,16 @@ class Visitor:
         Raises
         ------
         InvalidInput
-            If the system is no longer the one that ran.
+            If the system is no longer the one that ran, or the engine has no flow between events.
         """
-        laid = lay(self._system, self._options)
+        if not {"delassus", "contact", "flow"} <= set(self._engine.rooms):
+            raise InvalidInput(
+                "Solution",
+                "is known between its samples only where the engine integrates between events",
+                self._engine,
+                "Take times of samples, or run with nonsmooth.EventDriven().",
+            )
+        laid = lay(self._system, self._engine)
         found, ran = (laid.n_y, len(self._system.contacts)), (self._y.shape[1], self._events.n_contacts)
         if found != ran:
             rule = f"must be as it ran, with {ran[0]} numbers of a state and {ran[1]} contacts"

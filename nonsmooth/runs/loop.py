@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import final
 
 from nonsmooth.engine.memory.modes import PAUSED, STOPPED
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.records import Records
@@ -41,7 +42,7 @@ class Ending:
     told: int
 
 
-def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progress | None) -> Ending:
+def run_engine(engine: Engine, model: LaidOut, records: Records, begun: Image, progress: Progress | None) -> Ending:
     """Run to the end time, to a failure, or until somebody interrupts; ``begun`` is the image of where it starts.
 
     Raises
@@ -57,10 +58,10 @@ def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progres
     try:
         with Watch(memory, report) as watch:
             while status == PAUSED:
-                status = int(watch.call("advance", _STEPS_AT_ONCE, 1))
+                status = engine.advance(watch.call, memory, _STEPS_AT_ONCE, True)
                 if status == PAUSED:
                     image, before = Image.of(memory), records.n_passed
-                    status = int(watch.call("advance", _STEPS_NEAR_END, 0))
+                    status = engine.advance(watch.call, memory, _STEPS_NEAR_END, False)
                 records.drain()
                 if progress is not None:
                     progress(float(memory.scalars["t"][0]), t_end)

@@ -11,12 +11,12 @@ from dataclasses import replace
 from typing import final
 
 from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.copying import copied
 from nonsmooth.model.image import Guards, Image
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.options import Options
 from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.loop import Progress, run_engine
@@ -38,8 +38,8 @@ class Model:
     Nothing of one run is left for the next.  A model runs in one thread at a time; another thread takes a copy.
     """
 
-    def __init__(self, laid: LaidOut, options: Options, start: State, key: str = "") -> None:
-        self._laid, self._options, self._start = laid, options, start
+    def __init__(self, laid: LaidOut, engine: Engine, start: State, key: str = "") -> None:
+        self._laid, self._engine, self._start = laid, engine, start
         self._blank = Image.of(laid.memory)
         self._key = key or digest(laid, self._blank)
         self._guards = Guards.of(self._blank)
@@ -49,15 +49,15 @@ class Model:
         self._runs = threading.Lock()
 
     @classmethod
-    def of(cls, system: System, options: Options) -> Model:
+    def of(cls, system: System, engine: Engine) -> Model:
         """Return the model of a system, whose start has been looked at.
 
         Raises
         ------
         InvalidInput
-            If bodies overlap at the start, a joint is not closed there, or a guard has no value.
+            If the engine cannot run it, bodies overlap at the start, a joint is open there, or a guard has no value.
         """
-        made = cls(lay(system, options), options, State.at(system))
+        made = cls(lay(system, engine), engine, State.at(system))
         check_start(made._laid)
         return made
 
@@ -67,9 +67,9 @@ class Model:
         return self._laid.system
 
     @property
-    def options(self) -> Options:
-        """Its tolerances."""
-        return self._options
+    def engine(self) -> Engine:
+        """What integrates it, with its options."""
+        return self._engine
 
     @property
     def start(self) -> State:
@@ -84,7 +84,7 @@ class Model:
         InvalidInput
             If the model runs.
         """
-        return Model(self._copied(), self._options, self._start, self._key)
+        return Model(self._copied(), self._engine, self._start, self._key)
 
     def with_laws_of(self, system: System) -> Model:
         """Return the model of a system that differs in its laws only, without assembling it.
@@ -100,7 +100,7 @@ class Model:
         InvalidInput
             If anything else differs, or the start is not valid, or the model runs.
         """
-        made = Model(lay_laws(self._copied(), system), self._options, State.at(system))
+        made = Model(lay_laws(self._copied(), system), self._engine, State.at(system))
         check_start(made._laid)
         return made
 
@@ -190,11 +190,11 @@ class Model:
         scalars["h_sampled"] = math.inf if is_default else room * interval
         began = time.perf_counter()
         # to copy a memory takes milliseconds where there are many contacts
-        ending = run_engine(laid, records, begun or Image.of(laid.memory), progress)
+        ending = run_engine(self._engine, laid, records, begun or Image.of(laid.memory), progress)
         said = reason(laid, self._guards, ending)
         wall = time.perf_counter() - began
         left = state_of(laid, self._blank, self._key, energy, ending)
-        solution = solution_of(laid, records, energy, said, left, wall, self._options)
+        solution = solution_of(laid, records, energy, said, left, wall, self._engine)
         if solution.status == "failed":
             raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
         return solution

@@ -6,10 +6,10 @@ import numpy as np
 
 from nonsmooth.engine.memory.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
 from nonsmooth.engine.memory.modes import DONE, PAUSED, REASONS, STOPPED
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Difference, Guards, Image
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.options import Options
 from nonsmooth.runs.diagnose import culprit
 from nonsmooth.runs.loop import Ending
 from nonsmooth.runs.records import Records
@@ -41,7 +41,7 @@ def solution_of(
     said: tuple[str, str],
     state: State,
     wall: float,
-    options: Options,
+    engine: Engine,
 ) -> Solution:
     """Return the solution of a run.
 
@@ -59,12 +59,13 @@ def solution_of(
         Where the run ended.
     wall : float
         Time that the engine took [s].
-    options : Options
-        Its tolerances.
+    engine : Engine
+        What integrated it.
     """
     record, n_q, n_u = model.memory.scalars[0], model.n_q, model.n_u
     word, message = said
-    floats, integers, table = records.joined()
+    floats, integers, samples = records.joined()
+    table = np.vstack([samples, _end(model)])
     counters = Counters(
         steps=int(record["steps"]),
         rejected=int(record["rejected"]),
@@ -72,7 +73,7 @@ def solution_of(
         impact_steps=int(record["impact_steps"]),
         wall_seconds=wall,
     )
-    t, q = table[:, 0], table[:, 1 : 1 + n_q]
+    t, q = table[:-1, 0], table[:-1, 1 : 1 + n_q]
     worst = float(record["open_t"]), float(record["open_energy"]), float(record["open_share"])
     tolerances = float(record["rtol"]), float(record["impact_rtol"])
     found = (
@@ -86,7 +87,7 @@ def solution_of(
         model.system,
         t,
         q,
-        table[:, 1 + n_q : 1 + n_q + n_u],
+        table[:-1, 1 + n_q : 1 + n_q + n_u],
         Events.from_buffers(floats, integers, len(model.system.contacts), n_q, n_u, model.n_y),
         state.energy,
         counters,
@@ -96,15 +97,15 @@ def solution_of(
         word,
         message,
         state,
-        _track(model, table, options),
+        Track(table[:, 0], table[:, 1 : 1 + model.n_y], table[:, 1 + model.n_y :], engine),
     )
 
 
-def _track(model: LaidOut, samples: Floats, options: Options) -> Track:
+def _end(model: LaidOut) -> Floats:
+    """Return a sample of the end of a run."""
     record, y = model.memory.scalars[0], model.memory.array("y", model.n_y)
-    booked = (record[name] for name in ("driven_work", "restitution_loss", "friction_loss", "closing_loss"))
-    table = np.vstack([samples, [record["t"], *y, *booked]])
-    return Track(table[:, 0], table[:, 1 : 1 + model.n_y], table[:, 1 + model.n_y :], options)
+    booked = [record[name] for name in ("driven_work", "restitution_loss", "friction_loss", "closing_loss")]
+    return np.array([record["t"], *y, *booked])
 
 
 def state_of(model: LaidOut, blank: Image, key: str, start: tuple[float, float], ending: Ending) -> State:

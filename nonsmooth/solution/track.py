@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, final
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from nonsmooth.model.options import Options
+from nonsmooth.interfaces import Engine
 
 
 @final
@@ -26,11 +25,11 @@ class Track:
     booked : array
         Energies booked in events until then [J]: work of driven bodies, losses by restitution, friction and closing,
         shape [n, 4].
-    options : Options
-        Tolerances of the run.
+    engine : Engine
+        What integrated the run, with its tolerances.
     """
 
     time: NDArray[np.float64]
     y: NDArray[np.float64]
     booked: NDArray[np.float64]
-    options: Options
+    engine: Engine
