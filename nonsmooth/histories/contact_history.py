@@ -82,13 +82,11 @@ def dataset(time: Floats, numbers: Sequence[int], histories: Sequence[ContactHis
     mode = np.zeros((len(time), len(numbers)), dtype=np.int64)
     for i, history in enumerate(histories):
         mode[:, i] = history.mode
-    variables = {"mode": (_AXES[:2], mode, {"long_name": "0 open, 1 stick, 2 slide"})}
-    shapes = {name: (3,) for name in (*_BORNE, *_SEEN)} | {"gap": (), "normal_force": (), "points": (2, 3)}
+    variables: dict[str, tuple[tuple[str, ...], Floats | Integers, dict[str, str]]] = {}
+    variables["mode"] = _AXES[:2], mode, {"long_name": "0 open, 1 stick, 2 slide"}
     for name, (units, words) in (_BORNE | _SEEN).items():
-        values = np.zeros((len(time), len(numbers), *shapes[name]))
-        for i, history in enumerate(histories):
-            values[:, i] = getattr(history, name)
-        axes = _AXES[:2] + _AXES[4 - len(shapes[name]) :]
-        variables[name] = (axes, values, {"units": units, "long_name": words})
+        values = np.stack([getattr(history, name) for history in histories], axis=1)
+        axes = _AXES[:2] + _AXES[6 - values.ndim :]
+        variables[name] = axes, values, {"units": units, "long_name": words}
     coordinates = {"time": ("time", time, {"units": "s"}), "contact": ("contact", numbers)}
     return xarray.Dataset(variables, coords=coordinates | {"axis": ["x", "y", "z"], "body": ["first", "second"]})

@@ -16,6 +16,7 @@ from nonsmooth.solution.state import Floats
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
+
 @final
 @dataclass(frozen=True, eq=False)
 class Energies:
@@ -72,10 +73,11 @@ class Energies:
             record = scalars[0]
             driven, rubbed, _, loads = y[first : first + N_ACCOUNTS]
             table[:2, i] = record["kinetic_before"], record["potential_before"]
-            table[2, i], table[3, i] = record["driven_work"] + driven, loads
-            table[4, i], table[5, i] = record["restitution_loss"], record["friction_loss"] + rubbed
-            table[6, i] = record["closing_loss"]
+            table[2:4, i] = record["driven_work"] + driven, loads
+            table[4:, i] = record["restitution_loss"], record["friction_loss"] + rubbed, record["closing_loss"]
 
         known.visit(row, keep)
-        found = cls(row, *table, solution.energy.kinetic_start + solution.energy.potential_start)
+        kinetic, potential, driven, loads, restitution, friction, closing = table
+        start = solution.energy.kinetic_start + solution.energy.potential_start
+        found = cls(row, kinetic, potential, driven, loads, restitution, friction, closing, start)
         return found if given.ndim else of_one(found)

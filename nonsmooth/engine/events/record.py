@@ -16,7 +16,7 @@ Coordinates follow, velocities before and after, what else is integrated, what i
 each contact listed.
 """
 LISTED = 7 + CANDIDATE
-"""Floats of a contact listed with an event: impulses, then slip direction, rate at which it closed, facing, features."""
+"""Floats of a contact listed with an event: impulses, slip direction, rate at which it closed, facing, features."""
 CODE_HEAD = 5
 """Integers at the head of an event: cause, contact, phases, whether cut short, number of contacts listed.
 
