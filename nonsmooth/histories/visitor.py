@@ -88,8 +88,9 @@ class Visitor:
     def modes(self, times: Floats) -> Integers:
         """Return the modes of all contacts, shape [n, n_contacts]."""
         event = self._event[self._row(times)]
-        modes = _MODES[self._events.after[event]] if len(self._events) else np.zeros((len(times), 0), dtype=np.int64)
-        return np.asarray(modes)
+        if len(self._events) == 0:
+            return np.full((len(times), self._events.n_contacts), OPEN)
+        return np.asarray(_MODES[self._events.after[event]])
 
     def states(self, times: Floats) -> Floats:
         """Return all that is integrated, shape [n, n_y]."""
