@@ -8,9 +8,10 @@ from nonsmooth.files.reading import Setup, load_system
 from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.interfaces import Criterion
-from nonsmooth.placing import at_height, resting, touching
+from nonsmooth.placing.starts import at_height, resting, touching
 from nonsmooth.queries.distance import distance
 from nonsmooth.queries.proximity import proximity
+from nonsmooth.restitution import restitution
 from nonsmooth.runs.model import Model
 from nonsmooth.simulate import assemble, simulate
 from nonsmooth.solution.solution import Solution
@@ -47,6 +48,7 @@ __all__ = [
     "load_system",
     "proximity",
     "resting",
+    "restitution",
     "save_system",
     "simulate",
     "solve_contact",

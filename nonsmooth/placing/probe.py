@@ -14,7 +14,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.solids.start import frames_of
+from nonsmooth.model.overlaps import frames_of
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
