@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from nonsmooth.engine.memory.layout import GEOMETRY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.contact_history import ContactHistory
-from nonsmooth.histories.times import read_times
+from nonsmooth.histories.times import read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats, Integers
@@ -70,6 +70,10 @@ class ContactForces:
     friction_moment: Floats
     slip_velocity: Floats
     contacts: tuple[Contact, ...] = field(repr=False)
+
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"ContactForces({spoken(self.time)}; {len(self.contacts)} contacts, {len(self.contact)} entries)"
 
     @classmethod
     def of(cls, solution: Solution, times: ArrayLike | None = None) -> ContactForces:
@@ -135,8 +139,7 @@ class ContactForces:
         """Return the histories of all contacts that are closed at any of the times, as one dataset with units."""
         from nonsmooth.histories.contact_history import dataset
 
-        numbers = np.unique(self.contact).tolist()
-        return dataset(np.atleast_1d(self.time), numbers, [self.history(number) for number in numbers])
+        return dataset(self, np.unique(self.contact).tolist())
 
 
 @final

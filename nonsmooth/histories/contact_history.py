@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from nonsmooth.histories.times import of_one
+from nonsmooth.histories.times import of_one, spoken
 from nonsmooth.solution.state import Floats, Integers
 
 if TYPE_CHECKING:
@@ -59,6 +59,12 @@ class ContactHistory:
     normal: Floats
     slip_velocity: Floats
 
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return (
+            f"ContactHistory({spoken(self.time)}; largest normal force {np.max(self.normal_force, initial=0.0):.6g} N)"
+        )
+
     @classmethod
     def spread(cls, forces: ContactForces, entries: Integers, times: Integers) -> ContactHistory:
         """Return the history that has some entries at the numbers of times given, and is open at the others."""
@@ -75,17 +81,20 @@ class ContactHistory:
         return found if forces.time.ndim else of_one(found)
 
 
-def dataset(time: Floats, numbers: Sequence[int], histories: Sequence[ContactHistory]) -> xarray.Dataset:
-    """Return the histories of contacts as one dataset with units."""
+def dataset(forces: ContactForces, numbers: Sequence[int]) -> xarray.Dataset:
+    """Return the histories of some contacts as one dataset with units."""
     import xarray
 
+    time, histories = np.atleast_1d(forces.time), [forces.history(number) for number in numbers]
     mode = np.zeros((len(time), len(numbers)), dtype=np.int64)
     for i, history in enumerate(histories):
         mode[:, i] = history.mode
     variables: dict[str, tuple[tuple[str, ...], Floats | Integers, dict[str, str]]] = {}
     variables["mode"] = _AXES[:2], mode, {"long_name": "0 open, 1 stick, 2 slide"}
     for name, (units, words) in (_BORNE | _SEEN).items():
-        values = np.stack([getattr(history, name) for history in histories], axis=1)
+        values = np.zeros((len(time), len(numbers), *getattr(forces, name).shape[1:]))
+        for i, history in enumerate(histories):
+            values[:, i] = getattr(history, name)
         axes = _AXES[:2] + _AXES[6 - values.ndim :]
         variables[name] = axes, values, {"units": units, "long_name": words}
     coordinates = {"time": ("time", time, {"units": "s"}), "contact": ("contact", numbers)}

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.histories.times import of_one, read_times
+from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.solution.state import Floats
 
@@ -47,6 +47,10 @@ class Energies:
     friction_loss: Floats
     closing_loss: Floats
     start: float
+
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"Energies({spoken(self.time)}; start {self.start:.6g} J)"
 
     @property
     def loss(self) -> Floats:

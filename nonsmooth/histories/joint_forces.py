@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.engine.memory.layout import JOINT_ROW
-from nonsmooth.histories.times import of_one, read_times
+from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.linkages import linkages
@@ -43,6 +43,10 @@ class JointForces:
     point: Floats
     force: Floats
     moment: Floats
+
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"JointForces({spoken(self.time)}; {self.force.shape[-2]} joints)"
 
     @classmethod
     def of(cls, solution: Solution, times: ArrayLike | None = None) -> JointForces:

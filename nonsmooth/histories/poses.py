@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.states import States
-from nonsmooth.histories.times import of_one, read_times
+from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.places import BodyFrames
 from nonsmooth.solution.state import Floats
@@ -38,6 +38,10 @@ class Poses:
     time: Floats
     origin: Floats
     rotation: Floats
+
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"Poses({spoken(self.time)}; {self.origin.shape[-2]} frames)"
 
     @classmethod
     def of(cls, solution: Solution, body: Body, times: ArrayLike | None = None) -> Poses:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.histories.times import of_one, read_times
+from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.solution.state import Floats, Integers
 
@@ -40,6 +40,10 @@ class States:
     u: Floats
     modes: Integers
     law_states: Floats
+
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"States({spoken(self.time)}; {self.q.shape[-1]} coordinates, {self.modes.shape[-1]} contacts)"
 
     @classmethod
     def of(cls, solution: Solution, times: ArrayLike | None = None) -> States:

@@ -38,9 +38,16 @@ def read_times(where: str, solution: Solution, times: ArrayLike | None) -> Float
     start = min(solution.track.time[0], solution.events.time.min(initial=np.inf))
     outside = found[~((found >= start) & (found <= solution.t_end))]
     if outside.size > 0:
-        rule = f"must be within the run, which lasts from {start:.17g} to {solution.t_end:.17g} s"
+        rule = f"must be within the run, which lasts from {float(start)!r} to {solution.t_end!r} s"
         raise InvalidInput(f"{where}: times", rule, float(outside.flat[0]), "Run longer, or ask for times of this run.")
     return found
+
+
+def spoken(time: Floats) -> str:
+    """Return in words how many times there are."""
+    if time.ndim == 0:
+        return f"t = {time:.9g} s"
+    return f"{len(time)} times, {time.min():.9g} to {time.max():.9g} s" if len(time) > 0 else "no times"
 
 
 def of_one(history: _History) -> _History:

@@ -205,24 +205,28 @@ class Solution:
 
         return Energies.of(self, times)
 
-    def distances(self, first: Body, second: Body, *, by: str | None = None) -> DistanceHistory:
-        """Return how far two bodies are from each other at the samples: gap, points, normal, and how they were found.
+    def distances(
+        self, first: Body, second: Body, times: ArrayLike | None = None, *, by: str | None = None
+    ) -> DistanceHistory:
+        """Return how far two bodies are from each other at times: gap, points, normal, and how they were found.
 
         Parameters
         ----------
         first, second : Body
             Bodies of the system; all of their shapes count.
+        times : float or array, optional
+            Times within the run [s]; those of the samples by default.
         by : str, optional
             One way to find it (:func:`nonsmooth.distance`).
 
         Raises
         ------
         InvalidInput, NoDistance, MissingPackagesError
-            As :func:`nonsmooth.distance`, or if a body is not of the system.
+            As :func:`nonsmooth.distance`, or if a body is not of the system, or a time not within the run.
         """
         from nonsmooth.queries.over_time import distances
 
-        return distances(self, first, second, by)
+        return distances(self, first, second, times, by)
 
     def to_xarray(self) -> xarray.Dataset:
         """Return samples and events as one dataset with units."""
