@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 class ContactForces:
     """The closed contacts at times, one entry for each that is closed at one of them.
 
-    Forces and moments act on the second body of the contact, in world axes; the first one bears the opposite.
+    Forces and moments act on the second body, ``Contact.second``, in world axes; the first one bears the opposite.
 
     Attributes
     ----------
