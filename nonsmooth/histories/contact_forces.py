@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.engine.memory.layout import GEOMETRY
+from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.contact_history import ContactHistory
 from nonsmooth.histories.times import read_times, spoken
@@ -167,16 +167,16 @@ class _Closed:
             return self.none
         slots = slots[np.argsort(self._identity[slots])]
         blocks, axes, forces = self._blocks[slots], self._axes[slots], self._forces[slots]
-        normal, tangent = blocks[:, 1:4], blocks[:, 4:7]
+        normal, tangent = blocks[:, NORMAL : NORMAL + 3], blocks[:, TANGENT : TANGENT + 3]
         # the axes of friction that is not the same in all directions are no unit vectors
         slip = np.where(self._oriented[slots, None] == 1, self._slips[slots], self._rates[slots, 1:])
         floats = np.empty((len(slots), 20))
-        floats[:, 0], floats[:, 1:7], floats[:, 7:10] = blocks[:, 0], blocks[:, 7:13], normal
+        floats[:, 0], floats[:, 1:7], floats[:, 7:10] = blocks[:, GAP], blocks[:, POINT_A : POINT_A + 6], normal
         floats[:, 10] = forces[:, 0]
         floats[:, 11:14] = np.einsum("ir,irx->ix", forces[:, 1:], axes[:, 1:])
         floats[:, 14:17] = 0.0
         for i in np.flatnonzero(self._function[slots]).tolist():
-            start = int(self._out[slots[i]]) + 2
+            start = int(self._out[slots[i]]) + TRACTION_MOMENT
             floats[i, 14:17] = self._memory.floats[start : start + 3] @ axes[i, [1, 2, 0]]
         floats[:, 17:] = slip[:, :1] * tangent + slip[:, 1:] * np.cross(normal, tangent)
         return np.column_stack([self._identity[slots], self._mode[slots]]), floats

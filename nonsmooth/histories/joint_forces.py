@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.engine.memory.layout import JOINT_ROW
+from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_B
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
@@ -76,7 +76,7 @@ class _Joint:
 
     def look(self) -> tuple[Floats, Floats, Floats]:
         """Return point, force and moment."""
-        axes, moments, points = self.rows[:, 1:4], self.rows[:, 4:7], self.rows[:, 10:13]
+        axes, moments, points = (self.rows[:, at : at + 3] for at in (AXIS, MOMENT, POINT_B))
         # a row of angles has no axis, and no point
         holding = np.flatnonzero(np.any(axes != 0.0, axis=1))
         point = points[holding[0]] if len(holding) > 0 else self.origin

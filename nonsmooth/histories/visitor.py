@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
 from nonsmooth.engine.memory.modes import OPEN, RUNNING, SLIDE, STICK
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.errors import InvalidInput, RunFailed
@@ -161,7 +161,7 @@ class Visitor:
         floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
         rows[:, _MODE] = OPEN
         rows[numbers, _MODE] = _MODES[events.codes[listed] >> 6 & 7]
-        floats[numbers, 1:3], floats[numbers, 4] = kept[:, :2], kept[:, 2]
+        floats[numbers, DIRECTION : DIRECTION + 2], floats[numbers, CLOSING_RATE] = kept[:, :2], kept[:, 2]
         # which features the contacts of a pool have is found anew, but for the closed ones
         places = rows[:, _PLACE]
         memory.floats[places[places > 0]] = 0.0

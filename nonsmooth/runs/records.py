@@ -8,7 +8,8 @@ from typing import final
 import numpy as np
 
 from nonsmooth.engine.events.record import EVENT_HEAD, LISTED
-from nonsmooth.engine.memory.layout import BOOKED, CANDIDATE
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats, Integers, State

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.layout import BOOKED, CANDIDATE
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import GUARD, OPEN, SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
+TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
+"""Which float at the head of an event is which."""
 EVENT_HEAD = 5
-"""Floats at the head of an event: time, driven work, restitution loss, friction loss, closing loss.
+"""Floats at the head of an event.
 
 Coordinates follow, velocities before and after, what else is integrated, what is booked, and :data:`LISTED` floats of
 each contact listed.
 """
 LISTED = 7 + CANDIDATE
 """Floats of a contact listed with an event: impulses, slip direction, rate at which it closed, facing, features."""
+CAUSE, CONTACT, PHASES, TRUNCATED, N_LISTED = range(5)
+"""Which integer at the head of an event is which; truncated is a cascade that was cut short."""
 CODE_HEAD = 5
-"""Integers at the head of an event: cause, contact, phases, whether cut short, number of contacts listed.
+"""Integers at the head of an event.
 
 Contact and code of each of these follow, and their impulses at the end of the floats.
 """
@@ -29,7 +34,8 @@ MOST_EVENTS = 204
 @kernel("i8(S, F, I, i8)")
 def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
-    mode = k[S.mode + c]
+    contact = contact_at(S, w, k, c)
+    mode = contact.mode
     if mode == OPEN:
         return 0
     return 5 if mode == SLIDE else 1
@@ -38,12 +44,13 @@ def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 @kernel("i8(S, F, I, i8)")
 def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits of contact ``c`` at the start of an impact, from its rates."""
-    if k[S.touching + c] == 0:
+    contact = contact_at(S, w, k, c)
+    if contact.touching == 0:
         return 0
     bits = 1
-    if w[S.rate + 3 * c] < -S.velocity_tolerance:
+    if contact.rate[0] < -S.velocity_tolerance:
         bits += 2
-    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    v1, v2 = contact.rate[1], contact.rate[2]
     if math.sqrt(v1 * v1 + v2 * v2) > S.velocity_tolerance:
         bits += 4
     return bits
@@ -53,10 +60,11 @@ def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 def remember(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep modes and velocities as they are before an event, and clear its account."""
     for c in range(S.n_contacts):
-        k[S.code_before + c] = code(S, w, k, c)
-        k[S.code_during + c] = k[S.code_before + c]
+        contact = contact_at(S, w, k, c)
+        contact.code_before = code(S, w, k, c)
+        contact.code_during = contact.code_before
         for r in range(3):
-            w[S.event_impulse + 3 * c + r] = 0.0
+            contact.event_impulse[r] = 0.0
     for i in range(S.n_u):
         w[S.u_before + i] = w[S.y + S.n_q + i]
     for i in range(1, EVENT_HEAD):
@@ -75,7 +83,7 @@ def _list_event(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
 
 
 @kernel("void(S, F, i8)")
-def write_booked(S: Scalars, w: Floats, out: int) -> None:
+def _write_booked(S: Scalars, w: Floats, out: int) -> None:
     """Write the energies booked so far that are not integrated with the state."""
     w[out], w[out + 1] = S.driven_work, S.restitution_loss
     w[out + 2], w[out + 3] = S.friction_loss, S.closing_loss
@@ -88,8 +96,9 @@ def _list_contact(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
         w[out + r] = w[S.event_impulse + 3 * c + r]
     w[out + 3], w[out + 4] = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
     w[out + 5], w[out + 6] = w[S.closing_rate + c], float(k[S.facing + c])
+    candidate = k[S.candidate + c]
     for r in range(CANDIDATE):
-        w[out + 7 + r] = w[k[S.candidate + c] + r] if k[S.candidate + c] > 0 else 0.0
+        w[out + 7 + r] = w[candidate + r] if candidate > 0 else 0.0
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -100,7 +109,7 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
     width = EVENT_HEAD + S.n_u + S.n_y + BOOKED + LISTED * n
     S.last_floats, S.last_integers = S.floats_used, S.integers_used
     row = S.events + S.floats_used
-    w[S.event_head] = S.t
+    w[S.event_head + TIME] = S.t
     for i in range(EVENT_HEAD):
         w[row + i] = w[S.event_head + i]
     row += EVENT_HEAD
@@ -114,14 +123,14 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
     for i in range(S.n_q + S.n_u, S.n_y):
         w[row] = w[S.y + i]
         row += 1
-    write_booked(S, w, row)
+    _write_booked(S, w, row)
     row += BOOKED
     codes = S.event_codes + S.integers_used
-    k[codes], k[codes + 1], k[codes + 2] = cause, contact, phases
+    k[codes + CAUSE], k[codes + CONTACT], k[codes + PHASES] = cause, contact, phases
     if contact >= 0 and cause != GUARD:
-        k[codes + 1] = k[S.identity + contact]
-    k[codes + 3] = S.truncated if phases > 0 else 0
-    k[codes + 4] = n
+        k[codes + CONTACT] = k[S.identity + contact]
+    k[codes + TRUNCATED] = S.truncated if phases > 0 else 0
+    k[codes + N_LISTED] = n
     for i in range(n):
         c = k[S.listed + i]
         _list_contact(S, w, k, c, row + LISTED * i)
@@ -146,7 +155,7 @@ def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
     S.n_events -= 1
     S.recorded -= 1
     codes = S.event_codes + S.last_integers
-    record_event(S, w, k, k[codes], S.last_contact, k[codes + 2])
+    record_event(S, w, k, k[codes + CAUSE], S.last_contact, k[codes + PHASES])
 
 
 @kernel("void(S, F, I, f8)")
@@ -158,7 +167,7 @@ def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         w[row] = S.next_sample
         theta = (S.next_sample - S.t) / S.h
         dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), row + 1)
-        write_booked(S, w, row + 1 + S.n_y)
+        _write_booked(S, w, row + 1 + S.n_y)
         S.n_samples += 1
         S.sample_index += 1
         S.next_sample = S.sample_start + S.sample_index * S.sample_interval

@@ -11,6 +11,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
 from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope, try_step
+from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.self_check import energy_of_bodies
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
@@ -63,12 +64,12 @@ def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
         last = slip_guard(S, w, k, c)
         if k[S.mode + c] != SLIDE or last >= -S.velocity_tolerance:
             continue
-        first = w[S.guard_first + 2 * c + 1]
+        first = w[S.guard_first + friction_guard(c)]
         if first > S.velocity_tolerance:
             part = min(part, max(_SHORTEST, first / (first - last)))
             continue
         part = 0.0
-        w[S.guard_first + 2 * c + 1] = -first
+        w[S.guard_first + friction_guard(c)] = -first
         for r in range(2):
             w[S.direction + 2 * c + r] *= -1.0
     return part
@@ -89,7 +90,7 @@ def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         elif h <= S.time_tolerance:
             return -1.0
         if part == 0.0:
-            slope(S, w, k, S.t, S.y, S.slopes)
+            slope(S, w, k, S.t, S.y, S.slopes, 0)
             part = 0.5
         elif part == 1.0:
             part = step_factor(error) if error < 1e300 else _SHORTEST
@@ -103,12 +104,12 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
     group_closed(S, w, k)
     wanted = S.h_max
     while S.t < t:
-        slope(S, w, k, S.t, S.y, S.slopes)
+        slope(S, w, k, S.t, S.y, S.slopes, 0)
         if _turned_round(S, w, k) == 1:
-            slope(S, w, k, S.t, S.y, S.slopes)
+            slope(S, w, k, S.t, S.y, S.slopes, 0)
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
-            w[S.guard_first + 2 * c + 1] = slip_guard(S, w, k, c)
+            w[S.guard_first + friction_guard(c)] = slip_guard(S, w, k, c)
         left = t - S.t
         h = _found_step(S, w, k, min(wanted, left))
         if h < 0.0:
@@ -145,17 +146,16 @@ def _past_bounds(S: Scalars, w: Floats, k: Integers) -> int:
 def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
     """Evaluate bodies, closed contacts and joints with their forces, and the energies, at the present state.
 
-    Of forces that are not unique the share is chosen as an event does it (1), or if that at hand is past its bounds.
+    Of forces that are not unique the null-space force is chosen anew with ``choosing`` (1), as at an event, or if
+    with that at hand a bound is passed.
     """
     group_closed(S, w, k)
     evaluate_driven_bodies(S, w, k, S.t, S.y)
-    S.choosing = choosing
-    right_hand_side(S, w, k, S.t, S.y)
+    right_hand_side(S, w, k, S.t, S.y, choosing)
     turned = _turned_round(S, w, k)
-    S.choosing = max(choosing, _past_bounds(S, w, k))
-    if turned + S.choosing > choosing:
-        right_hand_side(S, w, k, S.t, S.y)
-    S.choosing = 0
+    anew = max(choosing, _past_bounds(S, w, k))
+    if turned + anew > choosing:
+        right_hand_side(S, w, k, S.t, S.y, anew)
     if S.n_joints > 0:
         evaluate_joint_forces(S, w, k)
     S.kinetic_before, S.potential_before = energy_of_bodies(S, w, k, 0), energy_of_bodies(S, w, k, 1)
