@@ -14,7 +14,7 @@ from nonsmooth.cli.messages import complain, say, tell
 from nonsmooth.cli.progress import on_standard_error
 from nonsmooth.errors import PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
-from nonsmooth.simulate import simulate
+from nonsmooth.simulate import assemble
 from nonsmooth.solution import files
 from nonsmooth.solution.draw_graph import draw
 from nonsmooth.solution.solution import Solution
@@ -96,19 +96,14 @@ def _compute(job: request.Job, system: System) -> tuple[Solution | None, str, st
     progress = on_standard_error()
 
     def after_steps(t: float, t_end: float) -> None:
-        progress(t, t_end)
+        progress(t, t_end, model.n_events)
         if t < t_end:
             interrupt.check()
 
     try:
         with Interrupt() as interrupt:
-            solution = simulate(
-                system,
-                job.scenario.t_end,
-                sample_interval=job.scenario.sample_interval,
-                engine=job.engine,
-                progress=after_steps,
-            )
+            model = assemble(system, job.engine)
+            solution = model.run(job.scenario.t_end, sample_interval=job.scenario.sample_interval, progress=after_steps)
     except RunFailed as error:
         kept = cast("Solution | None", error.solution)
         message = kept.message if kept else str(error)

@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.contact_history import ContactHistory
 from nonsmooth.histories.times import read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.solution.state import Floats, Integers
 from nonsmooth.system.contact import Contact
 
 if TYPE_CHECKING:

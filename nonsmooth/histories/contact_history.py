@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
+from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.times import of_one, spoken
-from nonsmooth.solution.state import Floats, Integers
 
 if TYPE_CHECKING:
     import xarray

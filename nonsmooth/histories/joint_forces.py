@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_B
+from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.linkages import linkages
-from nonsmooth.solution.state import Floats
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution

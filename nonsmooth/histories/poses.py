@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.states import States
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.places import BodyFrames
-from nonsmooth.solution.state import Floats
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
-from nonsmooth.solution.state import Floats, Integers
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.solution.state import Floats
+from nonsmooth.histories.arrays import Floats
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance

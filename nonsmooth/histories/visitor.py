@@ -11,25 +11,24 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
-from nonsmooth.engine.memory.modes import OPEN, RUNNING, SLIDE, STICK
+from nonsmooth.engine.memory.modes import OPEN, REASONS, RUNNING, SLIDE, STICK
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.diagnose import culprit
-from nonsmooth.solution.state import Floats, Integers
-from nonsmooth.solution.track import Track
 from nonsmooth.watch import Watch
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
+    from nonsmooth.solution.track import Track
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 _BOOKED = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
 _MODES = np.array([OPEN, STICK, OPEN, OPEN, OPEN, SLIDE, OPEN, OPEN])
 """Mode of a contact by its bits of Eq. (29) after an event."""
 _SAMPLE, _EVENT, _END = range(3)
-_KNOWN = weakref.WeakKeyDictionary[Track, "Visitor"]()
+_KNOWN: weakref.WeakKeyDictionary[Track, Visitor] = weakref.WeakKeyDictionary()
 
 
 def visitor(solution: Solution) -> Visitor:
@@ -126,7 +125,7 @@ class Visitor:
                     self._put(here)
                 status = int(watch.call("follow", float(times[i])))
                 if status != RUNNING:
-                    raise RunFailed(f"At t = {times[i]:.9g} s nothing is known. {culprit(self.laid, status)}".strip())
+                    raise RunFailed(f"What led to t = {times[i]:.9g} s is not found again: {REASONS[status]}.")
                 if forces:
                     watch.call("evaluate_forces", 0)
                 look(i)

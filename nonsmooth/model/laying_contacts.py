@@ -162,7 +162,7 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     owners = {"geometry": contact.kinematics, "normal": contact.normal, "force": impact, "efficiency": impact}
     start = initial_state(contact)
     for name, function, form, available in functions:
-        owner = f"{type(owners.get(name, contact.friction)).__name__} ({contact.name})"
+        owner = f"{type(owners.get(name, contact.friction)).__name__} ({contact})"
         tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
         address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
         if form == "pair":

@@ -10,6 +10,7 @@ from nonsmooth.engine.memory.modes import PAUSED, STOPPED
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.pace import Pace
 from nonsmooth.runs.records import Records
 from nonsmooth.watch import Watch
 
@@ -34,12 +35,15 @@ class Ending:
         What its memory held at last where nothing yet said when the run would end.
     told : int
         Events from there on.
+    hint : str
+        What a run that failed was held up by, as far as counters and events tell.
     """
 
     status: int
     interrupted: bool
     image: Image
     told: int
+    hint: str
 
 
 def run_engine(engine: Engine, model: LaidOut, records: Records, begun: Image, progress: Progress | None) -> Ending:
@@ -53,7 +57,7 @@ def run_engine(engine: Engine, model: LaidOut, records: Records, begun: Image, p
     memory = model.memory
     t_end = float(memory.scalars["t_end"][0])
     report = None if progress is None else lambda t: progress(t, t_end)
-    status, interrupted = PAUSED, False
+    status, interrupted, pace = PAUSED, False, Pace(model)
     image, before = begun, records.n_passed
     try:
         with Watch(memory, report) as watch:
@@ -62,6 +66,7 @@ def run_engine(engine: Engine, model: LaidOut, records: Records, begun: Image, p
                 if status == PAUSED:
                     image, before = Image.of(memory), records.n_passed
                     status = engine.advance(watch.call, memory, _STEPS_NEAR_END, False)
+                pace.look(status)
                 records.drain()
                 if progress is not None:
                     progress(float(memory.scalars["t"][0]), t_end)
@@ -70,4 +75,4 @@ def run_engine(engine: Engine, model: LaidOut, records: Records, begun: Image, p
         status, interrupted = PAUSED, True
     if status == STOPPED:
         image, before = Image.of(memory), records.n_passed
-    return Ending(status, interrupted, image, records.n_passed - before)
+    return Ending(status, interrupted, image, records.n_passed - before, pace.hint(status))

@@ -46,6 +46,7 @@ class Model:
         begin(laid, self._blank, start)
         self._energy = laid.energy()
         self._begun = Image.of(laid.memory)
+        self._records = Records(laid)
         self._runs = threading.Lock()
 
     @classmethod
@@ -75,6 +76,11 @@ class Model:
     def start(self) -> State:
         """Where it starts if nothing else is said: as the bodies were placed when it was made, at t = 0."""
         return self._start
+
+    @property
+    def n_events(self) -> int:
+        """Events so far of the run that is under way, or of the last one; what ``progress`` may want to tell."""
+        return self._records.n_passed
 
     def copy(self) -> Model:
         """Return a model of its own for another thread; it reads the same tables of meshes.
@@ -168,7 +174,8 @@ class Model:
     def _run(
         self, t_end: float, state: State, interval: float, is_default: bool, progress: Progress | None
     ) -> Solution:
-        laid, records = self._laid, Records(self._laid)
+        laid = self._laid
+        records = self._records = Records(laid)
         scalars, begun = laid.memory.scalars, None
         if state is self._start:
             begun = self._begun

@@ -89,7 +89,12 @@ def to_dataset(solution: Solution, coordinates: Coordinates = _NONE) -> xarray.D
         "q": (("time", "coordinate"), solution.q, {"long_name": "coordinates of all bodies, SI"}),
         "u": (("time", "velocity"), solution.u, {"long_name": "velocities of all bodies, SI"}),
         "event_cause": (("event",), np.array(events.causes(), dtype=str), {"long_name": "cause"}),
-        "event_contact": (("event",), events.contact, {"long_name": "contact, counted from 0; -1 at the start"}),
+        "event_contact": (
+            ("event",),
+            events.contact,
+            {"long_name": "index of the contact or guard, from 0; -1 at the start"},
+        ),
+        "event_trigger": (("event",), np.array(solution.triggers(), dtype=str), {"long_name": "contact or guard"}),
         "event_phases": (("event",), events.phases, {"long_name": "changes of phase within the impact"}),
         "event_truncated": (("event",), events.truncated, {"long_name": "1 where an endless cascade was cut short"}),
         "impulse": (
@@ -163,13 +168,13 @@ def _write_events(solution: Solution, coordinates: Coordinates, path: Path) -> N
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(
-            ["time [s]", "cause", "contact", "mode before", "mode during", "mode after", "phases"]
+            ["time [s]", "cause", "contact or guard", "mode before", "mode during", "mode after", "phases"]
             + [f"{name} [J]" for name in _ENERGIES]
         )
         columns = zip(
             events.time.tolist(),
             events.causes(),
-            (events.contact + 1).tolist(),
+            solution.triggers(),
             events.words("before"),
             events.words("during"),
             events.words("after"),

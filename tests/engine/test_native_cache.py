@@ -71,7 +71,7 @@ def _say_something_else(file: Path) -> None:
 
 
 def _swap(file: Path) -> None:
-    other = file.with_name("settle.code")
+    other = file.with_name("update_at_event.code")
     one, two = file.read_bytes(), other.read_bytes()
     file.write_bytes(two)
     other.write_bytes(one)
@@ -129,7 +129,7 @@ def test_a_cache_that_cannot_be_written_to_is_read(
     assert stat.S_IMODE(writable.stat().st_mode) == 0o700
     assert stat.S_IMODE(writable.parent.stat().st_mode) == 0o700
     assert _is_filled()
-    shutil.copy(filled / "settle.code", writable / "touch.code")
+    shutil.copy(filled / "update_at_event.code", writable / "touch.code")
     (filled / "touch.code").unlink()
     assert not _is_filled("touch")
     assert "touch.code is damaged" in capsys.readouterr().err

@@ -50,11 +50,11 @@ def test_the_table_has_every_event_exactly(solution: Solution, tmp_path: Path) -
     _, path = files.save(solution, tmp_path)
     with path.open(newline="", encoding="utf-8") as file:
         head, *rows = list(csv.reader(file))
-    assert head[:6] == ["time [s]", "cause", "contact", "mode before", "mode during", "mode after"]
+    assert head[:6] == ["time [s]", "cause", "contact or guard", "mode before", "mode during", "mode after"]
     assert [float(row[0]) for row in rows] == solution.events.time.tolist()
     assert [tuple(row[1:2] + row[3:6]) for row in rows] == [line[1:] for line in solution.transitions()]
     assert [float(row[8]) for row in rows] == solution.events.restitution_loss.tolist()
-    assert {row[2] for row in rows} == {"0", "1"}
+    assert {row[2] for row in rows} == {"", "plate - ball"}
 
 
 def test_what_fails_leaves_the_old_file_and_no_other(tmp_path: Path) -> None:

@@ -55,7 +55,7 @@ def _keep_null_space_force(S: Scalars, w: Floats, k: Integers, n: int) -> None:
 
 @room("i8(S, F, I)")
 def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
-    """Choose the null-space force of the active contacts, ``x`` being their forces of least norm; return 1 if it leaves room."""
+    """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it leaves every bound room."""
     n = S.n_unknown
     largest = 0.0
     for a in range(S.n_active):

@@ -122,7 +122,7 @@ def _compare(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
 
 @kernel("i8(S, F, I, i8)")
 def judge(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
-    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, once distributed where they are not unique."""
+    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, distributed where not unique."""
     result = _compare(S, w, k, lenient)
     if result == 2 and distribute(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
         # the share of sliding contacts may have moved with their normal forces: all is looked at again

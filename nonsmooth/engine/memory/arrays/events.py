@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per
 from nonsmooth.engine.memory.layout import BOOKED
+from nonsmooth.engine.memory.limits import LIMITS
 
 ARRAYS = Arrays(
     floats={
@@ -18,6 +19,7 @@ ARRAYS = Arrays(
         "mode_agreed": per(1, "n_slots"),
         "closes": per(1, "n_slots"),
         "listed": per(1, "n_slots"),
+        "limits": fixed(len(LIMITS)),
     },
     later_floats={
         "events": per(1, "event_floats"),
