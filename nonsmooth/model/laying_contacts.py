@@ -176,7 +176,7 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
             given = 1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start
             try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, given)
         elif form == "rates":
-            try_out(function, form, available, values, len(start), owner, (0.1, (), start))
+            try_out(function, form, available, values, len(start), owner, (0.1, start))
         made.fields[f"{name}_function"] = address
         at = made.store(f"{name}_parameters", values)
         made.tables += [(at + parameter_place(function, form, n), at, table) for n, table in tables.items()]

@@ -115,6 +115,25 @@ def test_a_complete_cache_is_used_as_it_is(filled: Path) -> None:
     assert (compiled, said) == (0, "")
 
 
+_SCENARIO = """
+import contextlib, io, sys
+from nonsmooth.cli.main import main
+from numba.core import event
+with event.install_recorder("numba:run_pass") as passes, contextlib.redirect_stdout(io.StringIO()):
+    assert main(["run", "woodpecker", "--set", "t_end=0.001"]) == 0
+print(len(passes.buffer), [name for name in ("scipy.linalg", "numpy.f2py", "trimesh", "fcl") if name in sys.modules])
+"""
+
+
+def test_a_second_start_compiles_nothing_and_loads_no_library_of_use_to_none() -> None:
+    """A mechanism's equations are put together by the program; they, too, are found on disk."""
+    for _ in range(2):
+        done = subprocess.run([sys.executable, "-c", _SCENARIO], check=True, capture_output=True, text=True)
+        if done.stdout == "0 []\n":
+            return
+    pytest.fail(f"in a second start: passes of the compiler, modules: {done.stdout}")
+
+
 @pytest.mark.skipif(os.name != "posix", reason="no permissions")
 def test_a_cache_that_cannot_be_written_to_is_read(
     filled: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
