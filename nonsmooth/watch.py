@@ -47,6 +47,7 @@ class Watch:
         self._looks = self._look()
         self._patience = next(self._looks)
         self._address = watch_address(self._looks.send)
+        self._last = self._reported = time.perf_counter()
         scalars = self._memory.scalars
         scalars["watch"], scalars["patience"] = self._address, _FIRST
         self._handles = (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
-from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
+from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import room_addresses
@@ -69,7 +69,8 @@ def lay(system: System, engine: Engine) -> LaidOut:
     n_states = sum(len(initial_state(contact)) for contact in contacts)
     groups = linkages(system)
     units = find_units(contacts)
-    row = EVENT_HEAD + 3 * units.n_slots + n_q + 2 * n_u
+    n_y = n_q + n_u + N_ACCOUNTS + n_states
+    head = EVENT_HEAD + n_u + n_y + BOOKED
     counts = {
         "n_bodies": len(bodies),
         "n_slots": units.n_slots,
@@ -84,10 +85,11 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "n_linkages": len(groups),
         "n_q": n_q,
         "n_u": n_u,
-        "n_y": n_q + n_u + N_ACCOUNTS + n_states,
+        "n_y": n_y,
         "n_states": n_states,
         "map_width": map_width(contacts),
-        "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + MOST_EVENTS * row,
+        "event_floats": _EVENTS * (head + LISTED * min(units.n_slots, _TYPICAL))
+        + MOST_EVENTS * (head + LISTED * units.n_slots),
         "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL))
         + MOST_EVENTS * (CODE_HEAD + 2 * units.n_slots),
         "sample_capacity": _SAMPLE_ROWS,

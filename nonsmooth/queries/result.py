@@ -61,7 +61,7 @@ class DistanceResult:
 @final
 @dataclass(frozen=True, eq=False)
 class DistanceHistory:
-    """How far two bodies are from each other at the samples of a run; what its parts are says :class:`DistanceResult`.
+    """How far two bodies are from each other at times of a run; what its parts are says :class:`DistanceResult`.
 
     Attributes
     ----------

@@ -201,7 +201,7 @@ class Model:
         said = reason(laid, self._guards, ending)
         wall = time.perf_counter() - began
         left = state_of(laid, self._blank, self._key, energy, ending)
-        solution = solution_of(laid, records, energy, said, left, wall)
+        solution = solution_of(laid, records, energy, said, left, wall, self._engine)
         if solution.status == "failed":
             raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
         return solution

@@ -8,6 +8,7 @@ from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.modes import DONE, PAUSED, REASONS, STOPPED
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Difference, Guards, Image
 from nonsmooth.model.laid_out import LaidOut
@@ -17,8 +18,9 @@ from nonsmooth.runs.records import Records
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
-from nonsmooth.solution.state import Continuation, State
+from nonsmooth.solution.state import Continuation, Floats, State
 from nonsmooth.solution.suspicion import suspicions
+from nonsmooth.solution.track import Track
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
@@ -41,6 +43,7 @@ def solution_of(
     said: tuple[str, str],
     state: State,
     wall: float,
+    engine: Engine,
 ) -> Solution:
     """Return the solution of a run.
 
@@ -58,10 +61,13 @@ def solution_of(
         Where the run ended.
     wall : float
         Time that the engine took [s].
+    engine : Engine
+        What integrated it.
     """
     record, n_q, n_u = model.memory.scalars[0], model.n_q, model.n_u
     word, message = said
-    floats, integers, table = records.joined()
+    floats, integers, samples = records.joined()
+    table = np.vstack([samples, _end(model)])
     counters = Counters(
         steps=int(record["steps"]),
         rejected=int(record["rejected"]),
@@ -72,7 +78,7 @@ def solution_of(
         listings=int(record["listings"]),
         wall_seconds=wall,
     )
-    t, q = table[:, 0], table[:, 1 : 1 + n_q]
+    t, q = table[:-1, 0], table[:-1, 1 : 1 + n_q]
     worst = float(record["open_t"]), float(record["open_energy"]), float(record["open_share"])
     tolerances = float(record["rtol"]), float(record["impact_rtol"])
     bodies = dict(zip(model.system.names.bodies, model.system.bodies, strict=True))
@@ -83,8 +89,8 @@ def solution_of(
         model.system,
         t,
         q,
-        table[:, 1 + n_q : 1 + n_q + n_u],
-        Events.from_buffers(floats, integers, len(model.system.contacts), n_q, n_u),
+        table[:-1, 1 + n_q : 1 + n_q + n_u],
+        Events.from_buffers(floats, integers, len(model.system.contacts), n_q, n_u, model.n_y),
         state.energy,
         counters,
         state.time,
@@ -93,7 +99,15 @@ def solution_of(
         word,
         message,
         state,
+        Track(table[:, 0], table[:, 1 : 1 + model.n_y], table[:, 1 + model.n_y :], engine),
     )
+
+
+def _end(model: LaidOut) -> Floats:
+    """Return a sample of the end of a run."""
+    record, y = model.memory.scalars[0], model.memory.array("y", model.n_y)
+    booked = [record[name] for name in ("driven_work", "restitution_loss", "friction_loss", "closing_loss")]
+    return np.array([record["t"], *y, *booked])
 
 
 def state_of(model: LaidOut, blank: Image, key: str, start: tuple[float, float], ending: Ending) -> State:

@@ -7,7 +7,9 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.engine.events.record import EVENT_HEAD
+from nonsmooth.engine.events.record import EVENT_HEAD, LISTED
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats, Integers, State
@@ -33,6 +35,10 @@ class Records:
     _events: int = 0
 
     @property
+    def _width(self) -> int:
+        return 1 + self.model.n_y + BOOKED
+
+    @property
     def n_passed(self) -> int:
         """Events that the engine has recorded, less those that it has still to pass as told."""
         record = self.model.memory.scalars[0]
@@ -43,7 +49,7 @@ class Records:
 
         An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
         """
-        memory, width = self.model.memory, self.model.n_y + 1
+        memory, width = self.model.memory, self._width
         record = memory.scalars[0]
         key, n_samples = int(record["calls"]), int(record["n_samples"])
         if key not in self._parts:
@@ -62,10 +68,16 @@ class Records:
         codes = _CODES * np.where(state.modes[closed] == SLIDE, 5, 1)
         head = np.zeros(EVENT_HEAD)
         head[0] = state.time
-        floats = np.concatenate([head, state.q, state.u, state.u, np.zeros(3 * len(closed))])
+        account, kept = state.energy, np.zeros((len(closed), LISTED))
+        kept[:, 3:5], kept[:, 5], kept[:, 6] = state.slip_directions[closed], state.closing_rates[closed], 1.0
+        kept[:, 7 : 7 + CANDIDATE] = state.features[closed]
+        integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work
+        booked = account.driven_work, account.restitution_loss, account.friction_loss, account.closing_loss
+        row = head, state.q, state.u, state.u, integrated, state.law_states, booked, kept.ravel()
+        floats = np.concatenate(row)
         listed = np.column_stack([closed, codes]).ravel()
         integers = np.concatenate([[START, -1, 0, 0, len(closed)], listed]).astype(np.int64)
-        self._parts[_BEFORE_THE_FIRST] = floats, integers, np.zeros((0, self.model.n_y + 1))
+        self._parts[_BEFORE_THE_FIRST] = floats, integers, np.zeros((0, self._width))
 
     def joined(self) -> tuple[Floats, Integers, Floats]:
         """Return floats and integers of all events, and all samples."""

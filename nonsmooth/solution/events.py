@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD
+from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED
+from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import CAUSES, word
 
 Floats = NDArray[np.float64]
@@ -39,6 +40,12 @@ class Events:
         Coordinates, shape [n, n_q].
     u_before, u_after : array
         Velocities, shape [n, n_u].
+    integrated : array
+        What else is integrated, after the event: :data:`~nonsmooth.engine.memory.layout.N_ACCOUNTS` energies [J], then
+        the inner states of laws, contact by contact; shape [n, N_ACCOUNTS + n_states].
+    booked : array
+        Energies booked in events until then [J]: work of driven bodies, losses by restitution, friction and closing,
+        shape [n, 4].
     n_contacts : int
         Contacts of the system.
     first : array
@@ -49,6 +56,9 @@ class Events:
         Their bits of Eq. (29) before + 8 during + 64 after the event, shape [n_listed].
     listed_impulse : array
         Their normal and two tangential impulses [N s], shape [n_listed, 3].
+    listed_memory : array
+        What they go on with: slip direction, rate at which they closed last [m/s], way of slip that an oriented law
+        takes them to face, features; shape [n_listed, 7].
     """
 
     time: Floats
@@ -63,15 +73,19 @@ class Events:
     q: Floats
     u_before: Floats
     u_after: Floats
+    integrated: Floats
+    booked: Floats
     n_contacts: int
     first: Integers
     listed: Integers
     codes: Integers
     listed_impulse: Floats
+    listed_memory: Floats
 
     @classmethod
-    def from_buffers(cls, floats: Floats, integers: Integers, n_contacts: int, n_q: int, n_u: int) -> Events:
-        """Cut the engine's buffers into columns."""
+    def from_buffers(cls, floats: Floats, integers: Integers, n_contacts: int, n_q: int, n_u: int, n_y: int) -> Events:
+        """Cut the engine's buffers into columns; ``n_y`` is the length of the integrated state."""
+        width = EVENT_HEAD + n_u + n_y + BOOKED
         heads, places, starts = [], [], []
         i = f = 0
         numbers = integers.tolist()
@@ -81,16 +95,17 @@ class Events:
             starts.append(f)
             places.append(n)
             i += CODE_HEAD + 2 * n
-            f += EVENT_HEAD + n_q + 2 * n_u + 3 * n
+            f += width + LISTED * n
         first = np.concatenate([[0], np.cumsum(places, dtype=np.int64)]).astype(np.int64)
         head, start = np.array(heads, dtype=np.int64), np.array(starts, dtype=np.int64)
-        row = floats[start[:, None] + np.arange(EVENT_HEAD + n_q + 2 * n_u)]
-        time_and_energies, q, u_before, u_after = np.split(row, np.cumsum([EVENT_HEAD, n_q, n_u]), axis=1)
+        row = floats[start[:, None] + np.arange(width)]
+        parts = np.cumsum([EVENT_HEAD, n_q, n_u, n_u, n_y - n_q - n_u])
+        time_and_energies, q, u_before, u_after, integrated, booked = np.split(row, parts, axis=1)
         # entry j of the list of event e stands j places behind that event's head
         event = np.repeat(np.arange(len(head)), np.diff(first))
         j = np.arange(int(first[-1])) - first[event]
         pair = head[event] + CODE_HEAD + 2 * j
-        push = start[event] + row.shape[1] + 3 * j
+        push, kept = np.split(floats[(start[event] + width + LISTED * j)[:, None] + np.arange(LISTED)], [3], axis=1)
         return cls(
             time_and_energies[:, 0],
             integers[head],
@@ -104,11 +119,14 @@ class Events:
             q,
             u_before,
             u_after,
+            integrated,
+            booked,
             n_contacts,
             first,
             integers[pair],
             integers[pair + 1],
-            floats[push[:, None] + np.arange(3)],
+            push,
+            kept,
         )
 
     def _bits(self, shift: int) -> Integers:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
@@ -15,11 +15,17 @@ from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
 from nonsmooth.solution.graph import TransitionGraph, transition_graph
 from nonsmooth.solution.state import State
+from nonsmooth.solution.track import Track
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
     import xarray
 
+    from nonsmooth.histories.contact_forces import ContactForces
+    from nonsmooth.histories.energies import Energies
+    from nonsmooth.histories.joint_forces import JointForces
+    from nonsmooth.histories.poses import Poses
+    from nonsmooth.histories.states import States
     from nonsmooth.queries.result import DistanceHistory
 
 
@@ -57,6 +63,9 @@ class Counters:
 class Solution:
     """The result of a run.
 
+    What held at any time of it, next to events on the side after them, is told by :meth:`at`, :meth:`poses`,
+    :meth:`contact_forces`, :meth:`joint_forces` and :meth:`energies`.
+
     Attributes
     ----------
     system : System
@@ -82,6 +91,8 @@ class Solution:
         Why it stopped, and what is suspect.
     state : State
         Where the run ended, from which it can go on.
+    track : Track
+        The states that it stored, whole.
     """
 
     system: System
@@ -97,6 +108,7 @@ class Solution:
     status: str
     message: str
     state: State
+    track: Track = field(repr=False)
 
     def __repr__(self) -> str:
         """Return how it ended, and how much there is of it."""
@@ -154,24 +166,83 @@ class Solution:
         index = np.clip(np.searchsorted(self.events.time, times, side="right") - 1, 0, None)
         return words(self.events.after[index])
 
-    def distances(self, first: Body, second: Body, *, by: str | None = None) -> DistanceHistory:
-        """Return how far two bodies are from each other at the samples: gap, points, normal, and how they were found.
+    def at(self, times: ArrayLike | None = None) -> States:
+        """Return the states at times: coordinates, velocities, modes, inner states of laws.
+
+        At the instant of an event it is the state after the last event there.  Between two stored states, samples or
+        events, the flow goes on from the earlier one, by steps of the run's own tolerance.
+
+        Parameters
+        ----------
+        times : float or array, optional
+            Times within the run [s], in any order, shape [n]; those of the samples by default.  Of a single float the
+            arrays that are returned lack the axis of times.
+
+        Raises
+        ------
+        InvalidInput
+            If a time is not within the run, or contacts have been declared since.
+        """
+        from nonsmooth.histories.states import States
+
+        return States.of(self, times)
+
+    def poses(self, body: Body, times: ArrayLike | None = None) -> Poses:
+        """Return origins and axes of all frames of a body at times, which are those of :meth:`at`.
+
+        Raises
+        ------
+        InvalidInput
+            As :meth:`at`, or if the body is not of the system.
+        """
+        from nonsmooth.histories.poses import Poses
+
+        return Poses.of(self, body, times)
+
+    def contact_forces(self, times: ArrayLike | None = None) -> ContactForces:
+        """Return points, normals, normal forces and friction of the closed contacts at times, those of :meth:`at`.
+
+        They are forces between events; the impulses of impacts are in ``events``.  Where several sets of forces give
+        the same motion, it is one that keeps all bounds.
+        """
+        from nonsmooth.histories.contact_forces import ContactForces
+
+        return ContactForces.of(self, times)
+
+    def joint_forces(self, times: ArrayLike | None = None) -> JointForces:
+        """Return forces and moments that the joints bear at times, which are those of :meth:`at`."""
+        from nonsmooth.histories.joint_forces import JointForces
+
+        return JointForces.of(self, times)
+
+    def energies(self, times: ArrayLike | None = None) -> Energies:
+        """Return kinetic and potential energy, and the account of works and losses, at times, those of :meth:`at`."""
+        from nonsmooth.histories.energies import Energies
+
+        return Energies.of(self, times)
+
+    def distances(
+        self, first: Body, second: Body, times: ArrayLike | None = None, *, by: str | None = None
+    ) -> DistanceHistory:
+        """Return how far two bodies are from each other at times: gap, points, normal, and how they were found.
 
         Parameters
         ----------
         first, second : Body
             Bodies of the system; all of their shapes count.
+        times : float or array, optional
+            Times within the run [s]; those of the samples by default.
         by : str, optional
             One way to find it (:func:`nonsmooth.distance`).
 
         Raises
         ------
         InvalidInput, NoDistance, MissingPackagesError
-            As :func:`nonsmooth.distance`, or if a body is not of the system.
+            As :func:`nonsmooth.distance`, or if a body is not of the system, or a time not within the run.
         """
-        from nonsmooth.queries.over_time import distances
+        from nonsmooth.histories.distances import distances
 
-        return distances(self, first, second, by)
+        return distances(self, first, second, times, by)
 
     def to_xarray(self) -> xarray.Dataset:
         """Return samples and events as one dataset with units."""

@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from nonsmooth import simulate
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD
+from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED
+from nonsmooth.engine.memory.layout import BOOKED
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 
@@ -42,8 +43,8 @@ def main() -> None:
     solution = simulate(scenario.build(), t_end, sample_interval=1.0, progress=note)
     t, wall, busy, memory = np.array(marks).T
     events = solution.events
-    row = 8 * (EVENT_HEAD + 3 * events.impulse.shape[1] + events.q.shape[1] + 2 * events.u_before.shape[1])
-    row += 8 * (CODE_HEAD + events.before.shape[1])
+    numbers = EVENT_HEAD + events.q.shape[1] + 2 * events.u_before.shape[1] + events.integrated.shape[1] + BOOKED
+    row = 8 * (numbers + LISTED * events.n_contacts + CODE_HEAD + 2 * events.n_contacts)
     residual = solution.energy.residual
     print(f"drift mode, {t_end:g} s: {len(events)} events, a row of {row} bytes each; energy residual {residual:.1e}")
     edges = np.linspace(0.0, t_end, 4)

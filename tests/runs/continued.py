@@ -9,10 +9,11 @@ import numpy as np
 import nonsmooth as ns
 from nonsmooth.solution.events import Events
 
+LISTED = "listed_impulse", "listed_memory"
 COLUMNS = tuple(
     field.name
     for field in dataclasses.fields(Events)
-    if field.name not in ("n_contacts", "first", "listed", "codes", "listed_impulse")
+    if field.name not in ("n_contacts", "first", "listed", "codes", *LISTED)
 )
 
 
@@ -39,8 +40,9 @@ def lost_by_stopping(whole: ns.Solution, before: ns.Solution, after: ns.Solution
         parts = getattr(before.events, name), getattr(after.events, name)[1:]
         if not np.array_equal(getattr(whole.events, name), np.concatenate(parts)):
             found.append(name)
-    impulses = before.events.listed_impulse, after.events.listed_impulse[after.events.first[1] :]
-    if not np.array_equal(whole.events.listed_impulse, np.concatenate(impulses)):
-        found.append("listed_impulse")
+    for name in LISTED:
+        parts = getattr(before.events, name), getattr(after.events, name)[after.events.first[1] :]
+        if not np.array_equal(getattr(whole.events, name), np.concatenate(parts)):
+            found.append(name)
     found += [name for name in ("q_end", "u_end") if not np.array_equal(getattr(whole, name), getattr(after, name))]
     return found + (["energy"] if whole.energy != after.energy else [])

@@ -36,6 +36,10 @@ def test_engines_agree_on_a_body_that_tumbles() -> None:
         run = ns.simulate(system, 0.5, sample_interval=0.1, engine=Midpoint(step))
         assert (run.status, run.t_end, run.counters.steps) == ("done", 0.5, round(0.5 / step))
         errors.append(float(np.abs(run.u_end - exact.u_end).max()))
+        # what it has stored is told, what lies between is asked of the event-driven engine only
+        np.testing.assert_array_equal(run.at().u, run.u)
+        with pytest.raises(ns.InvalidInput, match="is known between its samples only where"):
+            run.at(0.05)
     assert errors[1] <= 1e-5
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
 

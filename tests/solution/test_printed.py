@@ -24,6 +24,12 @@ def test_what_is_printed_is_short(build: Any) -> None:
         (solution.events, f"Events({events}: {events - 2} impact, 1 start, 1 closing of an accumulation)"),
         (solution.state, "State(t = 0.5 s: 7 coordinates, 6 velocities, 1 of 1 contacts closed)"),
         (history, "DistanceHistory(least gap "),
+        (solution.at(), "States(2001 times, 0 to 0.5 s; 7 coordinates, 1 contacts)"),
+        (solution.poses(ball, 0.1), "Poses(t = 0.1 s; 1 frames)"),
+        (solution.energies([]), "Energies(no times; start "),
+        (solution.joint_forces(), "JointForces(2001 times, 0 to 0.5 s; 0 joints)"),
+        (solution.contact_forces(0.5), "ContactForces(t = 0.5 s; 1 contacts, 1 entries)"),
+        (solution.contact_forces().history(0), "ContactHistory(2001 times, 0 to 0.5 s; largest normal force "),
     ):
         assert repr(thing).startswith(said)
         assert len(repr(thing)) < 130

@@ -120,7 +120,7 @@ def _factorise(w: Floats, a: int, n: int) -> None:
 
 
 @kernel("void(F, i8, i8, i8, i8)")
-def _substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
+def substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
     """Solve with the factor at ``a`` in place, the right-hand side at ``x`` in steps of ``stride``."""
     for i in range(n):
         total = w[x + i * stride]
@@ -153,7 +153,7 @@ def evaluate_linkage(S: Scalars, w: Floats, k: Integers, linkage: int) -> None:
     for i in range(m * n):
         w[y + i] = w[r + i]
     for c in range(n):
-        _substitute(w, factor, m, y + c, n)
+        substitute(w, factor, m, y + c, n)
     for i in range(n):
         for line in range(m):
             entry = w[r + line * n + i]
@@ -190,7 +190,7 @@ def _prescribe(S: Scalars, w: Floats, k: Integers, linkage: int) -> None:
         for c in range(n):
             w[u + c] -= w[k[S.linkage_y + linkage] + line * n + c] * w[x + line]
     S.driven_power += _power(S, w, k, linkage)
-    _substitute(w, k[S.linkage_factor + linkage], m, x, 1)
+    substitute(w, k[S.linkage_factor + linkage], m, x, 1)
     for line in range(m):
         S.driven_power -= w[x + line] * w[k[S.linkage_bias + linkage] + line]
 

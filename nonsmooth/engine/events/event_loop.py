@@ -11,10 +11,19 @@ from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.events.event_update import update_at_event
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS, record_event, record_samples, remember
+from nonsmooth.engine.events.record import (
+    CODE_HEAD,
+    EVENT_HEAD,
+    LISTED,
+    MOST_EVENTS,
+    record_event,
+    record_samples,
+    remember,
+)
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.flow import right_hand_side, slope, try_step
+from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_end_guard,
@@ -33,7 +42,7 @@ from nonsmooth.engine.flow.projection import (
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.impact.instant import is_jammed
 from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
-from nonsmooth.engine.memory.layout import FALL, LAST_STAGE
+from nonsmooth.engine.memory.layout import BOOKED, FALL, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
 from nonsmooth.engine.memory.modes import (
     DONE,
@@ -67,19 +76,6 @@ _SPACINGS = 4.0 * 2.0**-52
 """Times closer than this part of the time are not told apart."""
 _NO_STEP = 1e-3
 """A step below this part of the time tolerance in which guards crowd or the error grows leads nowhere."""
-
-
-@kernel("void(S, F, I)")
-def _orient_slips(S: Scalars, w: Floats, k: Integers) -> None:
-    """Take the present slip directions as those of the step that begins."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.mode == SLIDE:
-            v1, v2 = contact.rate_end[1], contact.rate_end[2]
-            speed = math.sqrt(v1 * v1 + v2 * v2)
-            if speed > S.velocity_tolerance:
-                contact.direction[0] = v1 / speed
-                contact.direction[1] = v2 / speed
 
 
 @kernel("i8(S, F, I)")
@@ -229,7 +225,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if contact >= 0:
         cause = _closing_cause(S, k, contact) if k[S.mode + contact] == OPEN else FEATURE_END
         return _carry_out(S, w, k, cause, contact)
-    _orient_slips(S, w, k)
+    orient_slips(S, w, k, S.rate_end)
     arm_guards(S, w, k)
     status = accepted_step(S, w, k)
     if status != RUNNING:
@@ -424,7 +420,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
             return PAUSED
         if S.t_end - S.t <= S.time_tolerance:
             return _arrived(S, w, k)
-        row = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * S.n_contacts
+        row = EVENT_HEAD + S.n_u + S.n_y + BOOKED + LISTED * S.n_contacts
         floats_left, integers_left = S.event_floats - S.floats_used, S.event_integers - S.integers_used
         if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * S.n_contacts):
             return PAUSED

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import GUARD, OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_state
@@ -13,8 +15,11 @@ TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
 EVENT_HEAD = 5
 """Floats at the head of an event.
 
-Coordinates follow, velocities before and after, and the impulses of the contacts listed.
+Coordinates follow, velocities before and after, what else is integrated, what is booked, and :data:`LISTED` floats of
+each contact listed.
 """
+LISTED = 7 + CANDIDATE
+"""Floats of a contact listed with an event: impulses, slip direction, rate at which it closed, facing, features."""
 CAUSE, CONTACT, PHASES, TRUNCATED, N_LISTED = range(5)
 """Which integer at the head of an event is which; truncated is a cascade that was cut short."""
 CODE_HEAD = 5
@@ -77,12 +82,31 @@ def _list_event(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
     return n
 
 
+@kernel("void(S, F, i8)")
+def _write_booked(S: Scalars, w: Floats, out: int) -> None:
+    """Write the energies booked so far that are not integrated with the state."""
+    w[out], w[out + 1] = S.driven_work, S.restitution_loss
+    w[out + 2], w[out + 3] = S.friction_loss, S.closing_loss
+
+
+@kernel("void(S, F, I, i8, i8)")
+def _list_contact(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
+    """Write the impulses of contact ``c`` and what it needs to go on from here."""
+    for r in range(3):
+        w[out + r] = w[S.event_impulse + 3 * c + r]
+    w[out + 3], w[out + 4] = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
+    w[out + 5], w[out + 6] = w[S.closing_rate + c], float(k[S.facing + c])
+    candidate = k[S.candidate + c]
+    for r in range(CANDIDATE):
+        w[out + 7 + r] = w[candidate + r] if candidate > 0 else 0.0
+
+
 @kernel("void(S, F, I, i8, i8, i8)")
 def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
     S.recorded += 1
     n = _list_event(S, w, k, -1 if cause == GUARD else contact)
-    width = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * n
+    width = EVENT_HEAD + S.n_u + S.n_y + BOOKED + LISTED * n
     S.last_floats, S.last_integers = S.floats_used, S.integers_used
     row = S.events + S.floats_used
     w[S.event_head + TIME] = S.t
@@ -96,6 +120,11 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
         w[row + i] = w[S.u_before + i]
         w[row + S.n_u + i] = w[S.y + S.n_q + i]
     row += 2 * S.n_u
+    for i in range(S.n_q + S.n_u, S.n_y):
+        w[row] = w[S.y + i]
+        row += 1
+    _write_booked(S, w, row)
+    row += BOOKED
     codes = S.event_codes + S.integers_used
     k[codes + CAUSE], k[codes + CONTACT], k[codes + PHASES] = cause, contact, phases
     if contact >= 0 and cause != GUARD:
@@ -104,8 +133,7 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
     k[codes + N_LISTED] = n
     for i in range(n):
         c = k[S.listed + i]
-        for r in range(3):
-            w[row + 3 * i + r] = w[S.event_impulse + 3 * c + r]
+        _list_contact(S, w, k, c, row + LISTED * i)
         k[codes + CODE_HEAD + 2 * i] = k[S.identity + c]
         k[codes + CODE_HEAD + 2 * i + 1] = k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
     S.last_contact = contact
@@ -133,12 +161,13 @@ def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("void(S, F, I, f8)")
 def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
-    width = S.n_y + 1
+    width = 1 + S.n_y + BOOKED
     while S.next_sample <= S.t + h and S.n_samples < S.sample_capacity:
         row = S.samples + S.n_samples * width
         w[row] = S.next_sample
         theta = (S.next_sample - S.t) / S.h
         dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), row + 1)
+        _write_booked(S, w, row + 1 + S.n_y)
         S.n_samples += 1
         S.sample_index += 1
         S.next_sample = S.sample_start + S.sample_index * S.sample_interval

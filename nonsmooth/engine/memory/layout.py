@@ -68,6 +68,8 @@ DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
 """Which of the accounts is which."""
 N_ACCOUNTS = 4
 """Energies integrated with the state: work of driven bodies, loss to friction, gross exchange, work of loads."""
+BOOKED = 4
+"""Energies booked at instants and projections: work of driven bodies, losses by restitution, friction and closing."""
 MOST_BLOCKS = 2**22
 """Pairs of contacts that act on one another, of which a system has room for all up to so many."""
 MOST_ENTRIES = 2**26

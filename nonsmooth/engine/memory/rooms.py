@@ -40,5 +40,7 @@ ROOMS = (
     "locate",
     "choose_friction",
     "locate_switch",
+    "follow",
+    "evaluate_forces",
 )
 """Engine functions that are compiled apart and called by address (:func:`nonsmooth.engine.native.kernel.room`)."""

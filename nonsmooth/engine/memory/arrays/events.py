@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per
+from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.limits import LIMITS
 
 ARRAYS = Arrays(
@@ -22,7 +23,7 @@ ARRAYS = Arrays(
     },
     later_floats={
         "events": per(1, "event_floats"),
-        "samples": lambda n: n["sample_capacity"] * (n["n_y"] + 1),
+        "samples": lambda n: n["sample_capacity"] * (1 + n["n_y"] + BOOKED),
     },
     later_integers={
         "event_codes": per(1, "event_integers"),

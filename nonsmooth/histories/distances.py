@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.times import read_times
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.bodies import BodyPair
-from nonsmooth.queries.places import BodyFrames
 from nonsmooth.queries.result import DistanceHistory
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 
-def distances(solution: Solution, first: Body, second: Body, by: str | None = None) -> DistanceHistory:
-    """Return how far two bodies are from each other at all samples of a solution.
+def distances(
+    solution: Solution, first: Body, second: Body, times: ArrayLike | None = None, by: str | None = None
+) -> DistanceHistory:
+    """Return how far two bodies are from each other at times of a solution.
 
     Raises
     ------
@@ -30,12 +35,8 @@ def distances(solution: Solution, first: Body, second: Body, by: str | None = No
     if first is second:
         raise InvalidInput("Solution.distances", "needs two different bodies", first, "Name the other body.")
     pair = BodyPair(first.frames, second.frames, by)
-    frames = [BodyFrames(body, solution.system.gravity) for body in (first, second)]
-    states = [solution.of(body) for body in (first, second)]
-    return DistanceHistory.of(
-        solution.t,
-        [
-            pair.at(*(frame.at(t, q[i], u[i]) for frame, (q, u) in zip(frames, states, strict=True)))
-            for i, t in enumerate(solution.t.tolist())
-        ],
-    )
+    row = np.atleast_1d(read_times("Solution.distances", solution, times))
+    one, other = (solution.poses(body, row) for body in (first, second))
+    places = zip(one.origin, one.rotation, other.origin, other.rotation, strict=True)
+    found = [pair.at([*zip(o, r, strict=True)], [*zip(p, s, strict=True)]) for o, r, p, s in places]
+    return DistanceHistory.of(row, found)

@@ -1,0 +1,43 @@
+"""Draw the figure of forces over time: ``python docs/force_figures.py docs/pages/figures``."""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+from law_axes import make_axes
+
+import nonsmooth as ns
+from scenarios.dumbbell.scenario import DumbbellScenario
+
+_START, _END, _TIMES = 0.12, 0.2, 4000
+_COLOURS = ("black", "tab:red")
+
+
+def main() -> None:
+    """Save the figure in the folder given."""
+    scenario = DumbbellScenario()
+    solution = ns.simulate(scenario.build(), _END)
+    times = np.linspace(_START, _END, _TIMES)
+    forces = solution.contact_forces(times)
+    figure, (normal, friction) = make_axes("Dumbbell on the vibrating plate, drift: forces between events", 2)
+    events = solution.events
+    for number, colour in enumerate(_COLOURS):
+        history = forces.history(number)
+        closed = np.where(history.mode > 0, 1.0, math.nan)
+        normal.plot(1e3 * times, 1e3 * closed * history.normal_force, color=colour, label=f"contact {number}")
+        friction.plot(1e3 * times, 1e3 * closed * history.friction_force[:, 1], color=colour)
+        struck = (events.time > _START) & (events.impulse[:, number, 0] > 0.0)
+        normal.plot(1e3 * events.time[struck], np.zeros(np.count_nonzero(struck)), "|", color=colour, markersize=12)
+    normal.set_ylabel("normal force [mN]")
+    friction.set_ylabel("friction [mN]")
+    for axis in (normal, friction):
+        axis.set_xlabel("time [ms]")
+    normal.legend(frameon=False, fontsize=8)
+    figure.savefig(Path(sys.argv[1]) / "forces_dumbbell.png", dpi=110)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,161 @@
+"""Where a run was between the states that it stored: the flow in given modes, and what acts at an instant of it.
+
+Nothing here looks for events: there are none between a stored state and the time asked for.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
+from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
+from nonsmooth.engine.delassus.islands import group_closed
+from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope, try_step
+from nonsmooth.engine.flow.guard_numbers import friction_guard
+from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
+from nonsmooth.engine.flow.self_check import energy_of_bodies
+from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.numerics.runge_kutta import step_factor
+
+_ATTEMPTS = 200
+_EXCESS = 1e-8
+"""Forces past their bounds by this part of the largest are so by more than round-off."""
+_SHORTEST = 0.1
+"""A step in which a slip turns is cut to this part of it at most."""
+
+
+@kernel("void(S, F, I, i8)")
+def orient_slips(S: Scalars, w: Floats, k: Integers, rates: int) -> None:
+    """Take the slip directions of the rates as those of the step that begins."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] == SLIDE:
+            v1, v2 = w[rates + 3 * c + 1], w[rates + 3 * c + 2]
+            speed = math.sqrt(v1 * v1 + v2 * v2)
+            if speed > S.velocity_tolerance:
+                w[S.direction + 2 * c] = v1 / speed
+                w[S.direction + 2 * c + 1] = v2 / speed
+
+
+@kernel("i8(S, F, I)")
+def _turned_round(S: Scalars, w: Floats, k: Integers) -> int:
+    """Orient the slips by the rates at hand; return 1 if one goes against the direction that friction took it to go.
+
+    A slip may turn round without an event, as where a belt pulls on.
+    """
+    against = 0
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        if k[S.mode + c] == SLIDE and slip_guard(S, w, k, c) < -S.velocity_tolerance:
+            against = 1
+    orient_slips(S, w, k, S.rate)
+    return against
+
+
+@kernel("f8(S, F, I)")
+def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return the part of the step that was tried up to where a slip turns round, 1 if none does.
+
+    A slip from rest that has gone the other way has had the wrong direction; it is turned, and 0 returned.
+    """
+    part = 1.0
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        last = slip_guard(S, w, k, c)
+        if k[S.mode + c] != SLIDE or last >= -S.velocity_tolerance:
+            continue
+        first = w[S.guard_first + friction_guard(c)]
+        if first > S.velocity_tolerance:
+            part = min(part, max(_SHORTEST, first / (first - last)))
+            continue
+        part = 0.0
+        w[S.guard_first + friction_guard(c)] = -first
+        for r in range(2):
+            w[S.direction + 2 * c + r] *= -1.0
+    return part
+
+
+@kernel("f8(S, F, I, f8)")
+def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Try steps of ``h`` and less until one meets the tolerance and no slip turns within it; return it, or -1."""
+    for _attempt in range(_ATTEMPTS):
+        error = try_step(S, w, k, h)
+        if S.stopped == 1:
+            return -1.0
+        part = 1.0
+        if error <= 1.0:
+            part = _up_to_turn(S, w, k)
+            if part == 1.0 or h <= S.time_tolerance:
+                return h
+        elif h <= S.time_tolerance:
+            return -1.0
+        if part == 0.0:
+            slope(S, w, k, S.t, S.y, S.slopes, 0)
+            part = 0.5
+        elif part == 1.0:
+            part = step_factor(error) if error < 1e300 else _SHORTEST
+        h *= part
+    return -1.0
+
+
+@room("i8(S, F, I, f8)")
+def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
+    """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
+    group_closed(S, w, k)
+    wanted = S.h_max
+    while S.t < t:
+        slope(S, w, k, S.t, S.y, S.slopes, 0)
+        if _turned_round(S, w, k) == 1:
+            slope(S, w, k, S.t, S.y, S.slopes, 0)
+        for i in range(S.n_grouped):
+            c = k[S.grouped + i]
+            w[S.guard_first + friction_guard(c)] = slip_guard(S, w, k, c)
+        left = t - S.t
+        h = _found_step(S, w, k, min(wanted, left))
+        if h < 0.0:
+            return NOT_FINITE if S.stopped == 1 else STEP_TOO_SMALL
+        S.h = h
+        S.t = t if h == left else S.t + h
+        for i in range(S.n_y):
+            w[S.y + i] = w[S.y_new + i]
+        normalise_quaternions(S, w, k)
+        if S.n_joints > 0:
+            project_joints(S, w, k)
+        S.closing_loss += project_closed(S, w, k, 0)
+        if S.failed != RUNNING:
+            return int(S.failed)
+        wanted = min(S.h_max, 2.0 * h)
+    return RUNNING
+
+
+@kernel("i8(S, F, I)")
+def _past_bounds(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if forces that are not unique pull, or pass the bound of their friction."""
+    least = largest = 0.0
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        if k[S.tied + c] == 1:
+            largest = max(largest, abs(w[S.force + 3 * c]))
+            least = min(least, hold_guard(S, w, k, c))
+            if k[S.holds + c] == 1:
+                least = min(least, w[S.static_margin + c])
+    return 1 if least < -_EXCESS * largest else 0
+
+
+@room("void(S, F, I, i8)")
+def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
+    """Evaluate bodies, closed contacts and joints with their forces, and the energies, at the present state.
+
+    Of forces that are not unique the null-space force is chosen anew with ``choosing`` (1), as at an event, or if
+    with that at hand a bound is passed.
+    """
+    group_closed(S, w, k)
+    evaluate_driven_bodies(S, w, k, S.t, S.y)
+    right_hand_side(S, w, k, S.t, S.y, choosing)
+    turned = _turned_round(S, w, k)
+    anew = max(choosing, _past_bounds(S, w, k))
+    if turned + anew > choosing:
+        right_hand_side(S, w, k, S.t, S.y, anew)
+    if S.n_joints > 0:
+        evaluate_joint_forces(S, w, k)
+    S.kinetic_before, S.potential_before = energy_of_bodies(S, w, k, 0), energy_of_bodies(S, w, k, 1)

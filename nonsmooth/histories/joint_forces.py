@@ -1,0 +1,100 @@
+"""Joint forces: what the joints bear over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_B
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.histories.times import of_one, read_times, spoken
+from nonsmooth.histories.visitor import visitor
+from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.linkages import linkages
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class JointForces:
+    """What every joint, in the order of ``system.joints``, does to its second body; the first bears the opposite.
+
+    World axes; of a single time the arrays lack the axis n.  Of rows that say the same twice one bears all.
+
+    Attributes
+    ----------
+    time : array
+        [s], shape [n].
+    point : array
+        Where the joint holds the second body [m]; the origin of its frame if it holds angles only; shape
+        [n, n_joints, 3].
+    force : array
+        [N], shape [n, n_joints, 3].
+    moment : array
+        About the point [N m], shape [n, n_joints, 3].
+    """
+
+    time: Floats
+    point: Floats
+    force: Floats
+    moment: Floats
+
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"JointForces({spoken(self.time)}; {self.force.shape[-2]} joints)"
+
+    @classmethod
+    def of(cls, solution: Solution, times: ArrayLike | None = None) -> JointForces:
+        """Return the joint forces of a run (:meth:`nonsmooth.Solution.joint_forces`)."""
+        given = read_times("Solution.joint_forces", solution, times)
+        row, known = np.atleast_1d(given), visitor(solution)
+        joints = _joints(known.laid)
+        table = np.zeros((3, len(row), len(joints), 3))
+
+        def keep(i: int) -> None:
+            for j, joint in enumerate(joints):
+                table[:, i, j] = joint.look()
+
+        known.visit(row, keep)
+        found = cls(row, *table)
+        return found if given.ndim else of_one(found)
+
+
+@final
+@dataclass(frozen=True)
+class _Joint:
+    """Views of the frame of its second body, of its rows, and of the forces along these."""
+
+    origin: Floats
+    rows: Floats
+    along: Floats
+
+    def look(self) -> tuple[Floats, Floats, Floats]:
+        """Return point, force and moment."""
+        axes, moments, points = (self.rows[:, at : at + 3] for at in (AXIS, MOMENT, POINT_B))
+        # a row of angles has no axis, and no point
+        holding = np.flatnonzero(np.any(axes != 0.0, axis=1))
+        point = points[holding[0]] if len(holding) > 0 else self.origin
+        return point, self.along @ axes, self.along @ (moments + np.cross(points - point, axes))
+
+
+def _joints(laid: LaidOut) -> list[_Joint]:
+    """Return the joints in the order of the system; the engine has them linkage by linkage."""
+    memory, floats = laid.memory, laid.memory.floats
+    found: dict[int, _Joint] = {}
+    number = 0
+    for index, linkage in enumerate(linkages(laid.system)):
+        along = int(memory.array("linkage_x", index + 1)[index])
+        for tie in linkage.joints:
+            origin, out, first, n = (
+                int(memory.array(f"joint_{name}", number + 1)[number]) for name in ("frame_b", "out", "first", "rows")
+            )
+            rows = floats[out : out + JOINT_ROW * n].reshape(n, JOINT_ROW)
+            found[id(tie)] = _Joint(floats[origin : origin + 3], rows, floats[along + first : along + first + n])
+            number += 1
+    return [found[id(tie)] for tie in laid.system.joints]

@@ -1,0 +1,63 @@
+"""Poses: where the frames of a body are over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.histories.states import States
+from nonsmooth.histories.times import of_one, read_times, spoken
+from nonsmooth.interfaces import Body
+from nonsmooth.queries.places import BodyFrames
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Poses:
+    """Poses of all frames of a body; of a single time the arrays lack the axis n.
+
+    Attributes
+    ----------
+    time : array
+        [s], shape [n].
+    origin : array
+        Origins of the frames [m], shape [n, n_frames, 3].
+    rotation : array
+        Their axes as columns, shape [n, n_frames, 3, 3]: ``origin + rotation @ x`` is the place of a point x of the
+        frame.
+    """
+
+    time: Floats
+    origin: Floats
+    rotation: Floats
+
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"Poses({spoken(self.time)}; {self.origin.shape[-2]} frames)"
+
+    @classmethod
+    def of(cls, solution: Solution, body: Body, times: ArrayLike | None = None) -> Poses:
+        """Return the poses of a body in a run (:meth:`nonsmooth.Solution.poses`)."""
+        if not any(body is other for other in solution.system.bodies):
+            raise InvalidInput(
+                "Solution.poses", "needs a body of this system", body, "Take it from solution.system.bodies."
+            )
+        given = read_times("Solution.poses", solution, times)
+        states = States.of(solution, np.atleast_1d(given))
+        i_q, i_u = solution.offsets(body)
+        q, u = states.q[:, i_q : i_q + body.n_q], states.u[:, i_u : i_u + body.n_u]
+        frames = BodyFrames(body, solution.system.gravity)
+        origin, rotation = np.zeros((len(q), len(body.frames), 3)), np.zeros((len(q), len(body.frames), 3, 3))
+        for i, t in enumerate(states.time.tolist()):
+            for frame, place in enumerate(frames.at(t, q[i], u[i])):
+                origin[i, frame], rotation[i, frame] = place
+        found = cls(states.time, origin, rotation)
+        return found if given.ndim else of_one(found)

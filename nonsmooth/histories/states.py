@@ -1,0 +1,56 @@
+"""States: coordinates, velocities, modes and inner states of laws over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.histories.times import of_one, read_times, spoken
+from nonsmooth.histories.visitor import visitor
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class States:
+    """States at times; of a single time the arrays lack the axis n.
+
+    Attributes
+    ----------
+    time : array
+        [s], shape [n].
+    q, u : array
+        Coordinates and velocities of all bodies, shapes [n, n_q] and [n, n_u].
+    modes : array
+        0 open, 1 stick, 2 slide, shape [n, n_contacts].
+    law_states : array
+        Inner states of friction and traction laws, contact by contact, shape [n, n_states]; those of open contacts
+        are what is left of them.
+    """
+
+    time: Floats
+    q: Floats
+    u: Floats
+    modes: Integers
+    law_states: Floats
+
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"States({spoken(self.time)}; {self.q.shape[-1]} coordinates, {self.modes.shape[-1]} contacts)"
+
+    @classmethod
+    def of(cls, solution: Solution, times: ArrayLike | None = None) -> States:
+        """Return the states of a run (:meth:`nonsmooth.Solution.at`)."""
+        given = read_times("Solution.at", solution, times)
+        row, known = np.atleast_1d(given), visitor(solution)
+        n_q, n_u = solution.q.shape[1], solution.u.shape[1]
+        q, u, _, law_states = np.split(known.states(row), np.cumsum([n_q, n_u, N_ACCOUNTS]), axis=1)
+        found = cls(row, q, u, known.modes(row), law_states)
+        return found if given.ndim else of_one(found)

@@ -1,0 +1,175 @@
+"""The model of a run, put where the run was at any time of it."""
+
+from __future__ import annotations
+
+import functools
+import threading
+import weakref
+from collections.abc import Callable
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
+from nonsmooth.engine.memory.modes import OPEN, REASONS, RUNNING, SLIDE, STICK
+from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.model.assembly import lay
+from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.watch import Watch
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+    from nonsmooth.solution.track import Track
+
+_MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
+_BOOKED = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
+_MODES = np.array([OPEN, STICK, OPEN, OPEN, OPEN, SLIDE, OPEN, OPEN])
+"""Mode of a contact by its bits of Eq. (29) after an event."""
+_SAMPLE, _EVENT, _END = range(3)
+_KNOWN: weakref.WeakKeyDictionary[Track, Visitor] = weakref.WeakKeyDictionary()
+
+
+def visitor(solution: Solution) -> Visitor:
+    """Return the visitor of a run, made once."""
+    if solution.track not in _KNOWN:
+        _KNOWN[solution.track] = Visitor(solution)
+    return _KNOWN[solution.track]
+
+
+@final
+class Visitor:
+    """The stored states of a run in the order of time, and a model that goes on from them.
+
+    Of states at one instant that after its last event counts.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        track, events = solution.track, solution.events
+        self._system, self._engine, self._events = solution.system, track.engine, events
+        at_events = np.hstack([events.q, events.u_after, events.integrated])
+        kind = np.full(len(track.time), _SAMPLE)
+        kind[-1] = _END
+        kinds = np.concatenate([kind, np.full(len(events), _EVENT)])
+        time = np.concatenate([track.time, events.time])
+        order = np.lexsort((kinds, time))
+        self._time, self._y = time[order], np.concatenate([track.y, at_events])[order]
+        self._booked = np.concatenate([track.booked, events.booked])[order]
+        self._event = np.cumsum(kinds[order] == _EVENT) - 1
+        self._event_row = np.flatnonzero(kinds[order] == _EVENT)
+        self._put_event = -2
+        self._alone = threading.Lock()
+
+    @functools.cached_property
+    def laid(self) -> LaidOut:
+        """The model.
+
+        Raises
+        ------
+        InvalidInput
+            If the system is no longer the one that ran, or the engine has no flow between events.
+        """
+        if not {"delassus", "contact", "flow"} <= set(self._engine.rooms):
+            raise InvalidInput(
+                "Solution",
+                "is known between its samples only where the engine integrates between events",
+                self._engine,
+                "Take times of samples, or run with nonsmooth.EventDriven().",
+            )
+        laid = lay(self._system, self._engine)
+        found, ran = (laid.n_y, len(self._system.contacts)), (self._y.shape[1], self._events.n_contacts)
+        if found != ran:
+            rule = f"must be as it ran, with {ran[0]} numbers of a state and {ran[1]} contacts"
+            raise InvalidInput("solution.system", rule, found, "Make a system of its own for what is to differ.")
+        return laid
+
+    def modes(self, times: Floats) -> Integers:
+        """Return the modes of all contacts, shape [n, n_contacts]."""
+        event = self._event[self._row(times)]
+        if len(self._events) == 0:
+            return np.full((len(times), self._events.n_contacts), OPEN)
+        return np.asarray(_MODES[self._events.after[event]])
+
+    def states(self, times: Floats) -> Floats:
+        """Return all that is integrated, shape [n, n_y]."""
+        rows = self._row(times)
+        found = self._y[rows]
+        between = np.flatnonzero(self._time[rows] < times)
+        if len(between) > 0:
+            y = self.laid.memory.array("y", self.laid.n_y)
+
+            def keep(i: int) -> None:
+                found[between[i]] = y
+
+            self.visit(times[between], keep, forces=False)
+        return found
+
+    def visit(self, times: Floats, look: Callable[[int], None], *, forces: bool = True) -> None:
+        """Call ``look(i)`` while the model stands at ``times[i]``, in the order of time.
+
+        With ``forces`` bodies, closed contacts, joints and energies are evaluated there.
+
+        Raises
+        ------
+        RunFailed
+            If what was computed of a run leads nowhere.
+        """
+        rows, here, scalars = self._row(times), -1, self.laid.memory.scalars
+        # an earlier visit may have been interrupted
+        scalars["stopped"], scalars["failed"] = 0, RUNNING
+        with self._alone, Watch(self.laid.memory) as watch:
+            for i in np.argsort(times, kind="stable").tolist():
+                if rows[i] != here:
+                    here = int(rows[i])
+                    self._put(here)
+                status = int(watch.call("follow", float(times[i])))
+                if status != RUNNING:
+                    raise RunFailed(f"What led to t = {times[i]:.9g} s is not found again: {REASONS[status]}.")
+                if forces:
+                    watch.call("evaluate_forces", 0)
+                look(i)
+
+    def _row(self, times: Floats) -> Integers:
+        return np.searchsorted(self._time, times, side="right") - 1
+
+    def _put(self, row: int) -> None:
+        """Put the model where a state was stored, with the modes that the event before it left."""
+        event = int(self._event[row])
+        if event != self._put_event:
+            self._put_event = -2
+            self._put_state(int(self._event_row[event]) if event >= 0 else row)
+            self._put_modes(event)
+            call_room("evaluate_forces", self.laid.memory, 1)
+            self._put_event = event
+        self._put_state(row)
+
+    def _put_state(self, row: int) -> None:
+        scalars = self.laid.memory.scalars
+        scalars["t"] = self._time[row]
+        for name, value in zip(_BOOKED, self._booked[row].tolist(), strict=True):
+            scalars[name] = value
+        self.laid.memory.array("y", self.laid.n_y)[:] = self._y[row]
+
+    def _put_modes(self, event: int) -> None:
+        """Close the contacts that an event left closed, and put them into slots with what they go on with."""
+        memory, events, n = self.laid.memory, self._events, self._events.n_contacts
+        listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)
+        numbers, kept = events.listed[listed], events.listed_memory[listed]
+        rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
+        floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
+        rows[:, _MODE] = OPEN
+        rows[numbers, _MODE] = _MODES[events.codes[listed] >> 6 & 7]
+        floats[numbers, DIRECTION : DIRECTION + 2], floats[numbers, CLOSING_RATE] = kept[:, :2], kept[:, 2]
+        # which features the contacts of a pool have is found anew, but for the closed ones
+        places = rows[:, _PLACE]
+        memory.floats[places[places > 0]] = 0.0
+        for number, features in zip(numbers.tolist(), kept[:, 4:], strict=True):
+            if places[number] > 0:
+                memory.floats[places[number] : places[number] + len(features)] = features
+        memory.scalars["n_contacts"] = 0
+        self.laid.list_contacts()
+        slots = int(memory.scalars["n_contacts"][0])
+        facing = np.ones(n)
+        facing[numbers] = kept[:, 3]
+        memory.array("facing", slots)[:] = facing[memory.array("identity", slots)]

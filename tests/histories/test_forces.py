@@ -1,0 +1,144 @@
+"""Forces, and what they do to momentum and energy, against closed forms."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from bodies import Ball, BallJoint, BoxBody, Distance, Dumbbell, Hinge, Plate, Rest
+from nonsmooth.plugins import registry
+
+GRAVITY = 9.81
+SLOPE = 0.3
+
+
+@pytest.mark.parametrize(("friction", "share"), [(0.5, 2.0 / 7.0 * math.sin(SLOPE)), (0.05, 0.05 * math.cos(SLOPE))])
+def test_a_ball_on_a_slope(build: Any, friction: float, share: float) -> None:
+    """One that rolls feels 2/7 of the pull, one that slips its coefficient; the plate bears the rest."""
+    ball = Ball(0.1)
+    system = build.over(ball, Rest(slope=SLOPE), friction=friction)
+    ns.resting(system, ball)
+    solution = ns.simulate(system, 0.4)
+    weight = ball.total_mass * GRAVITY
+    up = np.array([-math.cos(SLOPE), 0.0, math.sin(SLOPE)])
+    contact = solution.contact_forces([0.31, 0.07]).history(solution.system.contacts[0])
+    np.testing.assert_allclose(contact.normal_force, weight * math.cos(SLOPE), rtol=1e-9)
+    np.testing.assert_allclose(contact.friction_force, weight * share * np.tile(up, (2, 1)), rtol=0, atol=1e-8 * weight)
+    arm = contact.points[:, 1] - solution.poses(ball, [0.31, 0.07]).origin[:, 0]
+    np.testing.assert_allclose(arm, -0.1 * contact.normal, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(np.sum(contact.normal * up, axis=1), 0.0, atol=1e-12)
+    slips = np.linalg.norm(contact.slip_velocity, axis=1)
+    sliding = GRAVITY * np.array([0.31, 0.07]) * (math.sin(SLOPE) - 3.5 * share)
+    np.testing.assert_allclose(slips, sliding if friction < 0.1 else 0.0, rtol=1e-8, atol=1e-8)
+
+
+@pytest.mark.parametrize("friction", [0.6, 0.2])
+def test_a_block_on_a_slope(build: Any, friction: float) -> None:
+    """Whatever its corners share, together they bear the weight, and without a moment about the mass centre."""
+    block = BoxBody(0.1, 0.1, 0.05, density=1000.0)
+    system = build.over(block, Rest(slope=SLOPE), friction=friction)
+    half = SLOPE / 2.0
+    ns.resting(system, block, orientation=(math.cos(half), 0.0, math.sin(half), 0.0))
+    solution = ns.simulate(system, 0.2)
+    forces = solution.contact_forces(0.15)
+    assert len(forces.contact) == 4
+    weight = block.total_mass * GRAVITY
+    np.testing.assert_allclose(forces.normal_force.sum(), weight * math.cos(SLOPE), rtol=1e-9)
+    pull = math.sin(SLOPE) if friction == 0.6 else friction * math.cos(SLOPE)
+    total = forces.friction_force.sum(axis=0)
+    np.testing.assert_allclose(np.linalg.norm(total), weight * pull, rtol=1e-9)
+    assert np.all(np.linalg.norm(forces.friction_force, axis=1) <= friction * forces.normal_force * (1.0 + 1e-7))
+    arms = forces.points[:, 1] - solution.poses(block, 0.15).origin[0]
+    whole = forces.normal_force[:, None] * forces.normal + forces.friction_force
+    np.testing.assert_allclose(np.cross(arms, whole).sum(axis=0), 0.0, atol=1e-8 * weight)
+
+
+@pytest.mark.parametrize("joint", [BallJoint, Hinge])
+def test_what_a_pendulum_hangs_from(joint: Any) -> None:
+    """Along the arm weight and centripetal force, across it what the moment of inertia leaves; no moment."""
+    plate, ball = Plate(), Ball(0.1)
+    system = ns.System([plate, ball])
+    system.joint(joint(second=(0.0, 0.0, 0.5)), plate, ball)
+    angle = 1.2
+    system.place(
+        ball,
+        position=(-0.5 * math.sin(angle), 0.0, -0.5 * math.cos(angle)),
+        orientation=(math.cos(angle / 2), 0.0, math.sin(angle / 2), 0.0),
+    )
+    solution = ns.simulate(system, 2.0)
+    times = np.random.default_rng(1).uniform(0.0, 2.0, 30)
+    loads, states = solution.joint_forces(times), solution.at(times)
+    along = -states.q[:, :3] / 0.5
+    rate = np.linalg.norm(states.u[:, :3], axis=1) / 0.5
+    lever = 0.5**2 / (0.5**2 + 0.4 * 0.1**2)
+    down = np.array([0.0, 0.0, -GRAVITY])
+    fall = down - np.outer(down @ along.T, np.ones(3)) * along
+    force = ball.total_mass * ((rate**2 * 0.5 - along @ down)[:, None] * along - (1.0 - lever) * fall)
+    np.testing.assert_allclose(loads.force[:, 0], force, rtol=0, atol=1e-7 * ball.total_mass * GRAVITY)
+    np.testing.assert_allclose(loads.point[:, 0], 0.0, atol=1e-9)
+    np.testing.assert_allclose(loads.moment[:, 0], 0.0, atol=1e-7 * ball.total_mass * GRAVITY)
+
+
+def test_joints_bear_what_contacts_press(build: Any) -> None:
+    """A rod between two balls on a plate, told second body first: statics, and the order of the system's joints."""
+    plate, low, high = Plate(), Ball(0.1), Ball(0.1)
+    system = ns.System([plate, low, high])
+    system.joint(Distance((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.5), high, low)
+    system.joint(Distance((0.4, 0.0, 0.3), (0.0, 0.0, 0.0), 0.5), plate, high)
+    system.contact(low, plate, **build.laws(friction=0.0))
+    system.place(low, position=(0.0, 0.0, 0.1))
+    system.place(high, position=(0.0, 0.0, 0.6))
+    solution = ns.simulate(system, 1e-3)
+    loads, weight = solution.joint_forces(0.0), low.total_mass * GRAVITY
+    # the slanting rod is the only one to hold the upper ball sideways, with no force at first
+    expected = np.array([[0.0, 0.0, -weight], [0.0, 0.0, 0.0]])
+    np.testing.assert_allclose(loads.force, expected, rtol=0, atol=1e-9 * weight)
+    np.testing.assert_allclose(solution.contact_forces(0.0).normal_force, 2.0 * weight, rtol=1e-12)
+
+
+def test_forces_over_time_make_up_momentum() -> None:
+    """Of the dumbbell on the vibrating plate: sticking, sliding, in flight, from one event or sample to the next."""
+    system = registry.load("scenarios", "dumbbell")().build()
+    body = system.bodies[-1]
+    assert isinstance(body, Dumbbell)
+    solution = ns.simulate(system, 0.5, sample_interval=1e-3)
+    nodes, weights = np.polynomial.legendre.leggauss(4)
+    ends = np.unique(np.concatenate([solution.t, solution.events.time]))
+    half, middle = np.diff(ends) / 2.0, (ends[1:] + ends[:-1]) / 2.0
+    forces = solution.contact_forces((middle[:, None] + half[:, None] * nodes).ravel())
+    sides = np.array([1.0 if contact.second is body else -1.0 for contact in system.contacts])
+    each = forces.normal_force[:, None] * forces.normal + forces.friction_force
+    force = np.zeros((len(middle), 4, 3))
+    at_node = np.repeat(np.arange(4 * len(middle)), np.diff(forces.first))
+    np.add.at(force.reshape(-1, 3), at_node, sides[forces.contact, None] * each)
+    pushed = half[:, None] * np.einsum("k,ikx->ix", weights, force)
+    _, first = solution.offsets(body)
+    before, after = (solution.at(t).u[:, first : first + 3] for t in (ends[:-1], np.nextafter(ends[1:], 0.0)))
+    gained = body.total_mass * (after - before + np.outer(2.0 * half, (0.0, 0.0, GRAVITY)))
+    # where friction turns round within an interval, no quadrature of four nodes is exact
+    smooth = np.all(np.sign(force[:, :, 1]) == np.sign(force[:, :1, 1]), axis=1)
+    assert np.count_nonzero(~smooth) in range(5, 30)
+    most = np.max(np.abs(pushed))
+    np.testing.assert_allclose(pushed[smooth], gained[smooth], rtol=0, atol=1e-6 * most)
+    np.testing.assert_allclose(pushed, gained, rtol=0, atol=0.1 * most)
+
+
+def test_contact_histories_make_a_dataset() -> None:
+    """One entry for every time; open contacts bear nothing and are nowhere."""
+    solution = ns.simulate(registry.load("scenarios", "dumbbell")().build(), 0.1)
+    forces = solution.contact_forces()
+    data = forces.to_xarray()
+    for number, contact in itertools.product(np.unique(forces.contact), ("normal_force", "friction_force", "normal")):
+        history = forces.history(int(number))
+        np.testing.assert_array_equal(data[contact].sel(contact=number), getattr(history, contact))
+        closed = history.mode > 0
+        np.testing.assert_array_equal(closed, solution.at().modes[:, number] > 0)
+        assert np.all(history.normal_force[~closed] == 0.0)
+        assert np.all(np.isnan(history.points[~closed]))
+    assert data["normal_force"].attrs["units"] == "N"
+    assert data.sizes["time"] == len(solution.t)
