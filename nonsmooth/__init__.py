@@ -11,7 +11,10 @@ from nonsmooth.model.options import Options
 from nonsmooth.placing import at_height, resting, touching
 from nonsmooth.queries.distance import distance
 from nonsmooth.queries.proximity import proximity
+from nonsmooth.results.opening import open_solution
+from nonsmooth.results.output import Output
 from nonsmooth.runs.model import Model
+from nonsmooth.runs.resuming import resume
 from nonsmooth.simulate import assemble, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
@@ -33,6 +36,7 @@ __all__ = [
     "NoDistance",
     "NonsmoothError",
     "Options",
+    "Output",
     "PluginError",
     "RunFailed",
     "RunsInPython",
@@ -45,8 +49,10 @@ __all__ = [
     "at_height",
     "distance",
     "load_system",
+    "open_solution",
     "proximity",
     "resting",
+    "resume",
     "save_system",
     "simulate",
     "solve_contact",

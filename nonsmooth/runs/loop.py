@@ -9,10 +9,11 @@ from typing import final
 from nonsmooth.engine.memory.modes import PAUSED, STOPPED
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.keeper import Keeper
 from nonsmooth.runs.records import Records
+from nonsmooth.solution.files import FileError
 from nonsmooth.watch import Watch
 
-_STEPS_AT_ONCE = 2000
 _STEPS_NEAR_END = 16
 """So many steps at most a run that goes on repeats; an image takes less time than they do."""
 Progress = Callable[[float, float], None]
@@ -33,15 +34,20 @@ class Ending:
         What its memory held at last where nothing yet said when the run would end.
     told : int
         Events from there on.
+    trouble : str
+        Why its results could not be kept, "" where they could.
     """
 
     status: int
     interrupted: bool
     image: Image
     told: int
+    trouble: str = ""
 
 
-def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progress | None) -> Ending:
+def run_engine(
+    model: LaidOut, records: Records, begun: Image, progress: Progress | None, keeper: Keeper
+) -> Ending:
     """Run to the end time, to a failure, or until somebody interrupts; ``begun`` is the image of where it starts.
 
     Raises
@@ -52,14 +58,15 @@ def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progres
     memory = model.memory
     t_end = float(memory.scalars["t_end"][0])
     report = None if progress is None else lambda t: progress(t, t_end)
-    status, interrupted = PAUSED, False
+    status, interrupted, trouble = PAUSED, False, ""
     image, before = begun, records.n_passed
     try:
         with Watch(memory, report) as watch:
             while status == PAUSED:
-                status = int(watch.call("advance", _STEPS_AT_ONCE, 1))
+                status = int(watch.call("advance", keeper.steps, 1))
                 if status == PAUSED:
                     image, before = Image.of(memory), records.n_passed
+                    keeper.keep(image)
                     status = int(watch.call("advance", _STEPS_NEAR_END, 0))
                 records.drain()
                 if progress is not None:
@@ -67,6 +74,9 @@ def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progres
     except KeyboardInterrupt:
         records.drain()
         status, interrupted = PAUSED, True
+    except FileError as error:
+        records.drain()
+        status, trouble = PAUSED, str(error)
     if status == STOPPED:
         image, before = Image.of(memory), records.n_passed
-    return Ending(status, interrupted, image, records.n_passed - before)
+    return Ending(status, interrupted, image, records.n_passed - before, trouble)

@@ -13,7 +13,6 @@ from nonsmooth.runs.diagnose import culprit
 from nonsmooth.runs.loop import Ending
 from nonsmooth.runs.records import Records
 from nonsmooth.solution.energy import EnergyAccount
-from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
 from nonsmooth.solution.state import Continuation, State
 from nonsmooth.solution.suspicion import suspicions
@@ -26,6 +25,8 @@ def reason(model: LaidOut, guards: Guards, ending: Ending) -> tuple[str, str]:
     past_map = int(model.memory.scalars["map_past"][0]) > 0
     past = "" if guards.hold(model.memory) and not past_map else written_past(model)
     status = ending.status
+    if ending.trouble:
+        return "failed", f"At t = {float(model.memory.scalars['t'][0]):.9g} s {ending.trouble}"
     if past or status not in (DONE, STOPPED, PAUSED):
         message = f"At t = {float(model.memory.scalars['t'][0]):.9g} s {REASONS[status]}."
         return "failed", f"{message} {past or culprit(model, status)}".strip()
@@ -59,7 +60,7 @@ def solution_of(
     """
     record, n_q, n_u = model.memory.scalars[0], model.n_q, model.n_u
     word, message = said
-    floats, integers, table = records.joined()
+    events, table = records.joined()
     counters = Counters(
         steps=int(record["steps"]),
         rejected=int(record["rejected"]),
@@ -82,7 +83,7 @@ def solution_of(
         t,
         q,
         table[:, 1 + n_q : 1 + n_q + n_u],
-        Events.from_buffers(floats, integers, len(model.system.contacts), n_q, n_u),
+        events,
         state.energy,
         counters,
         state.time,

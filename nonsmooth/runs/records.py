@@ -10,6 +10,7 @@ import numpy as np
 from nonsmooth.engine.events.record import EVENT_HEAD
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.solution.events import Events
 from nonsmooth.solution.state import Floats, Integers, State
 
 _BEFORE_THE_FIRST = -1
@@ -26,9 +27,15 @@ class Records:
     ----------
     model : LaidOut
         What runs.
+    earlier : tuple
+        Events and samples of the same run in another process, if it was cut off there.
+    written : int
+        Parts that need not be written any more.
     """
 
     model: LaidOut
+    earlier: tuple[Events, Floats] | None = None
+    written: int = 0
     _parts: dict[int, tuple[Floats, Integers, Floats]] = field(default_factory=dict)
     _events: int = 0
 
@@ -67,10 +74,25 @@ class Records:
         integers = np.concatenate([[START, -1, 0, 0, len(closed)], listed]).astype(np.int64)
         self._parts[_BEFORE_THE_FIRST] = floats, integers, np.zeros((0, self.model.n_y + 1))
 
-    def joined(self) -> tuple[Floats, Integers, Floats]:
-        """Return floats and integers of all events, and all samples."""
-        parts = list(self._parts.values())
-        if len(parts) == 1:
-            return parts[0]
+    @property
+    def n_parts(self) -> int:
+        """How many parts there are."""
+        return len(self._parts)
+
+    def joined(self) -> tuple[Events, Floats]:
+        """Return all events and samples of the run; a sample is time, q, u, accounts and inner states of laws."""
+        events, samples = self._joined(0)
+        if self.earlier is None:
+            return events, samples
+        return Events.joined([self.earlier[0], events]), np.concatenate([self.earlier[1], samples])
+
+    def unwritten(self) -> tuple[Events, Floats]:
+        """Return events and samples of the parts that are not yet written."""
+        return self._joined(self.written)
+
+    def _joined(self, first: int) -> tuple[Events, Floats]:
+        nothing = np.zeros(0), np.zeros(0, np.int64), np.zeros((0, self.model.n_y + 1))
+        parts = list(self._parts.values())[first:] or [nothing]
         floats, integers, samples = (np.concatenate(same) for same in zip(*parts, strict=True))
-        return floats, integers, samples
+        model = self.model
+        return Events.from_buffers(floats, integers, len(model.system.contacts), model.n_q, model.n_u), samples
