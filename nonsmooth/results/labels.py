@@ -1,4 +1,4 @@
-"""Labels for bodies, coordinates and contacts, made from what they are: "ball 1", "ball 2", "plate", "plate - ball 2"."""
+"""Labels for bodies, coordinates and contacts, made from what they are: "ball 1", "ball 2", "plate - ball 2"."""
 
 from __future__ import annotations
 

@@ -40,6 +40,8 @@ _MESSAGE = "the run goes on, or it was cut off and `nonsmooth resume` goes on wi
 _STATES = ("state/0.npz", "state/1.npz")
 """By turns: the one that the last commit names is not touched."""
 _LAST = "state/end.npz"
+_OWN = "scenario_coordinates"
+"""Attribute with the names of what the scenario adds."""
 
 
 @final
@@ -82,9 +84,7 @@ class SolutionFolder:
         for variable in (*of_system(system), _text(system, output, options, t_end, made.attributes)):
             made.add(variable, grows=False)
         columns = found._n_q + found._n_u + N_ACCOUNTS + n_states
-        nothing = Events.from_buffers(
-            np.zeros(0), np.zeros(0, np.int64), len(system.contacts), found._n_q, found._n_u
-        )
+        nothing = Events.from_buffers(np.zeros(0), np.zeros(0, np.int64), len(system.contacts), found._n_q, found._n_u)
         for variable in found._variables(nothing, np.zeros((0, 1 + columns))):
             made.add(variable, grows=True)
         return found
@@ -166,6 +166,8 @@ class SolutionFolder:
         if name not in _STATES:
             raise InvalidInput(f"{self._arrays.path}: checkpoint", "must name a state", name, "It is damaged.")
         state = self._state(name)
+        for coordinate in self.attributes.pop(_OWN, "").split():
+            self._arrays.remove(coordinate)
         for dimension in GROWING:
             self._lengths[dimension] = min(int(checkpoint[dimension]), self._lengths[dimension])
             self._arrays.cut(dimension, self._lengths[dimension])
@@ -253,9 +255,16 @@ class SolutionFolder:
 
         Raises
         ------
+        InvalidInput
+            If a name cannot be that of a folder, or is taken.
         FileError
             If that is not possible.
         """
+        own = self.attributes.get(_OWN, "").split()
+        taken = sorted(coordinates.keys() & (self._arrays.names - {*own}))
+        if taken:
+            raise InvalidInput("coordinates", "must have names of their own", taken, "Rename them.")
+        self.attributes[_OWN] = " ".join(coordinates)
         for name, values in coordinates.items():
             attributes = {"units": "SI", "long_name": f"coordinate of the scenario: {name}"}
             self._arrays.add(Variable(name, ("time",), np.asarray(values), attributes), grows=True)

@@ -6,6 +6,7 @@ import dataclasses
 import io
 import zipfile
 import zlib
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +20,7 @@ _ARRAYS = tuple(field.name for field in dataclasses.fields(State) if field.name 
 
 def state_bytes(state: State) -> bytes:
     """Return a state, with what it needs to go on, as the content of a file."""
-    arrays = {name: np.asarray(getattr(state, name)) for name in _ARRAYS}
+    arrays: dict[str, Any] = {name: np.asarray(getattr(state, name)) for name in _ARRAYS}
     arrays["energy"] = np.array(dataclasses.astuple(state.energy))
     if state.continuation is not None:
         arrays["model"] = np.array(state.continuation.model)
@@ -42,7 +43,8 @@ def state_from(content: bytes, thing: str) -> State:
         with np.load(io.BytesIO(content), allow_pickle=False) as file:
             arrays = dict(file)
         energy = EnergyAccount(*arrays["energy"].tolist())
-        state = State(float(arrays["time"]), *(arrays[name] for name in _ARRAYS[1:]), energy)
+        given = {name: arrays[name] for name in _ARRAYS} | {"time": float(arrays["time"])}
+        state = State(**given, energy=energy)
         if "model" in arrays:
             difference = Difference.unpacked(arrays["difference"].tobytes())
             state = state.with_continuation(Continuation(str(arrays["model"]), difference, int(arrays["told"])))

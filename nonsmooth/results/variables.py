@@ -24,7 +24,7 @@ _ENERGIES = {
     "closing_loss": "loss in closing steps and projections of the event",
 }
 _ACCOUNTS = ("work of driven bodies", "loss to friction", "gross exchange", "work of loads")
-_MODE = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}
+_MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}
 _SHIFTS = {"mode_before": 0, "mode_during": 3, "mode_after": 6}
 
 
@@ -91,7 +91,10 @@ def of_events(events: Events) -> list[Variable]:
     def listed(name: str, values: NDArray[Any], what: str, **more: Any) -> Variable:
         return Variable(name, ("listing",), values, {"units": "1", "long_name": what, **more})
 
-    causes = {"flag_values": list(range(len(CAUSES))), "flag_meanings": " ".join(c.replace(" ", "_") for c in CAUSES)}
+    causes: dict[str, Any] = {
+        "flag_values": list(range(len(CAUSES))),
+        "flag_meanings": " ".join(c.replace(" ", "_") for c in CAUSES),
+    }
     bits = {name: (events.codes >> shift & 7).astype(np.uint8) for name, shift in _SHIFTS.items()}
     return [
         over("event_time", events.time, "time of the event", "s", standard_name="time"),
@@ -105,10 +108,7 @@ def of_events(events: Events) -> list[Variable]:
         _over("event_u_after", ("event", "velocity"), events.u_after, "velocities after the event"),
         over("event_size", np.diff(events.first).astype(np.int32), "contacts listed", sample_dimension="listing"),
         listed("listed_contact", events.listed.astype(np.int32), "place in `contact`, from 0"),
-        *(
-            listed(name, bits[name], f"mode of the contact {name[5:]} the event", **_MODE)
-            for name in _SHIFTS
-        ),
+        *(listed(name, bits[name], f"mode of the contact {name[5:]} the event", **_MODE) for name in _SHIFTS),
         Variable(
             "impulse",
             ("listing", "direction"),
@@ -124,17 +124,13 @@ def events_of(read: Callable[[str], NDArray[Any]], n_contacts: int) -> Events:
     def integers(name: str) -> NDArray[np.int64]:
         return read(name).astype(np.int64)
 
-    codes = np.sum([integers(name) << shift for name, shift in _SHIFTS.items()], axis=0)
+    columns = {"time": read("event_time"), "listed": integers("listed_contact"), "listed_impulse": read("impulse")}
+    columns |= {name: read(f"event_{name}") for name in ("q", "u_before", "u_after")}
+    columns |= {name: integers(f"event_{name}") for name in ("cause", "contact", "phases", "truncated")}
     return Events(
-        read("event_time"),
-        *(integers(f"event_{name}") for name in ("cause", "contact", "phases", "truncated")),
-        *(read(name) for name in _ENERGIES),
-        read("event_q"),
-        read("event_u_before"),
-        read("event_u_after"),
-        n_contacts,
-        np.concatenate([[0], np.cumsum(integers("event_size"))]).astype(np.int64),
-        integers("listed_contact"),
-        codes,
-        read("impulse"),
+        n_contacts=n_contacts,
+        first=np.concatenate([[0], np.cumsum(integers("event_size"))]).astype(np.int64),
+        codes=np.sum([integers(name) << shift for name, shift in _SHIFTS.items()], axis=0),
+        **columns,
+        **{name: read(name) for name in _ENERGIES},
     )

@@ -2,8 +2,8 @@
 
 A commit is seen as a whole or not at all, by readers and after a power cut: chunks come first, each written beside the
 one that it replaces, then the consolidated metadata, one file with the lengths of all arrays.  What a chunk holds
-beyond the length of its array does not count.  That order, and a file that is safe on the disk before it takes its name,
-are what a library for reading and writing does not promise, and all that is done here.
+beyond the length of its array does not count.  No library for the format promises that order, nor that a file is safe
+on the disk before it takes its name; that is all that is done here.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import zlib
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -119,7 +120,18 @@ class ZarrFolder:
         self._lengths[name] = shape[0]
 
     def add(self, variable: Variable, *, grows: bool) -> None:
-        """Add an array, or put another one in the place of one; what it holds counts from the next commit on."""
+        """Add an array, or put another one in the place of one; what it holds counts from the next commit on.
+
+        Raises
+        ------
+        InvalidInput
+            If its name cannot be that of a folder.
+        FileError
+            If it cannot be written.
+        """
+        if not _NAME.fullmatch(variable.name):
+            remedy = "Rename it."
+            raise InvalidInput("variable", "must have a name of letters, digits and underscores", variable.name, remedy)
         values = np.asarray(variable.values)
         if values.dtype.kind == "U" and values.dtype.itemsize == 0:
             values = values.astype("<U1")
@@ -165,9 +177,19 @@ class ZarrFolder:
         rows = np.concatenate(parts) if parts else np.zeros((length, *array.inner), array.dtype)
         return rows[:length].reshape((length, *array.inner) if array.dimensions else ())
 
+    @property
+    def names(self) -> set[str]:
+        """The names of all arrays."""
+        return set(self._arrays)
+
     def length(self, name: str) -> int:
         """Return how many rows an array has."""
         return self._lengths[name]
+
+    def remove(self, name: str) -> None:
+        """Take an array out of the group; its files go at once."""
+        self._arrays.pop(name, None)
+        shutil.rmtree(self.path / name, ignore_errors=True)
 
     def cut(self, dimension: str, length: int) -> None:
         """Leave so many rows of all arrays over a dimension."""

@@ -45,7 +45,8 @@ def constants(model: LaidOut, blank: Image) -> tuple[Integers, ...]:
     Where the rest of an image comes from a file, these are left as this process has them.
     """
     record = blank.parts[0].copy().view(SCALARS)
-    scalars = [SCALARS.names.index(name) for name in (*CONSTANT_SCALARS, "impact_map", "watch")]
+    known = list(SCALARS.names or ())
+    scalars = [known.index(name) for name in (*CONSTANT_SCALARS, "impact_map", "watch")]
     ranges = [range(int(record[name][0]), int(record[name][0]) + _size(record, name)) for name in _FUNCTIONS]
     start, width = int(record["catalogue"][0]), len(CATALOGUE)
     rows = start + np.arange(width * int(record["n_declared"][0])).reshape(-1, width)

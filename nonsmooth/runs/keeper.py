@@ -19,6 +19,7 @@ class Keeper(ABC):
     1. ``steps`` says how many steps the engine takes before the next look.
     2. ``keep`` takes the image of the memory, which the memory has at that moment; it may drain the records.
     3. ``finish`` gets the solution of the whole run.
+    4. ``close`` comes last, also where the run or its keeping failed.
     """
 
     @property
@@ -46,6 +47,10 @@ class Keeper(ABC):
             If that is not possible.
         """
 
+    @abstractmethod
+    def close(self) -> None:
+        """Leave nothing behind that works on."""
+
 
 @final
 class KeepsNothing(Keeper):
@@ -60,4 +65,7 @@ class KeepsNothing(Keeper):
         """Do nothing."""
 
     def finish(self, solution: Solution) -> None:
+        """Do nothing."""
+
+    def close(self) -> None:
         """Do nothing."""

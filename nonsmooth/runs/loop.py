@@ -45,9 +45,7 @@ class Ending:
     trouble: str = ""
 
 
-def run_engine(
-    model: LaidOut, records: Records, begun: Image, progress: Progress | None, keeper: Keeper
-) -> Ending:
+def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progress | None, keeper: Keeper) -> Ending:
     """Run to the end time, to a failure, or until somebody interrupts; ``begun`` is the image of where it starts.
 
     Raises

@@ -210,7 +210,11 @@ class Model:
         with self._alone("resume"):
             laid = self._laid
             records = Records(laid, (folder.events(), folder.rows()))
-            restore(laid, self._blank, state)
+            try:
+                restore(laid, self._blank, state)
+            except (ValueError, IndexError) as error:
+                thing = f"{Output.to(output).solution}: state"
+                raise InvalidInput(thing, "must fit the model", str(error), "It is damaged.") from error
             energy = state.energy.kinetic_start, state.energy.potential_start
             wall = float(folder.said("checkpoint")["wall_seconds"])
             keeper = Writer(folder, records, self._states_from(energy), wall)
@@ -274,16 +278,17 @@ class Model:
         """Run to the end from where the model stands; ``wall`` is what the run took before [s]."""
         laid = self._laid
         began = time.perf_counter()
-        ending = run_engine(laid, records, begun, progress, keeper)
-        said = reason(laid, self._guards, ending)
-        wall += time.perf_counter() - began
-        left = state_of(laid, self._blank, self._key, energy, ending)
-        solution = solution_of(laid, records, energy, said, left, wall)
-        if not ending.trouble:
-            try:
-                keeper.finish(solution)
-            except FileError as error:
-                solution = replace(solution, status="failed", message=str(error))
+        with contextlib.closing(keeper):
+            ending = run_engine(laid, records, begun, progress, keeper)
+            said = reason(laid, self._guards, ending)
+            wall += time.perf_counter() - began
+            left = state_of(laid, self._blank, self._key, energy, ending)
+            solution = solution_of(laid, records, energy, said, left, wall)
+            if not ending.trouble:
+                try:
+                    keeper.finish(solution)
+                except FileError as error:
+                    solution = replace(solution, status="failed", message=str(error))
         if solution.status == "failed":
             raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
         return solution

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import final
 
@@ -14,10 +15,8 @@ from nonsmooth.runs.records import Records
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 
-_EVERY, _AT_MOST = 0.5, 0.8
-"""Time between two commits [s]; what the disk makes of it."""
-_SHARE = 0.05
-"""Share of the time that commits may take before they come less often."""
+_EVERY, _FIRST_AFTER = 0.5, 0.25
+"""Time from one commit to the next [s], and to the first one."""
 _CALL = 0.15
 """Time that the engine shall take before the next look [s]."""
 _FEWEST, _FIRST, _MOST = 4, 64, 2000
@@ -48,7 +47,10 @@ class Writer(Keeper):
     _steps: int = _FIRST
     _began: float = field(default_factory=time.perf_counter)
     _looked: float = field(default_factory=time.perf_counter)
-    _next: float = field(default_factory=lambda: time.perf_counter() + _EVERY)
+    _next: float = field(default_factory=lambda: time.perf_counter() + _FIRST_AFTER)
+    # the engine goes on while the disk is written to
+    _pool: ThreadPoolExecutor = field(default_factory=lambda: ThreadPoolExecutor(1))
+    _commit: Future[None] | None = None
 
     @property
     def steps(self) -> int:
@@ -59,25 +61,34 @@ class Writer(Keeper):
         """Write where the run begins."""
         self.folder.begin(*self.records.unwritten(), self.state_at(image))
         self.records.written = self.records.n_parts
+        self._looked = time.perf_counter()
 
     def keep(self, image: Image) -> None:
-        """Write what is new, if it is time to."""
+        """Have written what is new, if it is time to and the disk has come so far."""
         now = time.perf_counter()
         wanted = self._steps * _CALL / max(now - self._looked, 1e-6)
         self._steps = int(min(_MOST, 4 * self._steps, max(_FEWEST, wanted)))
-        if now >= self._next:
+        if now >= self._next and (self._commit is None or self._commit.done()):
+            self._settle()
+            self._next = now + _EVERY
             self.records.drain()
-            self._commit(image)
-            after = time.perf_counter()
-            self._next = after + min(max(_EVERY, (after - now) / _SHARE), _AT_MOST)
+            n, (events, rows) = self.records.n_parts, self.records.unwritten()
+            wall = self.wall + now - self._began
+            self._commit = self._pool.submit(self.folder.append, events, rows, self.state_at(image), wall)
+            self.records.written = n
         self._looked = time.perf_counter()
 
     def finish(self, solution: Solution) -> None:
         """Write the rest, and how the run ended."""
+        self._settle()
         events, rows = self.records.unwritten()
         self.folder.finish(events, rows, solution)
 
-    def _commit(self, image: Image) -> None:
-        n, (events, rows) = self.records.n_parts, self.records.unwritten()
-        self.folder.append(events, rows, self.state_at(image), self.wall + time.perf_counter() - self._began)
-        self.records.written = n
+    def close(self) -> None:
+        """Wait until nothing is written any more."""
+        self._pool.shutdown()
+
+    def _settle(self) -> None:
+        """Wait for the last commit; raise what went wrong there."""
+        if self._commit is not None:
+            self._commit.result()
