@@ -6,6 +6,7 @@ Two balls bounce on a plate that vibrates, and on each other.
 from __future__ import annotations
 
 import sys
+import time
 
 import nonsmooth as ns
 from bodies import Ball, Harmonic, Plate
@@ -22,17 +23,16 @@ def balls(friction: FrictionLaw = _COULOMB) -> ns.System:
     system = ns.System([*balls, plate])
     for i, ball in enumerate(balls):
         system.place(ball, position=(1e-3 * i, 0.0, 2e-2 + 1e-2 * i), velocity=(0.01, 0.0, 0.0))
-    laws = {"normal": Unilateral(), "friction": friction, "impact": EnergeticImpact(restitution=0.6)}
     for one, other in ((balls[0], plate), (balls[1], plate), (balls[0], balls[1])):
-        system.contact(one, other, **laws)
+        system.contact(one, other, normal=Unilateral(), friction=friction, impact=EnergeticImpact(restitution=0.6))
     return system
 
 
 def main() -> None:
-    """Run it, and write whatever there is as often as possible."""
+    """Run it slowly, and write whatever there is as often as possible."""
     writer._EVERY = writer._FIRST_AFTER = 0.0
     writer._MOST = writer._FIRST
-    ns.simulate(balls(), float(sys.argv[2]), output=sys.argv[1])
+    ns.simulate(balls(), float(sys.argv[2]), output=sys.argv[1], progress=lambda t, t_end: time.sleep(0.03))
 
 
 if __name__ == "__main__":

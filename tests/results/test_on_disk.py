@@ -37,9 +37,9 @@ def test_the_dataset_has_samples_events_labels_and_units(solution: ns.Solution, 
     words = saved["event_cause"].attrs["flag_meanings"].split()
     assert [words[code] for code in saved["event_cause"].values] == [c.replace(" ", "_") for c in events.causes()]
     # contiguous ragged: the entries of an event stand behind those of the events before
-    event = np.repeat(np.arange(len(events)), saved["event_size"])
+    place = np.repeat(np.arange(len(events)), saved["event_size"]), saved["listed_contact"].values
     impulse, after = np.zeros_like(events.impulse), np.zeros_like(events.after)
-    impulse[event, saved["listed_contact"]], after[event, saved["listed_contact"]] = saved["impulse"], saved["mode_after"]
+    impulse[place], after[place] = saved["impulse"], saved["mode_after"]
     np.testing.assert_array_equal(impulse, events.impulse)
     np.testing.assert_array_equal(after, events.after)
     assert saved["body"].values.tolist() == ["ball 1", "ball 2", "plate"]

@@ -78,9 +78,10 @@ def test_what_is_not_committed_does_not_count(tmp_path: Path, monkeypatch: pytes
         return write(path, content)
 
     monkeypatch.setattr(Path, "write_bytes", full)
+    x, y, _ = _variables(values[5:])
+    folder.write("x", 5, x.values)
     with pytest.raises(FileError, match=r"y/3\.0 could not be written: No space left on device"):
-        for one in _variables(values[5:]):
-            folder.write(one.name, 5, one.values)
+        folder.write("y", 5, y.values)
     assert {path: path.read_bytes() for path in folder.path.rglob("*") if path.is_file()} == files
 
 
