@@ -16,6 +16,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.files.writing import text_of_system
 from nonsmooth.model.options import Options
 from nonsmooth.parameters import rules
+from nonsmooth.results.lock import Lock
 from nonsmooth.results.output import Output, versions
 from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.results.variables import (
@@ -54,10 +55,12 @@ class SolutionFolder:
         The arrays.
     n_q, n_u : int
         Numbers of coordinates and velocities.
+    lock : Lock or None
+        What lets nobody else write there.
     """
 
-    def __init__(self, arrays: ZarrFolder, n_q: int, n_u: int) -> None:
-        self._arrays, self._n_q, self._n_u = arrays, n_q, n_u
+    def __init__(self, arrays: ZarrFolder, n_q: int, n_u: int, lock: Lock | None = None) -> None:
+        self._arrays, self._n_q, self._n_u, self._lock = arrays, n_q, n_u, lock
         self._lengths = dict.fromkeys(GROWING, 0)
         self._safe = False
 
@@ -68,7 +71,7 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If a run was cut off there.
+            If a run was cut off there, or writes there.
         FileError
             If it cannot be written.
         """
@@ -79,8 +82,8 @@ class SolutionFolder:
                 shutil.rmtree(path)
             except OSError as error:
                 raise FileError(path, error) from error
-        made = ZarrFolder(path, _attributes(output, options, t_end))
-        found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies))
+        made, lock = ZarrFolder(path, _attributes(output, options, t_end)), Lock(path)
+        found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
         for variable in (*of_system(system), _text(system, output, options, t_end, made.attributes)):
             made.add(variable, grows=False)
         columns = found._n_q + found._n_u + N_ACCOUNTS + n_states
@@ -159,8 +162,9 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If there is none.
+            If there is none, or the run goes on in another process.
         """
+        self._lock = Lock(self._arrays.path)
         checkpoint = self.said("checkpoint")
         name = checkpoint["state"]
         if name not in _STATES:
@@ -197,17 +201,17 @@ class SolutionFolder:
         self._arrays.commit_safely()
         self._safe = True
 
-    def begin(self, events: Events, rows: Floats, state: State) -> None:
-        """Write where a run begins, as :meth:`append` does; there is nothing yet that a power cut could cost.
+    def begin(self, events: Events, rows: Floats, state: State, wall: float) -> None:
+        """Write where a run begins or goes on, as :meth:`append` does.
 
         Raises
         ------
         FileError
             If that cannot be written.
         """
-        self._put_checkpoint(events, rows, state, 0.0)
+        self._put_checkpoint(events, rows, state, wall)
+        self._commit()
         self._arrays.spell_out()
-        self._arrays.commit()
 
     def _put_checkpoint(self, events: Events, rows: Floats, state: State, wall: float) -> None:
         lengths = self._write(events, rows)
@@ -240,11 +244,7 @@ class SolutionFolder:
         if solution.status in ("done", "suspect"):
             self.attributes.pop("checkpoint", None)
         self._lengths = lengths
-        # a run of less than a second can be had again
-        if self._safe:
-            self._arrays.commit_safely()
-        else:
-            self._arrays.commit()
+        self._commit()
         self._arrays.spell_out()
         if "checkpoint" not in self.attributes:
             for name in _STATES:
@@ -271,9 +271,17 @@ class SolutionFolder:
         self._arrays.commit()
         self._arrays.spell_out()
 
-    def discard(self) -> None:
-        """Give up what was written since the last commit."""
-        self._arrays.discard()
+    def close(self) -> None:
+        """Let others write there."""
+        if self._lock is not None:
+            self._lock.close()
+
+    def _commit(self) -> None:
+        # what a run did in less than a second can be had again
+        if self._safe:
+            self._arrays.commit_safely()
+        else:
+            self._arrays.commit()
 
     def _write(self, events: Events, rows: Floats) -> dict[str, int]:
         lengths = dict(self._lengths)

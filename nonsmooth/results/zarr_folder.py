@@ -228,6 +228,9 @@ class ZarrFolder:
         entries: dict[str, Any] = {".zgroup": _GROUP, ".zattrs": self.attributes}
         for name in self._arrays:
             entries |= {f"{name}/{key}": entry for key, entry in self._metadata(name).items()}
+        # zarr takes the group's own attributes from there
+        for key in (".zgroup", ".zattrs"):
+            self._put(self.path / key, _json(entries[key]))
         self._put(self.path / _CONSOLIDATED, _json({"metadata": entries, "zarr_consolidated_format": 1}))
 
     def spell_out(self) -> None:
@@ -238,8 +241,6 @@ class ZarrFolder:
         FileError
             If that is not possible.
         """
-        self._put(self.path / ".zgroup", _json(_GROUP))
-        self._put(self.path / ".zattrs", _json(self.attributes))
         for name in self._arrays:
             for key, entry in self._metadata(name).items():
                 self._put(self.path / name / key, _json(entry))
@@ -255,8 +256,7 @@ class ZarrFolder:
         """
         self._put(self.path / name, content)
 
-    def discard(self) -> None:
-        """Forget what was written since the last commit, and remove it."""
+    def _discard(self) -> None:
         for part in self._waiting.values():
             part.unlink(missing_ok=True)
         self._waiting.clear()
@@ -304,7 +304,7 @@ class ZarrFolder:
             self._waiting[path] = part
             part.write_bytes(content)
         except OSError as error:
-            self.discard()
+            self._discard()
             raise FileError(path, error) from error
 
     def _rename(self) -> set[Path]:

@@ -16,11 +16,22 @@ class Keeper(ABC):
 
     The contract:
 
-    1. ``steps`` says how many steps the engine takes before the next look.
-    2. ``keep`` takes the image of the memory, which the memory has at that moment; it may drain the records.
-    3. ``finish`` gets the solution of the whole run.
-    4. ``close`` comes last, also where the run or its keeping failed.
+    1. ``begin`` takes the image of the memory as the run begins.
+    2. ``steps`` says how many steps the engine takes before the next look.
+    3. ``keep`` takes the image of the memory, which the memory has at that moment; it may drain the records.
+    4. ``finish`` gets the solution of the whole run.
+    5. ``close`` comes last, also where the run or its keeping failed.
     """
+
+    @abstractmethod
+    def begin(self, image: Image) -> None:
+        """Keep where the run begins.
+
+        Raises
+        ------
+        FileError
+            If that is not possible.
+        """
 
     @property
     @abstractmethod
@@ -55,6 +66,9 @@ class Keeper(ABC):
 @final
 class KeepsNothing(Keeper):
     """A run whose results stay in memory."""
+
+    def begin(self, image: Image) -> None:
+        """Do nothing."""
 
     @property
     def steps(self) -> int:

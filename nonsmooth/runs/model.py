@@ -207,7 +207,7 @@ class Model:
                 "another",
                 "Assemble the system that ran.",
             )
-        with self._alone("resume"):
+        with self._alone("resume"), contextlib.closing(folder):
             laid = self._laid
             records = Records(laid, (folder.events(), folder.rows()))
             try:
@@ -257,13 +257,13 @@ class Model:
         # where a run ends is not to change its steps: all samples by default are fewer than those at once
         room = _SAMPLES_AT_ONCE * float(scalars["sample_capacity"][0])
         scalars["h_sampled"] = math.inf if is_default else room * interval
-        # to copy a memory takes milliseconds where there are many contacts
-        begun = begun or Image.of(laid.memory)
         keeper: Keeper = KeepsNothing()
+        if begun is None or output is not None:
+            # takes milliseconds where there are many contacts
+            begun = Image.of(laid.memory)
         if output is not None:
             folder = SolutionFolder.created(output, laid.system, self._options, t_end, laid.n_states)
             keeper = Writer(folder, records, self._states_from(energy), 0.0)
-            keeper.begin(Image.of(laid.memory))
         return self._complete(records, begun, energy, progress, keeper, 0.0)
 
     def _complete(
@@ -279,6 +279,7 @@ class Model:
         laid = self._laid
         began = time.perf_counter()
         with contextlib.closing(keeper):
+            keeper.begin(begun)
             ending = run_engine(laid, records, begun, progress, keeper)
             said = reason(laid, self._guards, ending)
             wall += time.perf_counter() - began

@@ -59,7 +59,7 @@ class Writer(Keeper):
 
     def begin(self, image: Image) -> None:
         """Write where the run begins."""
-        self.folder.begin(*self.records.unwritten(), self.state_at(image))
+        self.folder.begin(*self.records.unwritten(), self.state_at(image), self.wall)
         self.records.written = self.records.n_parts
         self._looked = time.perf_counter()
 
@@ -85,8 +85,9 @@ class Writer(Keeper):
         self.folder.finish(events, rows, solution)
 
     def close(self) -> None:
-        """Wait until nothing is written any more."""
+        """Wait until nothing is written any more, and let others write there."""
         self._pool.shutdown()
+        self.folder.close()
 
     def _settle(self) -> None:
         """Wait for the last commit; raise what went wrong there."""

@@ -1,9 +1,9 @@
 """Runs that are killed and go on: ``python -m tests.benchmarks.killed_runs [KILLS] [SCENARIO] [T_END]``.
 
-A scenario runs once undisturbed.  Then it runs once more in a process that is killed (SIGKILL) at a random moment, again
-in every process that goes on with it, so many times (10 by default), until the last one comes to the end.  Printed are,
-for every kill, how long the process had run [s], the time that the file has reached [s], its events, and how much of the
-run's wall time was lost [s]; then whether the end differs from that of the undisturbed run in any bit.
+A scenario runs once undisturbed.  Then it runs once more in a process that is killed (SIGKILL) at a random moment, and
+again in every process that goes on with it, so many times (10 by default), until the last one comes to the end.  For
+every kill are printed how long the process had run [s], the time that the file has reached [s], its events, and how
+much of the run's wall time was lost [s]; then whether the end differs from that of the undisturbed run in any bit.
 """
 
 from __future__ import annotations

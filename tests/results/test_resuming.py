@@ -19,6 +19,7 @@ import nonsmooth as ns
 from laws import Coulomb
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.model.image import Difference
+from nonsmooth.results.lock import Lock
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.results.state_file import state_bytes, state_from
@@ -102,6 +103,7 @@ def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole: ns.Solution, tmp_
         process.communicate()
     with xarray.open_zarr(place) as saved:
         assert saved.attrs["status"] == "unfinished"
+        assert saved.attrs["t_end"] >= share * T_END
         n = saved.sizes["event"]
         np.testing.assert_array_equal(saved["event_time"], whole.events.time[:n])
         np.testing.assert_array_equal(saved["q"], whole.q[: saved.sizes["time"]])
@@ -141,6 +143,10 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ns.InvalidInput, match="must be a folder of results"):
         ns.resume(tmp_path)
     _cut_off(tmp_path, balls(Own()), 0.5)
+    lock = Lock(tmp_path / "solution.zarr")
+    with pytest.raises(ns.InvalidInput, match="must have one run at a time that writes, but it is 'in use'"):
+        ns.resume(tmp_path, system=balls(Own()))
+    lock.close()
     with pytest.raises(ns.InvalidInput, match=r"must not hold a run that .* was cut off.*nonsmooth resume"):
         ns.simulate(balls(), T_END, output=tmp_path)
     with pytest.raises(ns.InvalidInput, match=r"system must be there, but it is .*Own.*give it as system=") as refused:
