@@ -2,15 +2,16 @@
 
 from nonsmooth.contact import solve_contact
 from nonsmooth.contact_result import ContactResult
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, NoDistance, NonsmoothError, PluginError, RunFailed, RunsInPython, UnknownName
 from nonsmooth.files.reading import Setup, load_system
 from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.interfaces import Criterion
-from nonsmooth.model.options import Options
-from nonsmooth.placing import at_height, resting, touching
+from nonsmooth.placing.starts import at_height, resting, touching
 from nonsmooth.queries.distance import distance
 from nonsmooth.queries.proximity import proximity
+from nonsmooth.restitution import restitution
 from nonsmooth.results.opening import open_solution
 from nonsmooth.results.output import Output
 from nonsmooth.runs.model import Model
@@ -29,13 +30,13 @@ __all__ = [
     "ContactLaws",
     "ContactResult",
     "Criterion",
+    "EventDriven",
     "ImpactResult",
     "InvalidInput",
     "Materials",
     "Model",
     "NoDistance",
     "NonsmoothError",
-    "Options",
     "Output",
     "PluginError",
     "RunFailed",
@@ -52,6 +53,7 @@ __all__ = [
     "open_solution",
     "proximity",
     "resting",
+    "restitution",
     "resume",
     "save_system",
     "simulate",

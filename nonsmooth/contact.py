@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.contact_result import MODES, ContactResult
-from nonsmooth.engine.memory.layout import COUNTS
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
+from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
@@ -153,7 +153,7 @@ def _culprit(memory: Memory, friction: Sequence[FrictionLaw]) -> str:
 def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:
     n = len(friction)
     bound = [bind(law.coefficient, "scalar", law.parameters(), type(law).__name__) for law in friction]
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n}, ("delassus", "contact"))
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"], memory.scalars["solver"] = n, solver
     memory.array("active", n)[:] = np.arange(n)

@@ -12,8 +12,8 @@ from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.contact import check_friction
 from nonsmooth.engine.impact.problem import FINISHED
-from nonsmooth.engine.memory.layout import COUNTS
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
+from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
@@ -175,7 +175,7 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
             ("friction", friction[i], friction[i].coefficient),
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_linkages": 0})
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_linkages": 0}, ("delassus", "contact", "impact"))
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.scalars["impact_rtol"] = tolerance

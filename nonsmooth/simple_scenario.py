@@ -60,9 +60,7 @@ class SimpleScenario(Scenario, ABC):
     def gallery(cls, progress: Any) -> Mapping[str, Any]:
         """Run the scenario with the defaults of its parameters; return its figure."""
         one = cls()
-        solution = simulate(
-            one.build(), one.t_end, sample_interval=one.sample_interval, options=None, progress=progress
-        )
+        solution = simulate(one.build(), one.t_end, sample_interval=one.sample_interval, progress=progress)
         return dict(one.figures(solution))
 
     def _draw(self, solution: Solution) -> Figure:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from nonsmooth.model.options import Options
+from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.interfaces import Engine
 from nonsmooth.queries.undeclared import warn_of_overlaps
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import check_free
@@ -16,15 +17,15 @@ from nonsmooth.system.system import System
 __all__ = ["Progress", "assemble", "simulate"]
 
 
-def assemble(system: System, options: Options | None = None) -> Model:
+def assemble(system: System, engine: Engine | None = None) -> Model:
     """Lay out a system once, to be run often: ``model.run(t_end, start=...)``.
 
     Parameters
     ----------
     system : System
         Bodies, contacts, starts; what is changed in it later the model does not know.
-    options : Options, optional
-        Tolerances.
+    engine : Engine, optional
+        What integrates it, with its options; :class:`EventDriven` by default.
 
     Returns
     -------
@@ -39,9 +40,9 @@ def assemble(system: System, options: Options | None = None) -> Model:
     Raises
     ------
     InvalidInput
-        If the start is not valid.
+        If the engine cannot run the system, or the start is not valid.
     """
-    model = Model.of(system, options or Options())
+    model = Model.of(system, engine or EventDriven())
     warn_of_overlaps(system)
     return model
 
@@ -51,7 +52,7 @@ def simulate(
     t_end: float,
     *,
     sample_interval: float | None = None,
-    options: Options | None = None,
+    engine: Engine | None = None,
     progress: Progress | None = None,
     output: Output | Path | str | None = None,
 ) -> Solution:
@@ -65,8 +66,8 @@ def simulate(
         End time [s].
     sample_interval : float, optional
         Time between stored samples [s]; t_end / 2000 by default.  Events are stored exactly in any case.
-    options : Options, optional
-        Tolerances.
+    engine : Engine, optional
+        What integrates it, with its options; :class:`EventDriven` by default.
     progress : callable, optional
         Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
         raises ends the run and is raised.
@@ -87,7 +88,8 @@ def simulate(
     Raises
     ------
     InvalidInput
-        If the start or a number is not valid, or a run was cut off in the folder; nothing has run then.
+        If the engine cannot run the system, the start or a number is not valid, or a run was cut off in the folder;
+        nothing has run then.
     FileError
         If the folder cannot be written to as the run begins.
     RunFailed
@@ -96,6 +98,6 @@ def simulate(
     check_times("simulate", t_end, sample_interval)
     if output is not None:
         check_free(Output.to(output))
-    model = Model.of(system, options or Options())
+    model = Model.of(system, engine or EventDriven())
     warn_of_overlaps(system)
     return model.run(t_end, sample_interval=sample_interval, progress=progress, output=output)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.frustum import HIGH_RIM, LOW_RIM, center_in_world, nearest_part
-from bodies.contacts.frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
+from bodies.contacts.frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
 from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.smooth_core import axes_in_world, back, forth
 from bodies.contacts.vertex_face import REACH
@@ -31,6 +31,8 @@ _ASIDE = 0.01
 """Part of the reach by which the normal of two rims at a distance is beyond those of a side, at the least."""
 _LEAN = 0.02
 """Sine of the angle by which the normal may leave those of the rims where they overlap."""
+_BESIDE, _NARROWINGS = 20.0, 40
+"""So many depths beside a crossing rims enter the other body at the farthest; steps of the search for the place."""
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 
 
@@ -92,6 +94,31 @@ def _linked(
         if x * x + y * y < wide * wide:
             within += 1
     return within == 1
+
+
+@compiled
+def _inside(frustum: Floats, radius: float, c: Point, g: Point, h: Point, axis: Point, reach: float) -> float:
+    """Return the least signed distance to a body of the points c + radius (g cos + h sin) of a rim, for small angles.
+
+    All of it is told from the centre of the body; beside a crossing the distance has one minimum.
+    """
+    least, most, found = -reach, reach, 1e300
+    for _ in range(_NARROWINGS):
+        middle = 0.5 * (least + most)
+        for angle in (middle - 0.1 * (most - least), middle + 0.1 * (most - least)):
+            cos, sin = radius * math.cos(angle), radius * math.sin(angle)
+            x, y, z = c[0] + cos * g[0] + sin * h[0], c[1] + cos * g[1] + sin * h[1], c[2] + cos * g[2] + sin * h[2]
+            along = x * axis[0] + y * axis[1] + z * axis[2]
+            away = math.sqrt(max(x * x + y * y + z * z - along * along, 0.0))
+            outside, _, _, _ = nearest_part(frustum, along, away)
+            if angle < middle:
+                before = outside
+            found = min(found, outside)
+        if before < outside:
+            most = middle + 0.1 * (most - least)
+        else:
+            least = middle - 0.1 * (most - least)
+    return found
 
 
 def _evaluate(
@@ -198,19 +225,31 @@ def _evaluate(
         past = max(past, size)
     if gap < 0.0:
         outside = size
+        # the first rim's centre over the second body's, and the second's over the first's, each in axes of the body
         if second[SIDE] > 0.0:
             outside, _, _, _ = nearest_part(second, z + level, away)
+        dx, dy, dz = height * ax - cx, height * ay - cy, height * az - cz
         if first[SIDE] > 0.0:
-            # the second rim's point over the first body's centre
-            qx, qy, qz = x + wx - cx + height * ax, y + wy - cy + height * ay, z + wz - cz + height * az
+            qx, qy, qz = x + wx + dx, y + wy + dy, z + wz + dz
             along = qx * ax + qy * ay + qz * az
             far = math.sqrt(max(qx * qx + qy * qy + qz * qz - along * along, 0.0))
             other, _, _, _ = nearest_part(first, along, far)
             outside = min(outside, other)
+        if REACH * size < outside < size and outside + 0.9 * gap <= REACH * size:
+            # sharp bodies overlap beside the crossing, if they do
+            reach = min(0.5, _BESIDE * -gap / (crossing * min(radius, wide)))
+            outside = size
+            if second[SIDE] > 0.0:
+                outside = _inside(
+                    second, radius, (cx, cy, cz + level), (ux, uy, uz), (tx, ty, tz), (0.0, 0.0, 1.0), reach
+                )
+            if first[SIDE] > 0.0:
+                other = _inside(first, wide, (dx, dy, dz), (ex, ey, 0.0), (-ey, ex, 0.0), (ax, ay, az), reach)
+                outside = min(outside, other)
         if first[SIDE] == 0.0 and second[SIDE] == 0.0 and _linked(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz):
             outside = gap
         # bodies that overlap next to the crossing have the normal among those of both rims
-        past = max(past, outside + 0.9 * gap - REACH * size, size * (astray - _LEAN))
+        past = max(past, outside - REACH * size, size * (astray - _LEAN))
     # deep in each other the rims are not what touches
     past = max(past, -gap - 0.25 * min(radius, wide))
     wx, wy, wz = forth(axes, nx, ny, nz)

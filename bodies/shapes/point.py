@@ -9,8 +9,8 @@ from typing import final
 import numpy as np
 
 from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.convex_solid import ConvexSolid
 from nonsmooth.parameters import parameter
-from nonsmooth.solids.convex import ConvexSolid
 
 
 @final

@@ -10,7 +10,7 @@ from nonsmooth.cli.messages import say
 from nonsmooth.cli.table import first_line, folded
 from nonsmooth.plugins import registry
 
-GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws")
+GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws", "engines")
 
 
 def add_to(commands: Any) -> None:

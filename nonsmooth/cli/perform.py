@@ -12,10 +12,10 @@ from nonsmooth.cli.messages import complain, tell
 from nonsmooth.cli.progress import on_standard_error
 from nonsmooth.errors import PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
-from nonsmooth.results.events_table import save_events
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import UNFINISHED, SolutionFolder
 from nonsmooth.solution.draw_graph import draw
+from nonsmooth.solution.events_table import save_events
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.solution import Solution
 

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from nonsmooth.cli import law
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.formats import SUFFIXES
 from nonsmooth.files.reading import read
 from nonsmooth.files.scenario import FileScenario
-from nonsmooth.interfaces import Scenario
-from nonsmooth.model.options import Options
+from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.parameters import from_all_words, rules
 from nonsmooth.plugins import file, registry
 from nonsmooth.system.replacing import with_laws
@@ -47,14 +47,14 @@ class Job:
     ----------
     scenario : Scenario
         The scenario.
-    options : Options
-        How to run it.
+    engine : Engine
+        What runs it.
     laws : dict
         Laws by role that replace those of the scenario.
     """
 
     scenario: Scenario
-    options: Options
+    engine: Engine
     laws: dict[str, Any]
 
     def build(self) -> System:
@@ -87,8 +87,8 @@ def job(name: str, words: Iterable[str], laws: Iterable[str] = ()) -> Job:
     replaced = law.laws(laws)
     if name.endswith(SUFFIXES):
         setup = read(Path(name), values)
-        return Job(FileScenario(setup), setup.options, replaced)
+        return Job(FileScenario(setup), setup.engine, replaced)
     owner = file.load("run", (Scenario,), name) if file.is_file(name) else registry.load("scenarios", name)
     law.check_not_ignored(owner, values, replaced)
     made: Scenario = from_all_words(owner, values, name, "--set {name}=VALUE")
-    return Job(made, Options(), replaced)
+    return Job(made, EventDriven(), replaced)

@@ -46,7 +46,7 @@ def _perform(output: Output, troubles: list[str]) -> report.Report:
     return perform(
         job,
         {"scenario": name, **job.head()},
-        lambda progress: resume(output, system=system, progress=progress),
+        lambda progress: resume(output, system=system, engine=job.engine, progress=progress),
         output.folder,
         False,
         troubles,
@@ -64,4 +64,4 @@ def _job(output: Output, folder: SolutionFolder) -> tuple[str, request.Job]:
     if name in registry.names("scenarios") and not any(file.is_file(law) for law in laws):
         return name, request.job(name, asked["set"], asked["law"])
     setup = stored_setup(output, folder)
-    return name, request.Job(FileScenario(setup), setup.options, {})
+    return name, request.Job(FileScenario(setup), setup.engine, {})

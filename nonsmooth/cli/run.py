@@ -75,7 +75,7 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
             system,
             scenario.t_end,
             sample_interval=scenario.sample_interval,
-            options=job.options,
+            engine=job.engine,
             progress=progress,
             output=output,
         )

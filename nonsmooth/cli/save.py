@@ -30,7 +30,7 @@ def execute(arguments: argparse.Namespace) -> bool:
         arguments.file,
         t_end=scenario.t_end,
         sample_interval=scenario.sample_interval,
-        options=job.options,
+        engine=job.engine,
         title=str(scenario.resolved().get("title", type(scenario).title)),
     )
     tell(f"the system is in {arguments.file}")

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from nonsmooth import placing
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files.components import Table, component, naming
 from nonsmooth.files.keys import check_keys, number, tables_in, words
 from nonsmooth.interfaces import Body, Guard, ImpactLaw, Joint, Load, NormalLaw, TangentialLaw
+from nonsmooth.placing import starts
 from nonsmooth.plugins import file, registry
 from nonsmooth.system.materials import ContactLaws, Materials
 from nonsmooth.system.system import System
@@ -79,12 +79,12 @@ def _start(made: System, body: Body, start: Table) -> None:
     elif place is None:
         made.place(body, **start)
     elif place == "touching":
-        placing.touching(made, body, **start)
+        starts.touching(made, body, **start)
     elif place == "resting":
-        placing.resting(made, body, **start)
+        starts.resting(made, body, **start)
     elif place == "at_height":
         height = number("height", start.pop("height", None), "m")
-        placing.at_height(made, body, height, **start)
+        starts.at_height(made, body, height, **start)
     else:
         raise UnknownName("place", str(place), _PLACES)
 

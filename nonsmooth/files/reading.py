@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import final
+from typing import Any, final
 
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import assembling
-from nonsmooth.files.components import Table, component
+from nonsmooth.files.components import TYPE, Table, component
 from nonsmooth.files.keys import check_keys, number
 from nonsmooth.files.parsing import changed, parse
-from nonsmooth.model.options import Options
+from nonsmooth.interfaces import Engine
 from nonsmooth.system.system import System
 
 _NO_CHANGES: Mapping[str, str] = {}
@@ -21,7 +22,7 @@ _KEYS = (
     "t_end",
     "sample_interval",
     "gravity",
-    "options",
+    "engine",
     "laws",
     "bodies",
     "contacts",
@@ -46,8 +47,8 @@ class Setup:
         One line that says what it is.
     t_end, sample_interval : float or None
         End time and time between samples [s], as far as the file says them.
-    options : Options
-        How to run it.
+    engine : Engine
+        What is to run it.
     system : System
         Bodies, contacts, starts.
     names : tuple of str
@@ -60,7 +61,7 @@ class Setup:
     title: str
     t_end: float | None
     sample_interval: float | None
-    options: Options
+    engine: Engine
     system: System
     names: tuple[str, ...]
     changes: Mapping[str, str]
@@ -82,7 +83,7 @@ def load_system(path: str | Path) -> Setup:
     Returns
     -------
     Setup
-        With ``system``, ``t_end``, ``sample_interval`` and ``options``, as :func:`simulate` takes them.
+        With ``system``, ``t_end``, ``sample_interval`` and ``engine``, as :func:`simulate` takes them.
 
     Raises
     ------
@@ -112,6 +113,13 @@ def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
         number(f"{path}: {key}", tables[key], "s", positive=True) if key in tables else None
         for key in ("t_end", "sample_interval")
     )
-    options = component(f"{path}: options", tables.get("options", {}), Options, path.parent)
+    engine = engine_of(f"{path}: engine", tables.get("engine", {}), path.parent)
     made = assembling.system(tables, path)
-    return Setup(path, title, t_end, interval, options, made, tuple(tables["bodies"]), dict(changes), tables)
+    return Setup(path, title, t_end, interval, engine, made, tuple(tables["bodies"]), dict(changes), tables)
+
+
+def engine_of(thing: str, table: Any, folder: Path) -> Engine:
+    """Return the engine of a table, the event-driven one where it says none; errors as :func:`load_system`."""
+    is_default = isinstance(table, dict) and TYPE not in table
+    made: Engine = component(thing, table, EventDriven if is_default else Engine, folder)
+    return made

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import formats
 from nonsmooth.files.components import TYPE, Table, table_of
-from nonsmooth.interfaces import Body
-from nonsmooth.model.options import Options
+from nonsmooth.interfaces import Body, Engine
 from nonsmooth.plugins import registry
 from nonsmooth.solution.files import replacing
 from nonsmooth.system.contact import Declaration, Tie
@@ -23,7 +23,7 @@ def save_system(
     *,
     t_end: float | None = None,
     sample_interval: float | None = None,
-    options: Options | None = None,
+    engine: Engine | None = None,
     title: str = "",
     names: Sequence[str] = (),
 ) -> None:
@@ -39,8 +39,8 @@ def save_system(
         The file, ending in .toml, .yaml or .yml.
     t_end, sample_interval : float, optional
         End time and time between samples [s].
-    options : Options, optional
-        How to run it; the defaults are not written.
+    engine : Engine, optional
+        What is to run it; the defaults are not written.
     title : str
         One line that says what it is.
     names : sequence of str
@@ -56,12 +56,12 @@ def save_system(
         If the file cannot be written.
     """
     form = formats.of(Path(path))
-    tables = _tables(system, t_end, sample_interval, options, title, names)
+    tables = _tables(system, t_end, sample_interval, engine, title, names)
     with replacing(Path(path)) as part:
         part.write_text(form.write(tables), encoding="utf-8")
 
 
-def text_of_system(system: System, *, t_end: float, options: Options, title: str) -> str:
+def text_of_system(system: System, *, t_end: float, engine: Engine, title: str) -> str:
     """Return the TOML text of a system, as :func:`save_system` writes it.
 
     Raises
@@ -69,14 +69,14 @@ def text_of_system(system: System, *, t_end: float, options: Options, title: str
     InvalidInput
         If a component cannot be written; it is named.
     """
-    return formats.of(Path("system.toml")).write(_tables(system, t_end, None, options, title, ()))
+    return formats.of(Path("system.toml")).write(_tables(system, t_end, None, engine, title, ()))
 
 
 def _tables(
     system: System,
     t_end: float | None,
     sample_interval: float | None,
-    options: Options | None,
+    engine: Engine | None,
     title: str,
     names: Sequence[str],
 ) -> Table:
@@ -84,8 +84,8 @@ def _tables(
     times = {"t_end": t_end, "sample_interval": sample_interval}
     tables |= {name: float(value) for name, value in times.items() if value is not None}
     tables["gravity"] = 0.0 - system.gravity[2]
-    if options is not None and options != Options():
-        tables["options"] = table_of(options, "options", Options)
+    if engine is not None and engine != EventDriven():
+        tables["engine"] = table_of(engine, "engine", EventDriven)
     known = dict(zip(map(id, system.bodies), _names(system.bodies, names), strict=True))
     laws = _Laws()
     contacts = [_contact(said, known, laws, f"contacts[{i}]") for i, said in enumerate(system.declarations)]

@@ -5,6 +5,7 @@ from nonsmooth.interfaces.contact_kinematics import CandidateSearch, ContactKine
 from nonsmooth.interfaces.convex_shape import ConvexShape
 from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.interfaces.distance_backend import DistanceBackend
+from nonsmooth.interfaces.engine import Engine
 from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
@@ -26,6 +27,7 @@ __all__ = [
     "ConvexShape",
     "Criterion",
     "DistanceBackend",
+    "Engine",
     "FrictionLaw",
     "Guard",
     "ImpactLaw",

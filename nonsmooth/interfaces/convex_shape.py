@@ -8,8 +8,8 @@ from typing import final
 import numpy as np
 
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.convex_solid import ConvexSolid
 from nonsmooth.interfaces.shape import Shape
-from nonsmooth.solids.convex import ConvexSolid
 
 
 class ConvexShape(Shape):

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS
-from nonsmooth.engine.memory.layout import COUNTS, N_ACCOUNTS
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
-from nonsmooth.engine.memory.modes import POLICIES
-from nonsmooth.engine.memory.solvers import pivoted_contacts, solver_number
+from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import initial_state, lay_contacts
 from nonsmooth.model.linkages import linkages
-from nonsmooth.model.options import Options
 from nonsmooth.model.pools import lay_pools
 from nonsmooth.model.units import find_units, lay_units
 from nonsmooth.system.system import System
@@ -29,7 +26,7 @@ _TYPICAL = 32
 _SAMPLE_ROWS = 4096
 
 
-def assemble(system: System, options: Options) -> LaidOut:
+def assemble(system: System, engine: Engine) -> LaidOut:
     """Lay out a validated system.
 
     Raises
@@ -37,12 +34,12 @@ def assemble(system: System, options: Options) -> LaidOut:
     InvalidInput
         If bodies overlap at the start, a joint is not closed there, or a guard has no value.
     """
-    model = lay_out(system, options)
+    model = lay_out(system, engine)
     check_start(model)
     return model
 
 
-def lay_out(system: System, options: Options) -> LaidOut:
+def lay_out(system: System, engine: Engine) -> LaidOut:
     """Lay out a system, and list the contacts that are near each other at its start; look at nothing else there.
 
     Raises
@@ -50,20 +47,21 @@ def lay_out(system: System, options: Options) -> LaidOut:
     InvalidInput
         If these are too many.
     """
-    model = lay(system, options)
+    model = lay(system, engine)
     model.memory.array("y", model.n_q + model.n_u)[:] = np.concatenate(system.starts())
     model.list_contacts()
     return model
 
 
-def lay(system: System, options: Options) -> LaidOut:
+def lay(system: System, engine: Engine) -> LaidOut:
     """Lay out a system that stands nowhere yet.
 
     Raises
     ------
     InvalidInput
-        If a guard has no value where the system was placed.
+        If the engine cannot run it, or a guard has no value where it was placed.
     """
+    engine.check(system)
     check_guards(system, 0.0, *system.starts())
     bodies, contacts = system.bodies, system.contacts
     n_q = sum(body.n_q for body in bodies)
@@ -88,15 +86,15 @@ def lay(system: System, options: Options) -> LaidOut:
         "n_u": n_u,
         "n_y": n_q + n_u + N_ACCOUNTS + n_states,
         "n_states": n_states,
-        "n_pivoted": pivoted_contacts(solver_number(options.solver), units.n_slots),
         "map_width": map_width(contacts),
         "event_floats": _EVENTS * (EVENT_HEAD + 3 * min(units.n_slots, _TYPICAL) + n_q + 2 * n_u) + MOST_EVENTS * row,
         "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL))
         + MOST_EVENTS * (CODE_HEAD + 2 * units.n_slots),
         "sample_capacity": _SAMPLE_ROWS,
+        **engine.counts(units.n_slots),
     }
-    assert set(counts) == set(COUNTS)
-    memory = allocate(counts)
+    assert counts.keys() <= set(COUNTS)
+    memory = allocate(dict.fromkeys(COUNTS, 0) | counts, engine.rooms)
     heap = Heap(memory)
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     places = lay_bodies(system, memory, heap)
@@ -107,31 +105,6 @@ def lay(system: System, options: Options) -> LaidOut:
     lay_pools(memory, heap, units.pools, units.frames)
     lay_guards(system, memory, heap)
     model = LaidOut(system, heap.close(), n_q, n_u, n_states)
-    _set_scalars(model, options)
+    for name, value in engine.settings(system.time_scale).items():
+        model.memory.scalars[name] = value
     return model
-
-
-def _set_scalars(model: LaidOut, options: Options) -> None:
-    scalars = model.memory.scalars
-    step = min(options.largest_step, model.system.time_scale / options.steps_per_period)
-    values = {
-        "solver": solver_number(options.solver),
-        "policy": POLICIES.index(options.painleve),
-        "rtol": options.tolerance,
-        "impact_rtol": options.impact_tolerance,
-        "time_tolerance": options.time_tolerance,
-        "time_resolution": options.time_tolerance,
-        "gap_tolerance": options.gap_tolerance,
-        "velocity_tolerance": options.velocity_tolerance,
-        "h_max": step,
-        "h_free": step,
-        "h_closed": step,
-        "h_sampled": math.inf,
-        "h_valid": math.inf,
-        "last_event_t": -math.inf,
-        "chosen_t": -math.inf,
-        "feature_t": -math.inf,
-        "driven_t": -math.inf,
-    }
-    for name, value in values.items():
-        scalars[name] = value

@@ -13,7 +13,7 @@ from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.linkages import linkages
-from nonsmooth.solids.start import check_overlaps, frames_of, overlap_allowed
+from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 

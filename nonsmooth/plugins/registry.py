@@ -16,6 +16,7 @@ from nonsmooth.interfaces import (
     Body,
     ContactKinematics,
     DistanceBackend,
+    Engine,
     Guard,
     ImpactLaw,
     Joint,
@@ -38,6 +39,7 @@ GROUPS: dict[str, tuple[type, ...]] = {
     "motions": (Motion,),
     "guards": (Guard,),
     "distances": (DistanceBackend,),
+    "engines": (Engine,),
 }
 """Entry-point groups ``nonsmooth.<name>`` and the interfaces that their members implement."""
 
@@ -52,6 +54,7 @@ KINDS = {
     "motions": "motion",
     "guards": "guard",
     "distances": "library for distances",
+    "engines": "engine",
 }
 """What one member of a group is called."""
 

@@ -9,7 +9,8 @@ from typing import Any
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.components import TYPE
 from nonsmooth.files.parsing import parse
-from nonsmooth.files.reading import Setup, load_system
+from nonsmooth.files.reading import Setup, engine_of, load_system
+from nonsmooth.interfaces import Engine
 from nonsmooth.plugins import file
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
@@ -98,3 +99,20 @@ def _refuse_files(value: Any, thing: str) -> None:
     elif isinstance(value, list):
         for one in value:
             _refuse_files(one, thing)
+
+
+def stored_engine(output: Output, folder: SolutionFolder) -> Engine:
+    """Return the engine that ran, as the folder says it.
+
+    Raises
+    ------
+    InvalidInput
+        If it does not say it, or would have a Python file run.
+    PluginError
+        If its class cannot be loaded.
+    """
+    thing, table = f"{output.solution}: engine", folder.said("engine")
+    if table is None:
+        raise InvalidInput(thing, "must be one that is installed", None, "Give it as engine=...")
+    _refuse_files(table, thing)
+    return engine_of(thing, table, output.folder)

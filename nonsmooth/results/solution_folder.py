@@ -12,14 +12,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
+from nonsmooth.files.components import Table, table_of
 from nonsmooth.files.writing import text_of_system
-from nonsmooth.model.options import Options
-from nonsmooth.parameters import rules
+from nonsmooth.interfaces import Engine
 from nonsmooth.results.lock import Lock
 from nonsmooth.results.output import Output, versions
 from nonsmooth.results.state_file import state_bytes, state_from
-from nonsmooth.results.variables import (
+from nonsmooth.results.zarr_folder import ZarrFolder
+from nonsmooth.solution.events import Events
+from nonsmooth.solution.files import FileError
+from nonsmooth.solution.solution import Solution
+from nonsmooth.solution.state import State
+from nonsmooth.solution.variable import Variable
+from nonsmooth.solution.variables import (
     GROWING,
     events_of,
     of_events,
@@ -27,11 +34,6 @@ from nonsmooth.results.variables import (
     of_samples,
     of_system,
 )
-from nonsmooth.results.zarr_folder import Variable, ZarrFolder
-from nonsmooth.solution.events import Events
-from nonsmooth.solution.files import FileError
-from nonsmooth.solution.solution import Solution
-from nonsmooth.solution.state import State
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]
@@ -65,7 +67,7 @@ class SolutionFolder:
         self._safe = False
 
     @classmethod
-    def created(cls, output: Output, system: System, options: Options, t_end: float, n_states: int) -> SolutionFolder:
+    def created(cls, output: Output, system: System, engine: Engine, t_end: float, n_states: int) -> SolutionFolder:
         """Make the folder of a run that begins; what it holds counts from the first :meth:`append` on.
 
         Raises
@@ -82,9 +84,9 @@ class SolutionFolder:
                 shutil.rmtree(path)
             except OSError as error:
                 raise FileError(path, error) from error
-        made, lock = ZarrFolder(path, _attributes(output, options, t_end)), Lock(path)
+        made, lock = ZarrFolder(path, _attributes(output, engine, t_end)), Lock(path)
         found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
-        for variable in (*of_system(system), _text(system, output, options, t_end, made.attributes)):
+        for variable in (*of_system(system), _text(system, output, engine, t_end, made.attributes)):
             made.add(variable, grows=False)
         columns = found._n_q + found._n_u + N_ACCOUNTS + n_states
         nothing = Events.from_buffers(np.zeros(0), np.zeros(0, np.int64), len(system.contacts), found._n_q, found._n_u)
@@ -324,7 +326,7 @@ def check_free(output: Output) -> None:
         )
 
 
-def _attributes(output: Output, options: Options, t_end: float) -> dict[str, Any]:
+def _attributes(output: Output, engine: Engine, t_end: float) -> dict[str, Any]:
     known = versions()
     return {
         "Conventions": "CF-1.11",
@@ -333,17 +335,25 @@ def _attributes(output: Output, options: Options, t_end: float) -> dict[str, Any
         "status": UNFINISHED,
         "message": _MESSAGE,
         "t_end_asked": t_end,
-        "options": json.dumps({name: getattr(options, name) for name in rules(Options)}),
+        "engine": json.dumps(_table(engine)),
         "versions": json.dumps(known),
         "request": json.dumps(dict(output.request)),
         "parameters": json.dumps(dict(output.parameters)),
     }
 
 
-def _text(system: System, output: Output, options: Options, t_end: float, attributes: dict[str, Any]) -> Variable:
+def _table(engine: Engine) -> Table | None:
+    """Return an engine as a table; None for one that no file can name."""
+    try:
+        return table_of(engine, "engine", EventDriven)
+    except InvalidInput:
+        return None
+
+
+def _text(system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]) -> Variable:
     """Return the system as a scenario file; where it cannot be one, an attribute says why."""
     try:
-        text = text_of_system(system, t_end=t_end, options=options, title=output.title)
+        text = text_of_system(system, t_end=t_end, engine=engine, title=output.title)
     except InvalidInput as error:
         text, attributes["system_missing"] = "", str(error)
     return Variable("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.solution.files import FileError
+from nonsmooth.solution.variable import Variable
 
 _GROUP = {"zarr_format": 2}
 _CONSOLIDATED = ".zmetadata"
@@ -35,29 +36,6 @@ _AT_ONCE = 16
 """Files for which the disk is waited for at once."""
 _NAME = re.compile(r"\w+")
 _KINDS = "fiuU"
-
-
-@final
-@dataclass(frozen=True)
-class Variable:
-    """An array with names for its axes.
-
-    Attributes
-    ----------
-    name : str
-        Its name.
-    dimensions : tuple of str
-        Names of its axes.
-    values : array
-        Its content.
-    attributes : mapping
-        Unit and what it is.
-    """
-
-    name: str
-    dimensions: tuple[str, ...]
-    values: NDArray[Any]
-    attributes: Mapping[str, Any]
 
 
 @final

@@ -6,7 +6,8 @@ import hashlib
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import CATALOGUE, CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
+from nonsmooth.engine.memory.layout import CATALOGUE
+from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
 from nonsmooth.model.image import Image, Integers
 from nonsmooth.model.laid_out import LaidOut
 

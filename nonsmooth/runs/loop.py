@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import final
 
 from nonsmooth.engine.memory.modes import PAUSED, STOPPED
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.keeper import Keeper
@@ -45,7 +46,9 @@ class Ending:
     trouble: str = ""
 
 
-def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progress | None, keeper: Keeper) -> Ending:
+def run_engine(
+    engine: Engine, model: LaidOut, records: Records, begun: Image, progress: Progress | None, keeper: Keeper
+) -> Ending:
     """Run to the end time, to a failure, or until somebody interrupts; ``begun`` is the image of where it starts.
 
     Raises
@@ -61,11 +64,11 @@ def run_engine(model: LaidOut, records: Records, begun: Image, progress: Progres
     try:
         with Watch(memory, report) as watch:
             while status == PAUSED:
-                status = int(watch.call("advance", keeper.steps, 1))
+                status = engine.advance(watch.call, memory, keeper.steps, True)
                 if status == PAUSED:
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
-                    status = int(watch.call("advance", _STEPS_NEAR_END, 0))
+                    status = engine.advance(watch.call, memory, _STEPS_NEAR_END, False)
                 records.drain()
                 if progress is not None:
                     progress(float(memory.scalars["t"][0]), t_end)

@@ -13,12 +13,12 @@ from typing import final
 
 from nonsmooth.engine.memory.modes import PAUSED
 from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.copying import copied
 from nonsmooth.model.image import Guards, Image
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.options import Options
 from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
@@ -45,8 +45,8 @@ class Model:
     Nothing of one run is left for the next.  A model runs in one thread at a time; another thread takes a copy.
     """
 
-    def __init__(self, laid: LaidOut, options: Options, start: State, key: str = "") -> None:
-        self._laid, self._options, self._start = laid, options, start
+    def __init__(self, laid: LaidOut, engine: Engine, start: State, key: str = "") -> None:
+        self._laid, self._engine, self._start = laid, engine, start
         self._blank = Image.of(laid.memory)
         self._key = key or digest(laid, self._blank)
         self._guards = Guards.of(self._blank)
@@ -56,15 +56,15 @@ class Model:
         self._runs = threading.Lock()
 
     @classmethod
-    def of(cls, system: System, options: Options) -> Model:
+    def of(cls, system: System, engine: Engine) -> Model:
         """Return the model of a system, whose start has been looked at.
 
         Raises
         ------
         InvalidInput
-            If bodies overlap at the start, a joint is not closed there, or a guard has no value.
+            If the engine cannot run it, bodies overlap at the start, a joint is open there, or a guard has no value.
         """
-        made = cls(lay(system, options), options, State.at(system))
+        made = cls(lay(system, engine), engine, State.at(system))
         check_start(made._laid)
         return made
 
@@ -74,9 +74,9 @@ class Model:
         return self._laid.system
 
     @property
-    def options(self) -> Options:
-        """Its tolerances."""
-        return self._options
+    def engine(self) -> Engine:
+        """What integrates it, with its options."""
+        return self._engine
 
     @property
     def start(self) -> State:
@@ -91,7 +91,7 @@ class Model:
         InvalidInput
             If the model runs.
         """
-        return Model(self._copied(), self._options, self._start, self._key)
+        return Model(self._copied(), self._engine, self._start, self._key)
 
     def with_laws_of(self, system: System) -> Model:
         """Return the model of a system that differs in its laws only, without assembling it.
@@ -107,7 +107,7 @@ class Model:
         InvalidInput
             If anything else differs, or the start is not valid, or the model runs.
         """
-        made = Model(lay_laws(self._copied(), system), self._options, State.at(system))
+        made = Model(lay_laws(self._copied(), system), self._engine, State.at(system))
         check_start(made._laid)
         return made
 
@@ -262,7 +262,7 @@ class Model:
             # takes milliseconds where there are many contacts
             begun = Image.of(laid.memory)
         if output is not None:
-            folder = SolutionFolder.created(output, laid.system, self._options, t_end, laid.n_states)
+            folder = SolutionFolder.created(output, laid.system, self._engine, t_end, laid.n_states)
             keeper = Writer(folder, records, self._states_from(energy), 0.0)
         return self._complete(records, begun, energy, progress, keeper, 0.0)
 
@@ -280,7 +280,7 @@ class Model:
         began = time.perf_counter()
         with contextlib.closing(keeper):
             keeper.begin(begun)
-            ending = run_engine(laid, records, begun, progress, keeper)
+            ending = run_engine(self._engine, laid, records, begun, progress, keeper)
             said = reason(laid, self._guards, ending)
             wall += time.perf_counter() - began
             left = state_of(laid, self._blank, self._key, energy, ending)

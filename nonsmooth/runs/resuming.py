@@ -6,8 +6,8 @@ import warnings
 from pathlib import Path
 
 from nonsmooth.errors import InvalidInput, NonsmoothWarning
-from nonsmooth.model.options import Options
-from nonsmooth.results.opening import stored_setup
+from nonsmooth.interfaces import Engine
+from nonsmooth.results.opening import stored_engine, stored_setup
 from nonsmooth.results.output import Output, versions
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.loop import Progress
@@ -20,7 +20,13 @@ class OtherVersions(NonsmoothWarning):
     """A run goes on with other versions than it began with, so that its last bits may differ."""
 
 
-def resume(output: Output | Path | str, *, system: System | None = None, progress: Progress | None = None) -> Solution:
+def resume(
+    output: Output | Path | str,
+    *,
+    system: System | None = None,
+    engine: Engine | None = None,
+    progress: Progress | None = None,
+) -> Solution:
     """Go on with a run that was cut off, to the end that it would have had, to the last bit.
 
     Parameters
@@ -29,6 +35,8 @@ def resume(output: Output | Path | str, *, system: System | None = None, progres
         The folder of its results, which are appended to.
     system : System, optional
         What ran; by default it is built from what the folder says of it.
+    engine : Engine, optional
+        What ran it; by default that which the folder names.
     progress : callable, optional
         As for :func:`nonsmooth.simulate`.
 
@@ -66,4 +74,4 @@ def resume(output: Output | Path | str, *, system: System | None = None, progres
         text = f"{where.folder}: the run began with {'; '.join(other)}. Its last bits may differ from there on."
         warnings.warn(text, OtherVersions, stacklevel=2)
     made = system or stored_setup(where, folder).system
-    return Model.of(made, Options(**folder.said("options"))).resume(where, progress=progress)
+    return Model.of(made, engine or stored_engine(where, folder)).resume(where, progress=progress)

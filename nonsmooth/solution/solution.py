@@ -162,6 +162,6 @@ class Solution:
 
         What belongs to the contacts of an event is ragged: ``event_size`` says how many stand along ``listing``.
         """
-        from nonsmooth.results.dataset import to_dataset
+        from nonsmooth.solution.dataset import to_dataset
 
         return to_dataset(self)

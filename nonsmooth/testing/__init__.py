@@ -9,6 +9,7 @@ Each ``check_...`` returns a list of :class:`Property`; nothing runs before a pr
 
 from nonsmooth.testing.body import check_body
 from nonsmooth.testing.distances import check_distance_backend
+from nonsmooth.testing.engine import check_engine
 from nonsmooth.testing.friction import check_friction_law
 from nonsmooth.testing.guard import check_guard
 from nonsmooth.testing.impact import check_impact_law
@@ -30,6 +31,7 @@ __all__ = [
     "check_body",
     "check_contact_kinematics",
     "check_distance_backend",
+    "check_engine",
     "check_friction_law",
     "check_guard",
     "check_impact_law",

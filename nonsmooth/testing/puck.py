@@ -10,8 +10,8 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, CompliantNormalLaw, ContactKinematics, ImpactLaw, NormalLaw, Shape, TangentialLaw
-from nonsmooth.model.options import Options
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.contact import Contact
@@ -260,12 +260,12 @@ def run(
         Contact("contact of puck and slab", base, puck, (0, 0), spots, touch, reaches, reaches, *laws)
     )
     system.set_start(puck, np.array([0.0, 0.0, height]), np.array(u, dtype=float))
-    options = Options(
+    engine = EventDriven(
         gap_tolerance=min(1e-12, _FINE * puck.length),
         velocity_tolerance=min(2e-8, _FINE * puck.speed),
         time_tolerance=min(1e-12, _FINE * puck.length / puck.speed),
     )
-    return simulate(system, t_end, sample_interval=t_end, options=options)
+    return simulate(system, t_end, sample_interval=t_end, engine=engine)
 
 
 def _level(indentation: float, rate: float, closing_rate: float, load: float) -> float:

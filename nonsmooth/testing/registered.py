@@ -14,6 +14,7 @@ from nonsmooth.interfaces import (
     Body,
     ContactKinematics,
     DistanceBackend,
+    Engine,
     FrictionLaw,
     Guard,
     ImpactLaw,
@@ -29,6 +30,7 @@ from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.plugins import registry
 from nonsmooth.testing.body import check_body
 from nonsmooth.testing.distances import check_distance_backend
+from nonsmooth.testing.engine import check_engine
 from nonsmooth.testing.friction import check_friction_law
 from nonsmooth.testing.guard import check_guard
 from nonsmooth.testing.impact import check_impact_law
@@ -54,6 +56,7 @@ _CHECKS: tuple[tuple[Any, Callable[[Any], list[Property]]], ...] = (
     (Shape, check_shape),
     (Guard, check_guard),
     (DistanceBackend, check_distance_backend),
+    (Engine, check_engine),
     (Scenario, check_scenario),
 )
 

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.layout import PAIR
 from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.model.assembly import lay_out
-from nonsmooth.model.options import Options
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 from nonsmooth.testing.reference import Constant, Rigid, Spring
@@ -91,7 +91,7 @@ class Rig:
         system._contacts.append(
             Contact(name, *self._bodies, (0, 0), shapes, kinematics, extents, levers, Rigid(), Constant(), Spring())
         )
-        self._model = lay_out(system, Options())
+        self._model = lay_out(system, EventDriven())
 
     def put(self, poses: Sequence[Pose], u: Array) -> None:
         """Put the bodies somewhere, with velocities and angular velocities in world axes, shape [12]."""

@@ -18,10 +18,10 @@ import numpy as np
 
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import rules
-from nonsmooth.results.events_table import save_events
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.simulate import simulate
+from nonsmooth.solution.events_table import save_events
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from nonsmooth.testing.component import component_rows

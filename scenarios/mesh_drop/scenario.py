@@ -17,7 +17,7 @@ from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.placing import at_height
+from nonsmooth.placing.starts import at_height
 from nonsmooth.rotations import rotation
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution

@@ -14,7 +14,7 @@ from bodies import BoxBody, Plate, Rest
 from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.placing import touching
+from nonsmooth.placing.starts import touching
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System

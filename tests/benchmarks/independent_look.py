@@ -40,6 +40,8 @@ Array = NDArray[np.float64]
 WRONG = 1e-9
 """Error of ours that counts [m]."""
 _PER_SHAPES = 50
+_BORDER = 1e-8
+"""Way within which nearest points at the end of an edge may be told as points of the edge [m]."""
 _SMALL, _PARALLEL = 1e-6, 0.01
 """Radius of curvature that counts as none [m], and angle of an edge and a rim, or of two, below which they do [rad]."""
 DRAWN: dict[str, Callable[[Generator], Shape]] = {
@@ -175,6 +177,14 @@ def has_no_contact(shapes: tuple[Shape, Shape], one: Place, two: Place, found: D
     return bool(least < max(_SMALL, _PARALLEL**2 * min(radii[0], others_radii[0])))
 
 
+def _is_corner(asked: _Asked, one: Place, two: Place, found: DistanceResult) -> bool:
+    """Return whether there is no contact by design, here or beside: what ends here ends there, to :data:`_BORDER`."""
+    beside = [(two[0] + way, two[1]) for way in _BORDER * np.vstack([np.eye(3), -np.eye(3)])]
+    return has_no_contact(asked.shapes, one, two, found) or any(
+        has_no_contact(asked.shapes, one, place, asked.proved(one, place)) for place in beside
+    )
+
+
 def _poses(asked: _Asked, rng: Generator) -> Iterator[tuple[Place, Place, DistanceResult]]:
     """Yield a pose anywhere, and one next to touching, with what is proved of each."""
     size = sum(shape.extent for shape in asked.shapes if np.isfinite(shape.extent))
@@ -203,7 +213,7 @@ def _look(asked: _Asked, one: Place, two: Place, found: DistanceResult, tally: T
     if found.lower - slack <= ours <= found.upper + slack:
         tally.told += 1
         tally.worst = max(tally.worst, found.lower - ours, ours - found.upper)
-    elif ours > found.upper and has_no_contact(asked.shapes, one, two, found):
+    elif ours > found.upper and _is_corner(asked, one, two, found):
         tally.apart += 1
     else:
         tally.wrong.append((*asked.shapes, one, two, ours, found))

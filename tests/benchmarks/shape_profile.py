@@ -32,7 +32,7 @@ from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.rooms import ROOMS
 from nonsmooth.engine.native.kernel import address_of, room_addresses
 from nonsmooth.engine.native.native import call_pair
-from nonsmooth.interfaces import Body
+from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
@@ -169,17 +169,18 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
     return kept
 
 
-def profile(build: Callable[[], ns.System], t_end: float, options: ns.Options | None = None) -> Profile:
+def profile(build: Callable[[], ns.System], t_end: float, engine: Engine | None = None) -> Profile:
     """Return where the time of a run goes; of some repetitions that of the least wall time."""
+    integrator = engine or ns.EventDriven()
 
     def run(instrumented: bool) -> tuple[float, list[float], dict[str, np.ndarray]]:
         accounts: dict[str, np.ndarray] = {}
         searches: list[float] = []
-        model = assemble(build(), options or ns.Options())
+        model = assemble(build(), integrator)
         model.memory.scalars["t_end"], model.memory.scalars["sample_interval"] = t_end, t_end / 10.0
         kept = _instrument(model, accounts, searches) if instrumented else None
         began = time.perf_counter()
-        run_engine(model, Records(model), Image.of(model.memory), None, KeepsNothing())
+        run_engine(integrator, model, Records(model), Image.of(model.memory), None, KeepsNothing())
         wall = time.perf_counter() - began
         del kept
         return wall, searches, accounts

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.layout import COUNTS
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
+from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_room, room_addresses
 from nonsmooth.model.delassus import write_delassus
 
@@ -63,7 +63,7 @@ def feet(n: int, random: np.random.Generator) -> Problem:
 def lay_out(problem: Problem, solver: int) -> Memory:
     """Return the engine's memory with the problem in it."""
     n = len(problem.bias) // 3
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n}, ("delassus", "contact"))
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"], memory.scalars["solver"] = n, solver
     memory.scalars["acceleration_scale"] = np.max(np.abs(problem.bias))

@@ -13,9 +13,9 @@ import nonsmooth as ns
 from bodies import FreeBody, Rest
 from nonsmooth.engine.memory.layout import GEOMETRY
 from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.options import Options
 from nonsmooth.parameters import Value
 
 Array = NDArray[np.float64]
@@ -110,7 +110,7 @@ class Rig:
         self._system = ns.System(self._bodies)
         self.contacts = self._system.contact(*self._bodies, **laws)
         self._system.place(self._bodies[1], position=(0.0, 0.0, 50.0))
-        self._model = assemble(self._system, Options())
+        self._model = assemble(self._system, EventDriven())
         # polyhedra have so many contacts that only those of near bodies are listed
         self._model.memory.scalars["margin_of_list"] = self._model.memory.scalars["widest_margin"] = margin
         self._model.list_contacts()

@@ -100,7 +100,7 @@ def test_collisions_conserve_momentum_and_energy(draw: Any, looked_at: int) -> N
         turn = np.roll(Rotation.random(random_state=i).as_quat(), 1)
         spin = tuple(rng.normal(size=3).tolist())
         system.place(one, position=place, orientation=turn, velocity=-3.0 * place, angular_velocity=spin)
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-12))
+    solution = ns.simulate(system, 1.0, engine=ns.EventDriven(tolerance=1e-11, impact_tolerance=1e-12))
     assert solution.counters.impacts >= 5
 
     def totals(q: Array, u: Array) -> tuple[float, Array]:

@@ -141,7 +141,7 @@ def test_free_flight_keeps_energy_and_angular_momentum(body: FreeBody) -> None:
     spin = np.array([8.0, 25.0, 9.0])
     system.place(body, velocity=(0.3, -0.2, 4.0), orientation=TURNED, angular_velocity=spin)
     t_end = 50.0 * 2.0 * math.pi / float(np.linalg.norm(spin))
-    solution = ns.simulate(system, t_end, sample_interval=0.1, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, t_end, sample_interval=0.1, engine=ns.EventDriven(tolerance=1e-11))
     tensor, axes = _tensor(body), Rotation.from_quat(np.roll(solution.q[:, 3:], -1, axis=1)).as_matrix()
     momenta = np.einsum("nij,nj->ni", axes, solution.u[:, 3:] @ tensor)
     size = float(np.linalg.norm(momenta[0]))
@@ -161,7 +161,7 @@ def test_a_tensor_is_a_body_in_other_axes() -> None:
     for body, start, rate in ((given_axes, (1.0, 0.0, 0.0, 0.0), spin), (principal, TURNED, turn.T @ spin)):
         system = ns.System([body])
         system.place(body, orientation=start, angular_velocity=rate)
-        solution = ns.simulate(system, 2.0, options=ns.Options(tolerance=1e-11))
+        solution = ns.simulate(system, 2.0, engine=ns.EventDriven(tolerance=1e-11))
         ends.append(_matrix(solution.q_end[3:]))
     np.testing.assert_allclose(ends[0] @ turn, ends[1], rtol=0, atol=1e-8)
 

@@ -82,6 +82,25 @@ def test_the_least_gap_is_that_of_the_bodies(build: Any, name: str) -> None:
                 poses = [poses[0], (poses[1][0] + (gap - block[0]) * block[1:4], turns[1])]
 
 
+def test_rims_that_pass_each_other_beside_the_bodies_do_not_overlap(build: Any) -> None:
+    """Sharp cones all but touching, rim on side: the rims come nearest where neither reaches into the other cone."""
+    long = {"axis_x": 0.7740172370104975, "axis_y": 0.4891510873504684, "axis_z": -0.4020305094821659}
+    flat = {"axis_x": -0.07390265470201463, "axis_y": -0.49617579022728714, "axis_z": 0.8650710854145582}
+    shapes = Cone(9.674432923558168e-3, 1.878405205808035e-2, **long), Cone(9.47e-3, 1.0410922153147e-2, **flat)
+    turn = Rotation.from_matrix(
+        [[-0.203495, -0.1288, -0.970567], [0.874509, 0.421844, -0.239336], [0.440254, -0.897473, 0.026793]]
+    )
+    poses = [
+        (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])),
+        (np.array([-6.174266e-3, -4.951986e-3, -1.735406e-2]), np.roll(turn.as_quat(), 1)),
+    ]
+    rig = Rig(shapes, build.laws())
+    rig.put(poses, np.zeros(12))
+    facing = rig.geometry[rig.geometry[:, 30] <= 0.0]
+    block = facing[np.argmin(facing[:, 0])]
+    assert 0.0 < block[0] == pytest.approx(_slab(shapes, poses, block[1:4]), abs=1e-14)
+
+
 PASSING = (
     "cylinder-rounded box",
     "flat cone-rounded hull",

@@ -64,7 +64,7 @@ def test_a_vertex_slides_without_friction(build: Any) -> None:
     frame = PointFrame(end_position, end_jacobian, end_bias, (Point(),))
     rod = planar([frame], weight, inertia, (0.0, half * math.sin(tilt), math.pi + tilt), half=half)
     system = build.over(rod, friction=0.0)
-    solution = ns.simulate(system, 0.3, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 0.3, engine=ns.EventDriven(tolerance=1e-11))
 
     def slope(t: float, y: Any) -> Any:
         s, c = math.sin(y[0]), math.cos(y[0])
@@ -111,7 +111,7 @@ def test_the_work_of_a_damper() -> None:
         power=_damper_power,
         constants={"weight": weight, "spring": spring, "damper": damper},
     )
-    solution = ns.simulate(ns.System([body]), 1.0, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(ns.System([body]), 1.0, engine=ns.EventDriven(tolerance=1e-11))
     decay, omega = damper / (2.0 * weight), math.sqrt(spring / weight - (damper / (2.0 * weight)) ** 2)
     exact = (
         0.1 * np.exp(-decay * solution.t) * (np.cos(omega * solution.t) + decay / omega * np.sin(omega * solution.t))

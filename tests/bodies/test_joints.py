@@ -16,8 +16,8 @@ import nonsmooth as ns
 from bodies import Ball, BallJoint, Distance, Dumbbell, Fixed, FreeBody, Harmonic, Hinge, Plate, Slider
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import lay_out
-from nonsmooth.model.options import Options
 
 vectors = st.tuples(*[st.floats(-1.0, 1.0)] * 3)
 JOINTS = [
@@ -42,7 +42,7 @@ def test_rates_and_biases_are_derivatives(joint: Any, places: Any, turns: Any, u
     bodies = Ball(0.05), Ball(0.07)
     system = ns.System(bodies)
     system.joint(joint, *bodies)
-    memory = lay_out(system, Options()).memory
+    memory = lay_out(system, EventDriven()).memory
     n = joint.n_rows
     starts = [
         (np.add(p, (0.0, 0.0, 3.0 * i)), _turn([1.0, 0, 0, 0], t, 1.0))
@@ -86,7 +86,7 @@ def test_pendulum(joint: Any, gyration: float) -> None:
     """A ball on a hinge or on a string swings as its equation says; the joint stays closed."""
     length, angle = 0.5, 1.0
     system, ball = _pendulum(length, angle, joint)
-    solution = ns.simulate(system, 3.0, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 3.0, engine=ns.EventDriven(tolerance=1e-11))
     q, _ = solution.of(ball)
 
     def slope(t: float, y: Any) -> Any:
@@ -111,7 +111,7 @@ def test_driven_support() -> None:
         orientation=(math.cos(angle / 2), 0.0, math.sin(angle / 2), 0.0),
         velocity=(0.0, 0.0, 0.05 * omega),
     )
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 1.0, engine=ns.EventDriven(tolerance=1e-11))
 
     def slope(t: float, y: Any) -> Any:
         gravity = 9.81 - 0.05 * omega**2 * math.sin(omega * t)
@@ -183,7 +183,7 @@ def test_two_fixed_balls_are_a_dumbbell() -> None:
                 velocity=(0.1, 0.02, 0.0),
                 angular_velocity=(0.0, 2.0, 0.0),
             )
-        solution = ns.simulate(system, 0.4, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-12))
+        solution = ns.simulate(system, 0.4, engine=ns.EventDriven(tolerance=1e-11, impact_tolerance=1e-12))
         assert solution.counters.impacts > 5
         assert solution.energy.residual <= 1e-8
         position = solution.q_end.reshape(-1, 7)[:, :3].mean(axis=0)

@@ -25,7 +25,7 @@ def test_spring_between_two_balls(damping: float) -> None:
     """The distance of two balls on a spring is a damped oscillation about its natural length."""
     system, one, two = _two(Spring(stiffness=200.0, length=0.5, damping=damping))
     system.place(two, position=(0.0, 0.0, 0.6))
-    solution = ns.simulate(system, 2.0, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 2.0, engine=ns.EventDriven(tolerance=1e-11))
     mass = 1.0 / (1.0 / one.total_mass + 1.0 / two.total_mass)
     decay = damping / (2.0 * mass)
     omega = math.sqrt(200.0 / mass - decay**2)
@@ -55,7 +55,7 @@ def test_forces_in_pairs(load: Any) -> None:
     system, one, two = _two(load)
     system.place(one, velocity=(0.3, 0.0, -0.1), angular_velocity=(2.0, 1.0, 0.0))
     system.place(two, position=(0.1, 0.2, 0.5), velocity=(0.0, 0.4, 0.0), angular_velocity=(0.0, -3.0, 1.0))
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 1.0, engine=ns.EventDriven(tolerance=1e-11))
     total, turning = np.zeros((len(solution.t), 3)), np.zeros((len(solution.t), 3))
     for ball in (one, two):
         q, u = solution.of(ball)
@@ -75,7 +75,7 @@ def test_torsion_spring_on_a_hinge() -> None:
     system = ns.System([plate, ball], gravity=0.0)
     system.joint(Hinge(), plate, ball)
     system.load(TorsionSpring(2.0, angle=0.5), plate, ball)
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 1.0, engine=ns.EventDriven(tolerance=1e-11))
     q, _ = solution.of(ball)
     omega = math.sqrt(2.0 / ball.inertia[0])
     np.testing.assert_allclose(2.0 * np.arctan2(q[:, 5], q[:, 3]), 0.5 * (1.0 - np.cos(omega * solution.t)), atol=1e-8)

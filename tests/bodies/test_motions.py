@@ -26,9 +26,9 @@ from bodies import (
 )
 from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Motion
 from nonsmooth.model.assembly import lay_out
-from nonsmooth.model.options import Options
 
 OMEGA = 2.0 * math.pi * 25.0
 TURNED = (math.cos(0.4), 0.6 * math.sin(0.4), 0.0, 0.8 * math.sin(0.4))
@@ -108,7 +108,7 @@ class _Frame:
     """The frame of a motion as the engine sees it."""
 
     def __init__(self, motion: Motion) -> None:
-        self.model = lay_out(ns.System([DrivenBody(motion, (Sphere(1.0),))]), Options())
+        self.model = lay_out(ns.System([DrivenBody(motion, (Sphere(1.0),))]), EventDriven())
         self.out = int(self.model.memory.array("body_out", 1)[0])
 
     def __call__(self, t: float) -> Any:
@@ -221,7 +221,7 @@ def _bounce(build: Any, motion: Motion) -> Any:
     ball = Ball(5e-3)
     system = build.over(ball, motion, friction=0.2, restitution=0.6)
     ns.touching(system, ball)
-    return ns.simulate(system, 0.3, options=ns.Options(tolerance=1e-10))
+    return ns.simulate(system, 0.3, engine=ns.EventDriven(tolerance=1e-10))
 
 
 def test_the_same_motion_said_in_three_ways(build: Any) -> None:

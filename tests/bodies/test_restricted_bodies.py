@@ -81,7 +81,7 @@ def test_a_planar_body_moves_as_the_free_one(build: Any, friction: float) -> Non
             }
         )
         ns.at_height(system, body, 0.002, **start)
-        solution = ns.simulate(system, 0.25, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-11))
+        solution = ns.simulate(system, 0.25, engine=ns.EventDriven(tolerance=1e-11, impact_tolerance=1e-11))
         assert solution.energy.residual <= 1e-7
         q = solution.q_end
         ends.append(q if planar else [q[0], q[2], 2.0 * math.atan2(q[5], q[3])])

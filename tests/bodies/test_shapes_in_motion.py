@@ -95,7 +95,7 @@ def test_steady_rolling_in_a_circle(build: Any, shape: Shape, tilt: float, prece
     body = Carrier((shape,), mass, (across, across, along))
     system = build.over(body, friction=1.5)
     system.place(body, position=(0, 0, radius * s), orientation=orientation, velocity=velocity, angular_velocity=omega)
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 1.0, engine=ns.EventDriven(tolerance=1e-11))
     assert len(build.lived(solution)) == 1
     assert solution.energy.residual <= 1e-9
     center = np.cross([0.0, 0.0, 1.0], velocity) / precession
@@ -116,7 +116,7 @@ def test_an_ellipsoid_rocks_at_its_frequency(build: Any) -> None:
     height = math.hypot(a * math.sin(tilt), c * math.cos(tilt))
     system.place(body, position=(0.0, 0.0, height), orientation=(math.cos(tilt / 2.0), 0.0, math.sin(tilt / 2.0), 0.0))
     period = 2.0 * math.pi / math.sqrt(GRAVITY * (a * a / c - c) / (inertia + c * c))
-    solution = ns.simulate(system, 2.25 * period, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 2.25 * period, engine=ns.EventDriven(tolerance=1e-11))
     angle = 2.0 * solution.q_end[5]
     assert abs(angle) < 1e-5 * tilt
     rate = tilt * 2.0 * math.pi / period
@@ -141,7 +141,7 @@ def _leaves(body: Body, stand: Stand, start: Any, build: Any, velocity: Any) -> 
     system = ns.System([stand, body])
     system.contact(stand, body, **build.laws(friction=0.0))
     system.place(body, position=start, velocity=velocity)
-    solution = ns.simulate(system, 0.6, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 0.6, engine=ns.EventDriven(tolerance=1e-11))
     events = solution.events
     left = events.q[events.cause == CAUSES.index("lift-off")]
     assert len(left) >= 1

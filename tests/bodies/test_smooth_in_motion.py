@@ -68,7 +68,7 @@ def test_free_collisions_conserve_momentum_and_energy() -> None:
         system.place(
             one, position=tuple(place), orientation=tuple(turn), velocity=tuple(-3.0 * place), angular_velocity=spin
         )
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-12))
+    solution = ns.simulate(system, 1.0, engine=ns.EventDriven(tolerance=1e-11, impact_tolerance=1e-12))
     assert solution.counters.impacts >= 5
     before, after = (
         _totals(bodies, q, u) for q, u in ((solution.q[0], solution.u[0]), (solution.q_end, solution.u_end))
@@ -88,7 +88,7 @@ def test_a_superellipsoid_that_is_a_ball_bounces_like_one() -> None:
         system = ns.System([plate, body], gravity=9.81)
         system.contact(body, plate, normal=Unilateral(), friction=Coulomb(0.2), impact=EnergeticImpact(0.8))
         system.place(body, position=(0.0, 0.0, 0.1), velocity=(0.3, 0.0, 0.0), angular_velocity=(0.0, -3.0, 2.0))
-        solution = ns.simulate(system, 0.6, options=ns.Options(tolerance=1e-11, impact_tolerance=1e-11))
+        solution = ns.simulate(system, 0.6, engine=ns.EventDriven(tolerance=1e-11, impact_tolerance=1e-11))
         times.append(solution.events.time)
     assert len(times[0]) > 3
     for other in times[1:]:
@@ -105,7 +105,7 @@ def test_an_ellipsoid_rolls_over_a_box_and_its_edge() -> None:
     system.place(
         roller, position=(0.08, 0.0, 0.05 + radius), velocity=(0.2, 0.0, 0.0), angular_velocity=(0.0, 0.2 / radius, 0.0)
     )
-    solution = ns.simulate(system, 0.25, sample_interval=1e-3, options=ns.Options(tolerance=1e-12))
+    solution = ns.simulate(system, 0.25, sample_interval=1e-3, engine=ns.EventDriven(tolerance=1e-12))
     # friction has its bound where the normal force ends, so that it slips a little before it leaves
     slips = solution.events.time[np.flatnonzero(solution.events.after[:, 0] != 1)[0]]
     on = solution.t < slips

@@ -116,6 +116,7 @@ def test_every_kind_of_that_name(call: Call) -> None:
 ONE_OF_A_KIND = {
     "bodies": "line_body",
     "distances": "fcl",
+    "engines": "event_driven",
     "guards": "tilt_guard",
     "joints": "ball_joint",
     "kinematics": "plane_vertex",

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws")
+GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws", "engines")
 Call = Callable[..., tuple[int, str, str]]
 
 

@@ -57,7 +57,7 @@ Numbers: TypeAlias = dict[str, Any]
 def _numbers(system: ns.System, t_end: float, **options: Any) -> Numbers:
     """Return what a run gives; one that ends early, too."""
     try:
-        s = ns.simulate(system, t_end, sample_interval=t_end / 20.0, options=ns.Options(**options))
+        s = ns.simulate(system, t_end, sample_interval=t_end / 20.0, engine=ns.EventDriven(**options))
     except ns.RunFailed as failure:
         if not isinstance(failure.solution, ns.Solution):
             raise

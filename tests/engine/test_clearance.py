@@ -116,7 +116,7 @@ def test_a_body_that_tumbles_past_a_ball_is_missed_by_no_step(body: EllipsoidBod
         system.place(body, orientation=q / np.linalg.norm(q), angular_velocity=turning)
         times = []
         for step in (0.1, 1e-3):
-            run = ns.simulate(system, 0.15, sample_interval=0.15, options=ns.Options(largest_step=step))
+            run = ns.simulate(system, 0.15, sample_interval=0.15, engine=ns.EventDriven(largest_step=step))
             times.append(run.events.time[1] if len(run.events) > 1 else math.inf)
         met += times[0] < math.inf
         assert times[0] == pytest.approx(times[1], abs=1e-8)
@@ -155,7 +155,7 @@ def test_a_run_of_hours_locates_events_to_what_doubles_tell() -> None:
 
 
 def _causes_and_times(system: ns.System, t_end: float, step: float) -> tuple[list[str], np.ndarray]:
-    run = ns.simulate(system, t_end, sample_interval=t_end, options=ns.Options(largest_step=step))
+    run = ns.simulate(system, t_end, sample_interval=t_end, engine=ns.EventDriven(largest_step=step))
     return run.events.causes(), run.events.time
 
 

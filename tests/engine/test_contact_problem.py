@@ -11,9 +11,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from laws import Coulomb, Unilateral
-from nonsmooth.engine.memory.layout import COUNTS
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_room, room_addresses
 from nonsmooth.model.delassus import write_delassus
 
@@ -21,7 +21,7 @@ from nonsmooth.model.delassus import write_delassus
 def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:
     """Lay out one contact problem; ``slip`` holds unit vectors of sliding contacts, zeros at rest."""
     n = len(mu)
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n})
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n}, ("delassus", "contact"))
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.array("active", n)[:] = np.arange(n)

@@ -40,7 +40,7 @@ def _tumble(spin: Any, tolerance: float, t_end: float, gravity: float = 0.0) -> 
     body = Brick()
     system = ns.System([body], gravity)
     system.place(body, velocity=(1.0, 0.0, 2.0), angular_velocity=spin)
-    return ns.simulate(system, t_end, options=ns.Options(tolerance=tolerance, largest_step=10.0))
+    return ns.simulate(system, t_end, engine=ns.EventDriven(tolerance=tolerance, largest_step=10.0))
 
 
 def _momentum(q: Any, u: Any) -> Any:
@@ -93,7 +93,7 @@ def test_symmetric_top_is_exact() -> None:
     along, across, _ = body.inertia
     system = ns.System([body], 0.0)
     system.place(body, angular_velocity=(40.0, 5.0, 0.0))
-    solution = ns.simulate(system, 0.5, options=ns.Options(tolerance=1e-12))
+    solution = ns.simulate(system, 0.5, engine=ns.EventDriven(tolerance=1e-12))
     phase = (across - along) / across * 40.0 * solution.t
     np.testing.assert_allclose(solution.u[:, 3], 40.0, rtol=0, atol=1e-12)
     np.testing.assert_allclose(solution.u[:, 4], 5.0 * np.cos(phase), rtol=0, atol=1e-8)

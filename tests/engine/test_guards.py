@@ -130,7 +130,7 @@ def test_tilted_ball_falls_like_a_pendulum_until_it_hits(build: Any) -> None:
     body, tilt = Dumbbell(), 0.5
     system = build.over(body, friction=0.0, restitution=0.0)
     system.place(body, **build.paper_start(body, (0, 0, body.radius, 0, tilt, 0), np.zeros(6)))
-    solution = ns.simulate(system, 0.2, options=ns.Options(tolerance=1e-12))
+    solution = ns.simulate(system, 0.2, engine=ns.EventDriven(tolerance=1e-12))
     half, m, j = body.centre_distance / 2.0, body.total_mass, body.inertia[1]
 
     def slowness(s: float) -> float:

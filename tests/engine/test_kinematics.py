@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Plate
 from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Motion
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.options import Options
 from nonsmooth.parameters import parameter
 
 
@@ -90,7 +90,7 @@ def test_rates_and_bias_are_derivatives(
     system = ns.System([body, plate] if flip else [plate, body])
     system.contact(*((body, plate) if flip else (plate, body)), **build.laws())
     system.place(body, position=(0.0, 0.0, 3.0))
-    model = assemble(system, Options())
+    model = assemble(system, EventDriven())
     memory, n = model.memory, len(system.contacts)
     spin = np.asarray(omega) * 10.0
     q0 = _turn(np.array([1.0, 0.0, 0.0, 0.0]), rotation, 1.0)
@@ -126,7 +126,7 @@ def test_a_ball_rests_on_a_swinging_plate(build: Any) -> None:
     ball, motion = Ball(0.01), Swing(size=0.05, shift=0.0)
     system = build.over(ball, motion, friction=0.8)
     system.place(ball, position=(0.02, 0.01, 0.01), velocity=_carried(motion, (0.02, 0.01, 0.0)))
-    solution = ns.simulate(system, 1.0, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(system, 1.0, engine=ns.EventDriven(tolerance=1e-11))
     assert build.lived(solution) == ["{1,0,0}"]
     assert solution.energy.residual <= 1e-8
     for t, q in zip(solution.t[::400], solution.q[::400], strict=True):

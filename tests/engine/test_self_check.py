@@ -28,10 +28,10 @@ from bodies.contacts.plane_point import evaluate_ball_over_plane
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, ContactKinematics, Joint, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.options import Options
 from nonsmooth.types import Floats
 from tests.testing.body_dummies import Ball as FaultyBall
 from tests.testing.body_dummies import free
@@ -146,7 +146,7 @@ def test_contacts_that_nearly_repeat_each_other_move_nothing_far(angle: float) -
     system.contact(flat, ball, **LAWS)
     system.contact(tilted, ball, **LAWS)
     system.place(ball, position=(RADIUS * np.tan(0.5 * angle), 0.0, RADIUS))
-    memory = assemble(system, Options()).memory
+    memory = assemble(system, EventDriven()).memory
     call_room("advance", memory, 0, 0)
     memory.array("mode", 2)[:] = 2
     y = memory.array("y", 7)

@@ -275,11 +275,11 @@ def test_many_contacts(solver: str) -> None:
 
 
 def test_an_unknown_solver_is_refused_with_the_names_there_are() -> None:
-    """By the function, by the options and by the number."""
+    """By the function, by the engine and by the number."""
     problem = _block(FEET, 0.1, 0.3)
     for call in (
         lambda: problem.solve("lemkee"),
-        lambda: ns.Options(solver="lemkee"),
+        lambda: ns.EventDriven(solver="lemkee"),
         lambda: solver_number("lemkee"),
     ):
         with pytest.raises(ns.UnknownName, match="'lemke'"):

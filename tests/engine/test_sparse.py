@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import System
-from nonsmooth.engine.memory.layout import COUNTS
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.modes import NO_SLOT, STICK
+from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_room, room_addresses
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.delassus import read_delassus, write_delassus
-from nonsmooth.model.options import Options
 
 RADIUS = 0.01
 TINY = 1e-300
@@ -43,7 +43,7 @@ def _row(n: int, order: Any, plate: bool) -> System:
 
 
 def _started(system: System) -> Memory:
-    memory = assemble(system, Options()).memory
+    memory = assemble(system, EventDriven()).memory
     call_room("advance", memory, 0, 0)
     return memory
 
@@ -88,7 +88,7 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
 
 def _memory(matrix: Any, bias: Any, mu: float, sliding: Any) -> Memory:
     n = len(bias) // 3
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n})
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n}, ("delassus", "contact"))
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.scalars["acceleration_scale"] = np.max(np.abs(bias))
@@ -195,7 +195,7 @@ def test_contact_problem_in_a_band_has_the_dense_motion(push: float) -> None:
 
 def test_too_many_blocks_end_the_run() -> None:
     """Without room for the blocks of an island the run ends with that reason, and nothing is written beyond them."""
-    memory = assemble(_row(6, np.arange(6), False), Options()).memory
+    memory = assemble(_row(6, np.arange(6), False), EventDriven()).memory
     memory.scalars["n_slots"] = 2
     assert call_room("advance", memory, 0, 0) == NO_SLOT
     assert memory.array("block_start", 6).tolist() == [0, 1, 2, 3, 4, 5]

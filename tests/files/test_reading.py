@@ -123,13 +123,13 @@ def test_a_file_says_what_python_says(path: Path) -> None:
         ("velocity", "velcity", "bodies.ball.start: start of Ball NAME IS 'velcity'."),
         (
             "gravity = 9.81",
-            "[options]\ntolerance = 1.0",
-            "options: Options.tolerance must be > 0 and <=",
+            "[engine]\ntolerance = 1.0",
+            "engine: EventDriven.tolerance must be > 0 and <=",
         ),
         (
             "gravity = 9.81",
-            '[options]\nsolver = "lemk"',
-            "options: Options.solver NAME IS 'lemk'",
+            '[engine]\nsolver = "lemk"',
+            "engine: EventDriven.solver NAME IS 'lemk'",
         ),
         (
             "gravity = 9.81",

@@ -99,13 +99,13 @@ def test_every_scenario_comes_back(name: str, tmp_path: Path) -> None:
 )
 def test_a_run_from_a_file_is_the_run_from_python(name: str, t_end: float, tmp_path: Path) -> None:
     scenario = registry.load("scenarios", name)()
-    options = ns.Options(tolerance=1e-8, solver="enumeration")
+    engine = ns.EventDriven(tolerance=1e-8, solver="enumeration")
     system, interval = scenario.build(), t_end / 50.0
-    ns.save_system(system, tmp_path / "one.toml", t_end=t_end, sample_interval=interval, options=options)
+    ns.save_system(system, tmp_path / "one.toml", t_end=t_end, sample_interval=interval, engine=engine)
     read = ns.load_system(tmp_path / "one.toml")
-    assert (read.t_end, read.sample_interval, read.options) == (t_end, interval, options)
-    one = ns.simulate(system, t_end, sample_interval=interval, options=options)
-    two = ns.simulate(read.system, t_end, sample_interval=interval, options=options)
+    assert (read.t_end, read.sample_interval, read.engine) == (t_end, interval, engine)
+    one = ns.simulate(system, t_end, sample_interval=interval, engine=engine)
+    two = ns.simulate(read.system, t_end, sample_interval=interval, engine=engine)
     for part in ("t", "q", "u", "q_end", "u_end"):
         assert np.array_equal(getattr(one, part), getattr(two, part)), part
     assert np.array_equal(one.events.time, two.events.time)

@@ -62,7 +62,7 @@ between = [
 shapes = [[0, 1], "all"]
 [contacts.friction]
 type = "coulomb"
-[options]
+[engine]
 on = true
 off = false
 far = -inf

@@ -56,7 +56,7 @@ def test_time_to_stop(growth: float, largest: float) -> None:
         plate, block, normal=Unilateral(), friction=Viscous(mu, growth, largest), impact=EnergeticImpact(0.0)
     )
     system.place(block, velocity=(speed, 0.0))
-    solution = ns.simulate(system, 2.0, options=ns.Options(tolerance=1e-12))
+    solution = ns.simulate(system, 2.0, engine=ns.EventDriven(tolerance=1e-12))
     if growth == 0.0:
         time = speed / (mu * gravity)
     else:

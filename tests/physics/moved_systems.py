@@ -116,7 +116,7 @@ class Cast:
     speed: float
     gravity: float = 0.0
     joints: tuple[tuple[Callable[[Move], Joint], int, int], ...] = ()
-    options: ns.Options = field(default_factory=lambda: ns.Options(tolerance=1e-12, impact_tolerance=1e-12))
+    engine: ns.EventDriven = field(default_factory=lambda: ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12))
 
     def run(self, move: Move = Move(), order: Order = Order()) -> tuple[Array, Array, list[str], int]:
         """Return final state and times of events, both without units, sorted causes, and the number of impacts."""
@@ -139,7 +139,7 @@ class Cast:
                     "angular_velocity": move.spin(start.get("angular_velocity", (0.0, 0.0, 0.0))),
                 }
                 system.place(body, **words)
-        solution = ns.simulate(system, self.t_end, sample_interval=self.t_end, options=self.options)
+        solution = ns.simulate(system, self.t_end, sample_interval=self.t_end, engine=self.engine)
         parts = []
         for body, (_, start) in zip(bodies, self.bodies, strict=True):
             if start is not None:

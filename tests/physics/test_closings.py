@@ -13,8 +13,8 @@ from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.engine.native.kernel import PLAIN, call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.options import Options
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="compiled runs take seconds, plain ones minutes")
 
@@ -80,7 +80,7 @@ def test_closings_bring_to_rest_lose_energy_and_push_nothing_into_anything(kind:
         system = build(np.random.default_rng(seed))
         solution = ns.simulate(system, t_end, sample_interval=t_end)
         assert solution.status == "done"
-        events, model = solution.events, assemble(system, Options())
+        events, model = solution.events, assemble(system, EventDriven())
         n = len(system.contacts)
         for e in np.flatnonzero(events.cause == CAUSES.index("closing of an accumulation")):
             closings += 1

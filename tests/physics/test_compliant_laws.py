@@ -34,7 +34,7 @@ from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw
 RADIUS = 0.01
 MASS = Ball(RADIUS).total_mass
 G = 9.81
-TIGHT = ns.Options(tolerance=1e-12)
+TIGHT = ns.EventDriven(tolerance=1e-12)
 
 
 def _drop(
@@ -46,17 +46,17 @@ def _drop(
     slip: float = 0.0,
     gap: float = 1e-4,
     gravity: float = 0.0,
-    options: ns.Options = TIGHT,
+    engine: ns.EventDriven = TIGHT,
 ) -> ns.Solution:
     """Run a ball that comes down on a plate."""
     plate, ball = Plate(), Ball(RADIUS)
     system = ns.System([plate, ball], gravity)
     system.contact(plate, ball, normal=law, friction=friction or Frictionless())
     system.place(ball, position=(0.0, 0.0, RADIUS + gap), velocity=(slip, 0.0, -speed))
-    return ns.simulate(system, t_end, sample_interval=t_end, options=options)
+    return ns.simulate(system, t_end, sample_interval=t_end, engine=engine)
 
 
-def _chain(law: CompliantNormalLaw, count: int, options: ns.Options = TIGHT) -> Any:
+def _chain(law: CompliantNormalLaw, count: int, engine: ns.EventDriven = TIGHT) -> Any:
     """Return the velocities after a ball at 1 m/s has hit a row of touching ones."""
     balls = [Ball(RADIUS) for _ in range(count)]
     system = ns.System(balls, 0.0)
@@ -65,7 +65,7 @@ def _chain(law: CompliantNormalLaw, count: int, options: ns.Options = TIGHT) -> 
         system.place(ball, **(first if i == 0 else {"position": (2.0 * RADIUS * i, 0.0, 0.0)}))
     for one, other in itertools.pairwise(balls):
         system.contact(one, other, normal=law, friction=Frictionless())
-    return ns.simulate(system, 3e-3, sample_interval=3e-3, options=options).u_end[::6]
+    return ns.simulate(system, 3e-3, sample_interval=3e-3, engine=engine).u_end[::6]
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.05, 0.3, 0.6, 0.9])
@@ -158,7 +158,7 @@ def test_order() -> None:
     """The error of a row falls with the tolerance."""
     truth = np.array((-0.07095235, 0.07640304, 0.99454931))
     errors = [
-        np.max(np.abs(_chain(HertzCompliant(1e9), 3, ns.Options(tolerance=t)) - truth)) for t in (1e-3, 1e-5, 1e-7)
+        np.max(np.abs(_chain(HertzCompliant(1e9), 3, ns.EventDriven(tolerance=t)) - truth)) for t in (1e-3, 1e-5, 1e-7)
     ]
     assert errors[0] < 1e-2
     assert errors[1] < 0.1 * errors[0]
@@ -251,7 +251,7 @@ def test_among_rigid_contacts() -> None:
     system.contact(lower, upper, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(1.0))
     system.place(lower, position=(0.0, 0.0, RADIUS))
     system.place(upper, position=(0.0, 0.0, 3.0 * RADIUS + 1e-3), velocity=(0.0, 0.0, -1.0))
-    solution = ns.simulate(system, 3e-3, options=TIGHT)
+    solution = ns.simulate(system, 3e-3, engine=TIGHT)
     assert solution.events.causes()[1] == "impact"
     # the balls exchange their velocities, the plate turns the lower one's, and they exchange again
     np.testing.assert_allclose(solution.u_end[[2, 8]], [0.0, 1.0], rtol=0, atol=1e-9)

@@ -14,7 +14,7 @@ from nonsmooth.interfaces import Body
 
 BODY = Dumbbell()
 FREQUENCY = 25.0
-TIGHT = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
+TIGHT = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 
 
 def _ball(kind: str, x: float) -> Any:
@@ -44,7 +44,7 @@ def _run(build: Any, body: Body) -> ns.Solution:
         position=(half * math.cos(tilt), 0.0, BODY.radius + half * math.sin(tilt)),
         orientation=(math.cos(tilt / 2.0), 0.0, -math.sin(tilt / 2.0), 0.0),
     )
-    return ns.simulate(system, 10.0 / FREQUENCY, options=TIGHT)
+    return ns.simulate(system, 10.0 / FREQUENCY, engine=TIGHT)
 
 
 @pytest.mark.parametrize("kind", ["sphere", "ellipsoid", "superellipsoid", "rounded"])

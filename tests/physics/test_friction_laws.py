@@ -36,7 +36,7 @@ RADIUS = 0.01
 MASS = Ball(RADIUS).total_mass
 FOOT, HALF, HEIGHT = 0.005, 0.08, 0.02
 FEET = ((1.0, 1.0), (-1.0, 0.0), (1.0, -1.0))
-TIGHT = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
+TIGHT = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 STIFFNESS = 1e9
 
 
@@ -56,7 +56,7 @@ def _ball(laws: Any, t_end: float, velocity: Any, spin: Any = (0.0, 0.0, 0.0), t
     depth = 0.0 if "impact" in laws else (MASS * G / STIFFNESS) ** (2.0 / 3.0)
     start = {"position": (0.0, 0.0, RADIUS - depth), "orientation": quaternion((0.0, 0.0, 1.0), turn)}
     system.place(ball, velocity=velocity, angular_velocity=spin, **start)
-    return ns.simulate(system, t_end, sample_interval=t_end, options=TIGHT)
+    return ns.simulate(system, t_end, sample_interval=t_end, engine=TIGHT)
 
 
 def _block(
@@ -73,7 +73,7 @@ def _block(
     depth = 0.0 if "impact" in laws else (G / 3.0 / STIFFNESS) ** (2.0 / 3.0)
     normal = np.array([math.sin(slope), 0.0, math.cos(slope)])
     system.place(block, position=tuple((HEIGHT - depth) * normal), orientation=(c * w, s * z, s * w, c * z))
-    return ns.simulate(system, t_end, sample_interval=t_end, options=TIGHT)
+    return ns.simulate(system, t_end, sample_interval=t_end, engine=TIGHT)
 
 
 def _along(law: Anisotropic | Directional, slip: np.ndarray, angle: float) -> np.ndarray:
@@ -157,7 +157,7 @@ def test_a_ball_lands_on_its_axis(law: Any, impact: Any) -> None:
         orientation = (turn * Rotation.from_quat(upright, scalar_first=True)).as_quat(scalar_first=True)
         velocity = turn.apply((0.1, 0.05, 0.0))
         system.place(ball, position=(0.0, 0.0, 2.0 * RADIUS), orientation=tuple(orientation), velocity=tuple(velocity))
-        solution = ns.simulate(system, 0.06, sample_interval=0.06, options=TIGHT)
+        solution = ns.simulate(system, 0.06, sample_interval=0.06, engine=TIGHT)
         assert solution.energy.residual < 1e-8
         assert np.any(solution.events.impulse[:, 0, 0] > 0.0)
         ends.append(np.concatenate([turn.inv().apply(solution.q_end[:3]), turn.inv().apply(solution.u_end[:3])]))

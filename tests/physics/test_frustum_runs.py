@@ -296,7 +296,7 @@ def test_a_rounded_disc_rolls_in_a_circle() -> None:
         orientation=turned,
         angular_velocity=Rotation.from_quat(np.roll(turned, -1)).inv().apply(spin),
     )
-    solution = ns.simulate(system, 0.5, options=ns.Options(tolerance=1e-12))
+    solution = ns.simulate(system, 0.5, engine=ns.EventDriven(tolerance=1e-12))
     assert solution.status == "done"
     np.testing.assert_allclose(solution.q_end[:3], [0.0, 0.0, height], rtol=0, atol=1e-8)
     axes = Rotation.from_quat(np.roll(solution.q_end[3:], -1)).as_matrix()

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from bodies import Dumbbell, Harmonic
 from nonsmooth.engine.memory.layout import FRAME
 from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.options import Options
 
 NAMES = ("x1", "y1", "z1", "theta", "beta", "gamma")
 GRAVITY = 9.81
@@ -222,7 +222,7 @@ def test_engine_equals_the_derivation(build: Any, numbers: Any, state: Any) -> N
 def _model_at(build: Any, body: Dumbbell, motion: Harmonic, q: Any, rate: Any, time: float) -> Any:
     system = build.over(body, motion)
     system.place(body, position=(0.0, 0.0, 1.0))
-    model = assemble(system, Options())
+    model = assemble(system, EventDriven())
     start = build.paper_start(body, q, rate)
     names = ("position", "orientation", "velocity", "angular_velocity")
     model.memory.array("y", 13)[:] = np.concatenate([start[n] for n in names])

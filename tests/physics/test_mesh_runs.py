@@ -207,14 +207,14 @@ def test_round_bodies_move_over_triangles_as_over_a_plane(build: Any) -> None:
     mesh = DrivenBody(Rest(), (TriangleMesh(Triangles(points, triangles)),))
     boxy = Superellipsoid(0.01, 0.012, 0.008, 0.8, 0.8)
     for shape in (Ellipsoid(0.01, 0.012, 0.008), boxy, Capsule(6e-3, 8e-3)):
-        options = ns.Options(tolerance=1e-9 if shape is boxy else 1e-12, impact_tolerance=1e-12)
+        engine = ns.EventDriven(tolerance=1e-9 if shape is boxy else 1e-12, impact_tolerance=1e-12)
         ends = []
         for ground in (mesh, Plate()):
             body = Carrier((shape,), 0.03, (1e-6, 1.2e-6, 0.8e-6))
             system = ns.System([ground, body], gravity=9.81)
             system.contact(ground, body, **build.laws(friction=0.3))
             system.place(body, position=(0.02, 0.01, 0.03), velocity=(0.3, 0.1, 0.0), angular_velocity=(3.0, 2.0, 1.0))
-            ends.append(ns.simulate(system, 0.2, options=options))
+            ends.append(ns.simulate(system, 0.2, engine=engine))
         assert ends[1].counters.impacts > 1
         assert ends[0].counters.impacts == ends[1].counters.impacts
         np.testing.assert_allclose(ends[0].q_end, ends[1].q_end, rtol=0, atol=1e-9)

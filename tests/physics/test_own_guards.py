@@ -111,7 +111,7 @@ def test_a_clock_fires_once_per_period() -> None:
     """Many zeros of one guard, none missed, none twice."""
     system = _thrown()
     system.guard(Clock(20.0))
-    events = ns.simulate(system, 1.0, options=ns.Options(largest_step=1.0 / 80.0)).events
+    events = ns.simulate(system, 1.0, engine=ns.EventDriven(largest_step=1.0 / 80.0)).events
     np.testing.assert_allclose(events.time[events.cause == GUARD], (np.arange(20) + 0.5) / 20.0, atol=1e-12)
 
 

@@ -39,7 +39,7 @@ def _run(
     # rod along y: (x1, y1, z1, theta, beta, gamma); ball 1 slides towards -y
     start = build.paper_start(body, (0, 0, body.radius, 0.0, TILT, 0.0), (0, slip, 0, 0, rate, 0))
     system.place(body, **start)
-    return ns.simulate(system, t_end, options=ns.Options(**{"tolerance": 1e-10, **options}))
+    return ns.simulate(system, t_end, engine=ns.EventDriven(**{"tolerance": 1e-10, **options}))
 
 
 @pytest.mark.parametrize("side", [-1e-3, 1e-3])
@@ -160,7 +160,7 @@ def test_policies(build: Any) -> None:
     assert compliant.u_after[0, 2] > lossy.u_after[0, 2]
     assert compliant.causes()[0] == "impact without collision"
     with pytest.raises(ns.UnknownName, match="painleve"):
-        ns.Options(painleve="spring")
+        ns.EventDriven(painleve="spring")
 
 
 def test_the_jam_does_not_depend_on_the_tolerance(build: Any) -> None:

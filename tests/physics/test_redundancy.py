@@ -21,7 +21,7 @@ from nonsmooth.engine.memory.modes import IMPACT, STICK_TO_SLIP
 from tests.physics.moved_systems import quaternion
 
 G = 9.81
-TIGHT = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
+TIGHT = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 HALF_X, HALF_Y, HEIGHT, FOOT = 0.08, 0.05, 0.02, 0.005
 CORNERS = ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
 FEET: dict[int, Any] = {
@@ -52,7 +52,7 @@ def _run(
     words["orientation"] = (c * s - d * y, c * x + d * z, c * y + d * s, c * z - d * x)
     words["velocity"] = np.asarray(words["velocity"]) @ axes
     system.place(block, position=(HEIGHT + over) * axes[2], **words)
-    return ns.simulate(system, t_end, sample_interval=t_end, options=TIGHT)
+    return ns.simulate(system, t_end, sample_interval=t_end, engine=TIGHT)
 
 
 def _end(solution: ns.Solution) -> NDArray[np.float64]:
@@ -113,7 +113,7 @@ def test_breakaway_at_the_static_coefficient(build: Any, count: int, static: flo
     assert abs(0.5 * (low + high) - math.atan(static)) < 1e-6
 
 
-def _tilted(build: Any, count: int, rate: float, place: float, options: ns.Options) -> tuple[ns.Solution, float]:
+def _tilted(build: Any, count: int, rate: float, place: float, engine: ns.EventDriven) -> tuple[ns.Solution, float]:
     """Run a block on a plate that tilts at ``rate`` [rad/s] till 0.05 s after the expected breakaway, returned too."""
     static, side = 0.5, math.copysign(1.0, rate)
 
@@ -126,7 +126,7 @@ def _tilted(build: Any, count: int, rate: float, place: float, options: ns.Optio
     system.contact(plate, block, **build.laws(friction=0.4, static=static))
     position, spin = np.array([place, 0.0, HEIGHT]), np.array([0.0, rate, 0.0])
     system.place(block, position=position, velocity=np.cross(spin, position), angular_velocity=spin)
-    return ns.simulate(system, expected + 0.05, options=options), expected
+    return ns.simulate(system, expected + 0.05, engine=engine), expected
 
 
 TILTED = [(n, rate, x) for n in FEET for rate, x in ((0.5, 0.0), (0.5, 0.3), (-1.0, 0.3), (-1.0, -0.2))]
@@ -135,13 +135,13 @@ TILTED = [(n, rate, x) for n in FEET for rate, x in ((0.5, 0.0), (0.5, 0.3), (-1
 @pytest.mark.parametrize(("count", "rate", "place"), TILTED)
 def test_breakaway_on_a_slope_that_tilts(build: Any, count: int, rate: float, place: float) -> None:
     """Where g sin + omega^2 x = mu_s (g cos - omega^2 h): the event is at that angle, and not before."""
-    solution, expected = _tilted(build, count, rate, place, ns.Options())
+    solution, expected = _tilted(build, count, rate, place, ns.EventDriven())
     # a foot that carries nothing may open and close again behind it: the motion does not know
     assert solution.events.cause[1] == STICK_TO_SLIP
     assert solution.events.time[1] == pytest.approx(expected, rel=0, abs=1e-10)
     end = _end(solution)
     assert np.linalg.norm(end[7:10] - np.cross((0.0, rate, 0.0), end[:3])) > 1e-3
-    np.testing.assert_allclose(end, _end(_tilted(build, 3, rate, place, ns.Options())[0]), rtol=0, atol=1e-10)
+    np.testing.assert_allclose(end, _end(_tilted(build, 3, rate, place, ns.EventDriven())[0]), rtol=0, atol=1e-10)
 
 
 def test_breakaway_of_five_feet_within_rounding(build: Any) -> None:

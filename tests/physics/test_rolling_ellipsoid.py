@@ -52,8 +52,8 @@ def _run(start: str, tolerance: float) -> Rolled:
         velocity=tuple((-np.cross(turn.apply(spin), point)).tolist()),
         angular_velocity=spin,
     )
-    options = ns.Options(tolerance=tolerance)
-    solution = ns.simulate(system, T_END, sample_interval=5e-3, options=options)
+    engine = ns.EventDriven(tolerance=tolerance)
+    solution = ns.simulate(system, T_END, sample_interval=5e-3, engine=engine)
     turns = Rotation.from_quat(np.roll(solution.q[:, 3:7], -1, axis=1))
     mass, moments = body.total_mass, np.array(body.inertia)
     energy = 0.5 * mass * np.sum(solution.u[:, :3] ** 2, axis=1) + 0.5 * solution.u[:, 3:] ** 2 @ moments

@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.modes import IMPACT
 G = 9.81
 OMEGA = 2.0 * math.pi * 25.0
 PHASES = (Phase.explicit, Phase.generate)
-TIGHT = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
+TIGHT = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 
 starts = st.fixed_dictionaries(
     {
@@ -234,7 +234,7 @@ def _pair(build: Any, laws: Any, gamma: float, start: Any, moved: Any) -> tuple[
     for which in (start, moved):
         body = Dumbbell()
         runs.append(
-            ns.simulate(_system(build, body, _motion(gamma), laws, which), 0.04, sample_interval=2e-3, options=TIGHT)
+            ns.simulate(_system(build, body, _motion(gamma), laws, which), 0.04, sample_interval=2e-3, engine=TIGHT)
         )
     return runs[0], runs[1]
 
@@ -263,7 +263,7 @@ def test_units_do_not_matter(build: Any) -> None:
         q = (0.0, 0.0, body.radius, 0.3, 0.17, 0.0)
         rate = (0.2 * a / b, 0.0, 0.0, 0.0, 0.0, 5.0 / b)
         system.place(body, **build.paper_start(body, q, rate))
-        options = ns.Options(
+        engine = ns.EventDriven(
             tolerance=1e-12,
             impact_tolerance=1e-12,
             time_tolerance=1e-12 * b,
@@ -271,7 +271,7 @@ def test_units_do_not_matter(build: Any) -> None:
             velocity_tolerance=1e-9 * a / b,
             largest_step=0.1 * b,
         )
-        runs.append(ns.simulate(system, 0.2 * b, options=options))
+        runs.append(ns.simulate(system, 0.2 * b, engine=engine))
     one, other = runs
     np.testing.assert_allclose(other.events.time / time, one.events.time, rtol=0, atol=1e-10)
     np.testing.assert_allclose(other.q[:, :3] / length, one.q[:, :3], rtol=0, atol=1e-9)

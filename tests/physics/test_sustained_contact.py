@@ -13,7 +13,7 @@ from bodies import Ball, Dumbbell, Harmonic, Rest
 from nonsmooth.engine.memory.modes import LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP
 
 G = 9.81
-TIGHT = ns.Options(tolerance=1e-12)
+TIGHT = ns.EventDriven(tolerance=1e-12)
 SIDES = pytest.mark.parametrize("side", [-1e-6, 1e-6])
 
 
@@ -39,7 +39,7 @@ def test_sliding_ball_starts_to_roll(build: Any, heading: float) -> None:
     system = build.over(ball, friction=mu)
     along = np.array([math.cos(heading), math.sin(heading), 0.0])
     system.place(ball, position=(0, 0, 0.01), velocity=v0 * along)
-    solution = ns.simulate(system, 0.2, options=TIGHT)
+    solution = ns.simulate(system, 0.2, engine=TIGHT)
     stick = 2.0 * v0 / (7.0 * mu * G)
     np.testing.assert_allclose(_times(solution, SLIP_TO_STICK), [stick], rtol=0, atol=1e-9)
     np.testing.assert_allclose(solution.u_end[:3], 5.0 * v0 / 7.0 * along, rtol=0, atol=1e-10)
@@ -60,7 +60,7 @@ def test_ball_rolls_down_a_slope_without_slip(build: Any, side: float) -> None:
     static, mu = 0.2, 0.15
     angle = math.atan(3.5 * static) * (1.0 + side)
     ball = Ball(0.01)
-    solution = ns.simulate(_on_slope(build, ball, 0.01, angle, mu, static), 0.1, options=TIGHT)
+    solution = ns.simulate(_on_slope(build, ball, 0.01, angle, mu, static), 0.1, engine=TIGHT)
     down = np.array([math.cos(angle), 0.0, -math.sin(angle)])
     expected = 5.0 / 7.0 * G * math.sin(angle) if side < 0.0 else G * (math.sin(angle) - mu * math.cos(angle))
     np.testing.assert_allclose(solution.u_end[:3], 0.1 * expected * down, rtol=0, atol=1e-9)
@@ -78,7 +78,7 @@ def test_dumbbell_along_the_fall_line(build: Any, side: float, static: float, ki
     angle = math.atan(static) * (1.0 + side)
     mu = kinetic * static
     body = Dumbbell()
-    solution = ns.simulate(_on_slope(build, body, body.radius, angle, mu, static), 0.05, options=TIGHT)
+    solution = ns.simulate(_on_slope(build, body, body.radius, angle, mu, static), 0.05, engine=TIGHT)
     moved = solution.q_end - solution.q[0]
     if side < 0.0:
         assert build.lived(solution) == ["{11,00,00}"]
@@ -99,7 +99,7 @@ def test_dumbbell_across_the_fall_line_rolls(build: Any) -> None:
     # first axis along world y, the rest in the slope's plane
     axes = np.column_stack([[0, 1, 0], -np.array([math.cos(angle), 0.0, -math.sin(angle)]), normal])
     system.place(body, position=body.radius * normal, orientation=_quaternion(axes))
-    solution = ns.simulate(system, 0.05, options=TIGHT)
+    solution = ns.simulate(system, 0.05, engine=TIGHT)
     along = body.inertia[0]
     acceleration = G * math.sin(angle) / (1.0 + along / (body.total_mass * body.radius**2))
     down = np.array([math.cos(angle), 0.0, -math.sin(angle)])
@@ -129,7 +129,7 @@ def test_flat_dumbbell_keeps_rolling(build: Any) -> None:
     # x' cos + y' sin = r gamma' in the paper's axes
     velocity = body.radius * spin * np.array([math.cos(theta), math.sin(theta), 0.0])
     system.place(body, **(start | {"velocity": velocity}))
-    solution = ns.simulate(system, 0.5, options=TIGHT)
+    solution = ns.simulate(system, 0.5, engine=TIGHT)
     np.testing.assert_allclose(solution.q_end[:3] - solution.q[0, :3], 0.5 * velocity, rtol=0, atol=1e-10)
     np.testing.assert_allclose(solution.u_end, solution.u[0], rtol=0, atol=1e-9)
     assert build.lived(solution) == ["{11,00,00}"]
@@ -143,7 +143,7 @@ def test_vibrating_plate_throws_the_dumbbell(build: Any, gamma: float) -> None:
     motion = Harmonic(amplitude=gamma * G / omega**2, frequency=frequency)
     system = build.over(body, motion)
     system.place(body, position=(0, 0, body.radius), velocity=(0, 0, motion.amplitude * omega))
-    solution = ns.simulate(system, 0.5 / frequency if gamma > 1.0 else 0.2, options=TIGHT)
+    solution = ns.simulate(system, 0.5 / frequency if gamma > 1.0 else 0.2, engine=TIGHT)
     lifted = _times(solution, LIFT_OFF)
     if gamma < 1.0:
         assert len(solution.events) == 1
@@ -166,7 +166,7 @@ def test_shaken_sideways_the_dumbbell_breaks_away(build: Any, ratio: float) -> N
     motion = Harmonic(amplitude=ratio * static * G / omega**2, frequency=10.0, axis_x=1.0, axis_z=0.0)
     system = build.over(body, motion, friction=mu, static=static)
     system.place(body, position=(0, 0, body.radius), velocity=(motion.amplitude * omega, 0, 0))
-    solution = ns.simulate(system, 0.049, options=TIGHT)
+    solution = ns.simulate(system, 0.049, engine=TIGHT)
     broke = _times(solution, STICK_TO_SLIP)
     if ratio < 1.0:
         assert build.lived(solution) == ["{11,00,00}"]
@@ -189,7 +189,7 @@ def test_shaken_sideways_the_ball_breaks_away(build: Any, ratio: float) -> None:
     motion = Harmonic(amplitude=ratio * 3.5 * static * G / omega**2, frequency=10.0, axis_y=1.0, axis_z=0.0)
     system = build.over(ball, motion, friction=0.05, static=static)
     system.place(ball, position=(0, 0, 0.01), velocity=(0, motion.amplitude * omega, 0))
-    solution = ns.simulate(system, 0.049, options=TIGHT)
+    solution = ns.simulate(system, 0.049, engine=TIGHT)
     broke = _times(solution, STICK_TO_SLIP)
     if ratio < 1.0:
         assert build.lived(solution) == ["{1,0,0}"]
@@ -205,7 +205,7 @@ def test_slip_that_turns_on_a_slope(build: Any) -> None:
     ball = Ball(radius)
     system = _on_slope(build, ball, radius, angle, mu)
     system.place(ball, position=system.start(ball)[0][:3], velocity=(0.0, 0.4, 0.0), angular_velocity=(20.0, 30.0, 5.0))
-    solution = ns.simulate(system, t_end, options=TIGHT)
+    solution = ns.simulate(system, t_end, engine=TIGHT)
     down, across = np.array([math.cos(angle), 0.0, -math.sin(angle)]), np.array([0.0, 1.0, 0.0])
     normal = np.cross(down, across)
     u0 = system.start(ball)[1]
@@ -257,7 +257,7 @@ def test_flat_dumbbell_slides_and_turns(build: Any) -> None:
     found = solve_ivp(slope, (0.0, t_end), y0, "DOP853", rtol=1e-13, atol=1e-15).y[:, -1]
     system = build.over(body, friction=mu)
     system.place(body, position=(0, 0, r), velocity=(*v0, 0.0), angular_velocity=(roll0, 0.0, yaw0))
-    solution = ns.simulate(system, t_end, options=TIGHT)
+    solution = ns.simulate(system, t_end, engine=TIGHT)
     np.testing.assert_allclose(solution.q_end[:2], found[:2], rtol=0, atol=1e-8)
     np.testing.assert_allclose(solution.u_end[:2], found[3:5], rtol=0, atol=1e-8)
     axes = _rotation(solution.q_end[3:])

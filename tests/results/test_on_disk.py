@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.results.events_table import save_events
+from nonsmooth.solution.events_table import save_events
 from tests.results.runs import balls
 from tests.runs.continued import differences
 

@@ -23,11 +23,11 @@ from nonsmooth.results.lock import Lock
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.results.state_file import state_bytes, state_from
-from nonsmooth.results.zarr_folder import Variable
 from nonsmooth.runs import writer
 from nonsmooth.runs.identity import constants
 from nonsmooth.runs.resuming import OtherVersions
 from nonsmooth.solution.state import Continuation
+from nonsmooth.solution.variable import Variable
 from tests.results.runs import balls
 from tests.runs.continued import differences
 

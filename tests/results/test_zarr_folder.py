@@ -10,8 +10,9 @@ import pytest
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.results import zarr_folder
-from nonsmooth.results.zarr_folder import Variable, ZarrFolder
+from nonsmooth.results.zarr_folder import ZarrFolder
 from nonsmooth.solution.files import FileError
+from nonsmooth.solution.variable import Variable
 
 
 @pytest.fixture(autouse=True)

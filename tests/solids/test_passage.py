@@ -12,9 +12,9 @@ import nonsmooth as ns
 from bodies import Ball, BoxBody, Plate
 from nonsmooth.errors import DoubtfulDistance
 from nonsmooth.interfaces import Body
-from nonsmooth.solids.line import Line
-from nonsmooth.solids.probe import Probe
-from nonsmooth.solids.start import check_overlaps
+from nonsmooth.model.overlaps import check_overlaps
+from nonsmooth.placing.line import Line
+from nonsmooth.placing.probe import Probe
 from tests.solids.kinds import KINDS, angle, random_turn
 
 KNOWN = sorted(set(KINDS))

@@ -18,9 +18,9 @@ from bodies import (
     EllipsoidBody,
 )
 from laws import HuntCrossley
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body
 from nonsmooth.model.assembly import assemble, lay_out
-from nonsmooth.model.options import Options
 from tests.solids.kinds import angle
 
 CUBE, ROD, DISC = BoxBody(0.01, 0.01, 0.01), CylinderBody(0.002, 0.04), DiscBody(0.02, 10.0)
@@ -67,7 +67,7 @@ def test_bodies_in_one_another_are_refused(build: Any, name: str) -> None:
     """Before anything runs, with the names of both, the overlap and what to do."""
     one, two, place, turn = INSIDE[name]
     with pytest.raises(ns.InvalidInput) as caught:
-        assemble(_system(build, one, two, place, turn), Options())
+        assemble(_system(build, one, two, place, turn), EventDriven())
     for word in ("start of the contact", type(one).__name__, type(two).__name__, "overlap", "but it is -0.0", "apart"):
         assert word in str(caught.value)
 
@@ -79,7 +79,7 @@ def test_a_body_is_led_out_of_another(build: Any, name: str) -> None:
     system = _system(build, one, two, place, turn)
     q = system.start(two)[0]
     ns.touching(system, two, direction=(0.1, 0.2, -1.0), position=q[:3], orientation=q[3:])
-    assert float(np.min(assemble(system, Options()).gaps())) >= -1e-12
+    assert float(np.min(assemble(system, EventDriven()).gaps())) >= -1e-12
 
 
 def test_compliant_bodies_may_overlap(build: Any) -> None:
@@ -87,7 +87,7 @@ def test_compliant_bodies_may_overlap(build: Any) -> None:
     law = HuntCrossley(stiffness=1e6, dissipation=0.1)
     for place in ((0.0, 0.0, 0.0199), (0.0, 0.0, 0.0)):
         laws = {"normal": law, "friction": build.laws(friction=0.0)["friction"]}
-        assemble(_system(build, Ball(0.01), Ball(0.01), place, None, **laws), Options())
+        assemble(_system(build, Ball(0.01), Ball(0.01), place, None, **laws), EventDriven())
 
 
 @pytest.mark.parametrize("name", INSIDE)
@@ -98,11 +98,11 @@ def test_compliant_bodies_that_do_not_feel_their_overlap_are_refused(build: Any,
         "friction": build.laws(friction=0.0)["friction"],
     }
     system = _system(build, *INSIDE[name], **laws)
-    if float(np.min(lay_out(system, Options()).gaps())) < 0.0:
-        assemble(system, Options())
+    if float(np.min(lay_out(system, EventDriven()).gaps())) < 0.0:
+        assemble(system, EventDriven())
     else:
         with pytest.raises(ns.InvalidInput, match="must not overlap"):
-            assemble(system, Options())
+            assemble(system, EventDriven())
 
 
 @pytest.mark.parametrize(("gap", "starts"), [(0.0, True), (-0.9e-8, True), (-1.1e-7, False)])
@@ -124,7 +124,7 @@ def test_bodies_that_touch_start(build: Any, gap: float, starts: bool) -> None:
         away = np.array(place) * (np.array(place) == np.max(place))
         system = _system(build, one, two, np.array(place) + gap * np.sign(away), turn)
         if starts:
-            assemble(system, Options())
+            assemble(system, EventDriven())
         else:
             with pytest.raises(ns.InvalidInput, match="must not overlap"):
-                assemble(system, Options())
+                assemble(system, EventDriven())

@@ -26,15 +26,15 @@ from bodies import (
     Rest,
     Sphere,
 )
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.options import Options
 
 turns = st.tuples(*[st.floats(-2.0, 2.0)] * 3).map(lambda v: np.roll(Rotation.from_rotvec(v).as_quat(), 1))
 
 
 def _gaps(system: ns.System) -> Any:
-    return assemble(system, Options()).gaps()
+    return assemble(system, EventDriven()).gaps()
 
 
 @settings(max_examples=10)
@@ -124,7 +124,7 @@ def test_resting_rides_along(build: Any, motion: Any) -> None:
     body = Dumbbell()
     system = build.over(body, motion)
     ns.resting(system, body, position=(0.2, 0.3, 1.0))
-    model = assemble(system, Options())
+    model = assemble(system, EventDriven())
     np.testing.assert_allclose(model.gaps(), 0.0, rtol=0, atol=1e-15)
     np.testing.assert_allclose(model.memory.array("rate", 6), 0.0, rtol=0, atol=1e-14)
 

@@ -169,7 +169,7 @@ def test_end_time_must_be_positive(build: Any, t_end: float) -> None:
 )
 def test_options_are_checked(option: str, value: Any) -> None:
     """A tolerance that no step can meet is refused."""
-    _raises((f"Options.{option}",), lambda: ns.Options(**{option: value}))
+    _raises((f"EventDriven.{option}",), lambda: ns.EventDriven(**{option: value}))
 
 
 def _bad_force(indentation: float, threshold: float) -> float:

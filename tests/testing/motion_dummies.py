@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.interfaces import Guard, Motion, Shape
-from nonsmooth.solids.convex import ConvexSolid
+from nonsmooth.interfaces.convex_solid import ConvexSolid
 from nonsmooth.types import Floats
 
 FAULTS = {

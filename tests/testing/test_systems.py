@@ -8,13 +8,25 @@ from typing import Any
 import pytest
 
 from nonsmooth.engine.native.kernel import PLAIN
-from nonsmooth.interfaces import Body, ContactKinematics, DistanceBackend, Guard, Joint, Load, Motion, Scenario, Shape
+from nonsmooth.interfaces import (
+    Body,
+    ContactKinematics,
+    DistanceBackend,
+    Engine,
+    Guard,
+    Joint,
+    Load,
+    Motion,
+    Scenario,
+    Shape,
+)
 from nonsmooth.testing import (
     Departs,
     NotChecked,
     check_body,
     check_contact_kinematics,
     check_distance_backend,
+    check_engine,
     check_guard,
     check_joint,
     check_load,
@@ -24,6 +36,7 @@ from nonsmooth.testing import (
 from tests.testing import (
     body_dummies,
     distance_dummies,
+    engine_dummies,
     friction_dummies,
     joint_dummies,
     load_dummies,
@@ -83,6 +96,12 @@ def test_shape(name: str, thing: Shape) -> None:
     assert_caught(check_shape(thing), name)
 
 
+@pytest.mark.skipif(PLAIN, reason="runs take long in plain mode")
+@_cases(engine_dummies.DUMMIES)
+def test_engine(name: str, thing: Engine) -> None:
+    assert_caught(check_engine(thing), name)
+
+
 @_cases(motion_dummies.GUARDS)
 def test_guard(name: str, thing: Guard) -> None:
     assert_caught(check_guard(thing), name)
@@ -122,8 +141,9 @@ def test_scenario(name: str, thing: Scenario) -> None:
         (check_motion(motion_dummies.Swing()), motion_dummies.MOTIONS),
         (check_shape(motion_dummies.Blob()), motion_dummies.SHAPES),
         (check_guard(motion_dummies.Threshold()), motion_dummies.GUARDS),
+        (check_engine(engine_dummies.Dummy()), engine_dummies.DUMMIES),
     ],
-    ids=["free body", "driven body", "kinematics", "scenario", "joint", "load", "motion", "shape", "guard"],
+    ids=["free body", "driven body", "kinematics", "scenario", "joint", "load", "motion", "shape", "guard", "engine"],
 )
 def test_sound_ones(properties: Any, dummies: Any) -> None:
     """Without a fault nothing is caught, and no property is there that no fault breaks."""

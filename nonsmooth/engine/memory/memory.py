@@ -4,22 +4,14 @@ from __future__ import annotations
 
 import functools
 from array import array
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.layout import (
-    FLOAT_ARRAYS,
-    GEOMETRY,
-    GUARD,
-    INTEGER_ARRAYS,
-    N_STAGES,
-    PAIR,
-    SCALARS,
-    UNTOUCHED,
-)
+from nonsmooth.engine.memory.layout import GEOMETRY, GUARD, N_STAGES, PAIR, UNTOUCHED
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNER, SCALARS
 from nonsmooth.parameters import Table
 
 
@@ -135,15 +127,23 @@ class Memory:
         return tuple(part.view(np.int64) for part in (self.scalars, *self.kept))
 
 
-def allocate(counts: Mapping[str, int]) -> Memory:
-    """Lay out the arrays for the given counts, all of ``COUNTS``; blocks are appended by :class:`Heap`."""
+ALWAYS = ("bodies", "numerics", "events")
+"""Rooms whose arrays every engine needs: where things are, coefficients, and what is recorded."""
+
+
+def allocate(counts: Mapping[str, int], rooms: Collection[str]) -> Memory:
+    """Lay out the arrays of some rooms for the given counts, all of ``COUNTS``; others have no length.
+
+    Blocks are appended by :class:`Heap`.
+    """
+    laid = {*ALWAYS, *rooms}
     values: dict[str, float] = dict.fromkeys(SCALARS.names or (), 0)
     totals: list[int] = []
     for table in (FLOAT_ARRAYS, INTEGER_ARRAYS):
         total = 0
         for name, size in table.items():
             values[name] = total
-            total += size(counts)
+            total += size(counts) if OWNER[name] in laid else 0
         totals.append(total)
     values.update(counts)
     scalars = np.array([tuple(values.values())], SCALARS)

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from nonsmooth.engine.memory.layout import SCALARS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
+from nonsmooth.engine.memory.tables import SCALARS
 
 _functions: list[Callable[..., Any]] = []
 _watches: dict[int, Callable[[float], float]] = {}

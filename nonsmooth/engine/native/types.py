@@ -23,7 +23,7 @@ from numba.extending import (
     type_callable,
 )
 
-from nonsmooth.engine.memory.layout import CONSTANT_SCALARS, SCALARS
+from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, SCALARS
 
 
 class Heap(types.Type):  # type: ignore[misc]

@@ -253,7 +253,7 @@ def test_a_decomposition_covers_the_body_and_is_kept(cache: Path, monkeypatch: p
     # 2 mm over the lying arm and 3 mm from the standing one, well inside of the hull
     place = np.array([0.013, 0.012, 0.0075]) - body.centre
     system.place(probe, position=tuple(place.tolist()))
-    assert np.min(assemble(system, ns.Options()).gaps()) == pytest.approx(0.002, abs=3e-4)
+    assert np.min(assemble(system, ns.EventDriven()).gaps()) == pytest.approx(0.002, abs=3e-4)
 
 
 @pytest.mark.skipif(PLAIN, reason="minutes in plain mode")

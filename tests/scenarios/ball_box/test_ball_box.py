@@ -49,7 +49,7 @@ def _forces(scenario: BallBox, solution: ns.Solution) -> tuple[np.ndarray, np.nd
     for ball, other in zip(again.bodies[5:], solution.system.bodies[5:], strict=True):
         i_q, i_u = solution.offsets(other)
         again.set_start(ball, solution.q_end[i_q : i_q + 7], solution.u_end[i_u : i_u + 6])
-    model = assemble(again, ns.Options())
+    model = assemble(again, ns.EventDriven())
     model.memory.scalars["t_end"] = model.memory.scalars["sample_interval"] = 1e-6
     call_room("advance", model.memory, 10, 0)
     n = int(model.memory.scalars["n_contacts"][0])

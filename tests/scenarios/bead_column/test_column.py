@@ -36,7 +36,7 @@ def test_against_springs_in_real_time(n: float, exponent: float) -> None:
     that matter then do not exist for an impact at fixed positions.
     """
     scenario = BeadColumn(n_beads=n, exponent=exponent, t_end=0.102)
-    solution = ns.simulate(scenario.build(), scenario.t_end, options=ns.Options(impact_tolerance=1e-11))
+    solution = ns.simulate(scenario.build(), scenario.t_end, engine=ns.EventDriven(impact_tolerance=1e-11))
     assert solution.events.time[1] == pytest.approx(2.0 * scenario.height / scenario.fall_speed, abs=1e-12)
     summary = scenario.summarise(solution)
     np.testing.assert_allclose(summary["relative_rebound"], _on_springs(scenario), rtol=0, atol=1e-8)

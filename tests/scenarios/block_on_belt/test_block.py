@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 import nonsmooth as ns
 from scenarios.block_on_belt.scenario import BlockOnBelt
 
-FINE = ns.Options(tolerance=1e-12)
+FINE = ns.EventDriven(tolerance=1e-12)
 OTHER = {"mass": 2.0, "stiffness": 30.0, "static_force": 5.0, "decay": 1.2, "belt_speed": 0.5, "t_end": 8.0}
 
 
@@ -39,7 +39,7 @@ def _cycle(scenario: BlockOnBelt) -> tuple[float, float, float]:
 def test_limit_cycle(given: dict[str, float]) -> None:
     """Period, share of stick and place of the catch agree with scipy to 1e-8, and so do two cycles in a row."""
     scenario = BlockOnBelt(**given)
-    solution = ns.simulate(scenario.build(), scenario.t_end, options=FINE)
+    solution = ns.simulate(scenario.build(), scenario.t_end, engine=FINE)
     period, stick, place = _cycle(scenario)
     summary = scenario.summarise(solution)
     assert summary["period"] == pytest.approx(period, abs=1e-8)
@@ -68,7 +68,7 @@ def test_energy() -> None:
     """The account closes; over one cycle the belt gives what friction takes."""
     scenario = BlockOnBelt()
     period = _cycle(scenario)[0]
-    ends = [ns.simulate(scenario.build(), t, options=FINE).energy for t in (6.0, 6.0 + 2.0 * period)]
+    ends = [ns.simulate(scenario.build(), t, engine=FINE).energy for t in (6.0, 6.0 + 2.0 * period)]
     assert all(account.residual <= 1e-10 for account in ends)
     given, taken = (b - a for a, b in ((getattr(ends[0], n), getattr(ends[1], n)) for n in ("driven_work", "loss")))
     assert given > 1.0

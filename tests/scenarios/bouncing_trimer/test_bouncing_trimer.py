@@ -43,10 +43,10 @@ def test_mass_and_inertia() -> None:
 def test_level_trimer_is_a_ball(gamma: float) -> None:
     """Dropped level, three equal impacts at once do what one ball does: the same impact times to 1e-9 s."""
     start = {"gamma": gamma, "frequency": 50.0, "restitution": 0.8, "height": 4e-3, "t_end": 0.25}
-    exact = ns.Options(impact_tolerance=1e-12)
-    solution = ns.simulate(BouncingTrimer(tilt=0.0, **start).build(), 0.25, options=exact)
+    exact = ns.EventDriven(impact_tolerance=1e-12)
+    solution = ns.simulate(BouncingTrimer(tilt=0.0, **start).build(), 0.25, engine=exact)
     ball = BouncingBall(**start)
-    reference = ns.simulate(ball.build(), ball.t_end, options=exact)
+    reference = ns.simulate(ball.build(), ball.t_end, engine=exact)
     found = solution.events.time[solution.events.cause == IMPACT][:6]
     assert len(found) == 6
     np.testing.assert_allclose(found, ball.impact_times(reference)[:6], rtol=0, atol=1e-9)

@@ -16,11 +16,11 @@ from scenarios.disc_ball import figures
 from scenarios.disc_ball.closed_forms import one_after_the_other, symmetric
 from scenarios.disc_ball.scenario import DiscBall
 
-EXACT = ns.Options(impact_tolerance=1e-11)
+EXACT = ns.EventDriven(impact_tolerance=1e-11)
 
 
 def _run(scenario: DiscBall) -> ns.Solution:
-    return ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, options=EXACT)
+    return ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, engine=EXACT)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])

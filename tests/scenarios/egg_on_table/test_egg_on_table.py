@@ -18,9 +18,9 @@ Array = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 
 
-def _run(options: Any = None, **given: Any) -> tuple[EggOnTable, ns.Solution]:
+def _run(engine: Any = None, **given: Any) -> tuple[EggOnTable, ns.Solution]:
     scenario = EggOnTable(**given)
-    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, options=options)
+    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, engine=engine)
     assert solution.energy.residual <= 1e-8
     return scenario, solution
 
@@ -56,7 +56,7 @@ def test_jellett_stays_while_the_egg_rises() -> None:
 )
 def test_balance_of_angular_momentum(given: dict[str, float], bound: float) -> None:
     """Whatever the friction does; across the kinks of an impact the spline of the samples is less exact."""
-    scenario, solution = _run(ns.Options(tolerance=1e-11), **given)
+    scenario, solution = _run(ns.EventDriven(tolerance=1e-11), **given)
     assert scenario.balance(solution) < bound
     assert (scenario.summarise(solution)["flights"] > 10) == (bound > 1e-5)
 
@@ -93,7 +93,7 @@ def _independent(scenario: EggOnTable, t_end: float) -> Array:
 
 def test_against_other_equations() -> None:
     """Normal, angular velocity and speed after 0.6 s of sliding, integrated by scipy from the support function."""
-    scenario, solution = _run(ns.Options(tolerance=1e-12), t_end=0.6)
+    scenario, solution = _run(ns.EventDriven(tolerance=1e-12), t_end=0.6)
     assert len(solution.events.time) == 1
     found = _independent(scenario, scenario.t_end)
     n = scenario.normals(solution.q_end[None])[0]

@@ -13,11 +13,11 @@ from scipy.integrate import solve_ivp
 import nonsmooth as ns
 from scenarios.newtons_cradle.scenario import NewtonsCradle
 
-EXACT = ns.Options(impact_tolerance=1e-11)
+EXACT = ns.EventDriven(impact_tolerance=1e-11)
 
 
-def _velocities(scenario: NewtonsCradle, options: ns.Options = EXACT) -> Any:
-    solution = ns.simulate(scenario.build(), scenario.t_end, options=options)
+def _velocities(scenario: NewtonsCradle, engine: ns.EventDriven = EXACT) -> Any:
+    solution = ns.simulate(scenario.build(), scenario.t_end, engine=engine)
     assert solution.counters.impacts == 1
     return scenario.velocities(solution)
 

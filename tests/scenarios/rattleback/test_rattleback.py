@@ -13,12 +13,12 @@ from nonsmooth.engine.native.kernel import PLAIN
 from scenarios.rattleback.rolling import roll
 from scenarios.rattleback.scenario import GRAVITY, Rattleback
 
-EXACT = ns.Options(tolerance=1e-12)
+EXACT = ns.EventDriven(tolerance=1e-12)
 
 
-def _run(options: ns.Options | None = None, **given: Any) -> tuple[Rattleback, ns.Solution]:
+def _run(engine: ns.EventDriven | None = None, **given: Any) -> tuple[Rattleback, ns.Solution]:
     scenario = Rattleback(**given)
-    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, options=options)
+    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, engine=engine)
     assert solution.energy.residual <= 1e-8
     return scenario, solution
 

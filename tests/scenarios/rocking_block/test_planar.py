@@ -15,7 +15,7 @@ from nonsmooth.engine.memory.modes import IMPACT
 from scenarios.rocking_block import housner
 from scenarios.rocking_block.scenario import RockingBlock
 
-FINE = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
+FINE = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 GRAVITY = 9.81
 
 
@@ -77,7 +77,7 @@ def _bounce(block: RockingBlock, velocity: float, rate: float) -> tuple[float, f
 def test_first_double_impact() -> None:
     """At t = 0.58747797, as published, with the first corner still closed; time, rates and rebound as by scipy."""
     block = RockingBlock(t_end=0.6)
-    solution = ns.simulate(block.build(), block.t_end, options=FINE)
+    solution = ns.simulate(block.build(), block.t_end, engine=FINE)
     first = block.summarise(solution)["first_impact"]
     assert first["time"][0] == pytest.approx(0.58747797, abs=5e-9)
     assert first["mode"] == ["{0011,0010,0011}"]
@@ -98,7 +98,7 @@ def _no_slip(alpha: float, share: float = 1.05, **more: float) -> RockingBlock:
 
 def _first_impact(block: RockingBlock) -> tuple[float, float]:
     """Return the ratio of the tilt rates and the share of the normal impulse that the corner at rest takes."""
-    solution = ns.simulate(block.build(), block.t_end, options=FINE)
+    solution = ns.simulate(block.build(), block.t_end, engine=FINE)
     first = np.flatnonzero(solution.events.cause == IMPACT)[0]
     impulse = solution.events.impulse[first, :, 0]
     ratio = solution.events.u_after[first, 2] / solution.events.u_before[first, 2]
@@ -140,7 +140,7 @@ def test_least_friction(alpha: float) -> None:
 def test_amplitudes() -> None:
     """Every landing multiplies the tilt rate by the ratio, and no slip happens; the tilts follow."""
     block = RockingBlock(base=0.25, height=1.0, tilt=0.15, restitution=0.0, friction=0.5, t_end=4.0)
-    solution = ns.simulate(block.build(), block.t_end, options=FINE)
+    solution = ns.simulate(block.build(), block.t_end, engine=FINE)
     events, alpha = solution.events, housner.slenderness(0.25, 1.0)
     assert solution.energy.friction_loss <= 1e-12
     impacts = events.cause == IMPACT
@@ -158,7 +158,7 @@ def test_quarter_period_of_slender_blocks() -> None:
     errors = []
     for alpha in (0.2, 0.1, 0.05):
         block = _no_slip(alpha, 1.5, tilt=0.5 * alpha, t_end=1.0)
-        solution = ns.simulate(block.build(), block.t_end, options=FINE)
+        solution = ns.simulate(block.build(), block.t_end, engine=FINE)
         time = block.summarise(solution)["first_impact"]["time"][0]
         exact = housner.quarter_period(alpha, block.tilt, math.hypot(block.base, block.height))
         errors.append(abs(time / exact - 1.0))
@@ -171,7 +171,7 @@ def test_quarter_period_of_slender_blocks() -> None:
 def test_energy(restitution: float, friction: float) -> None:
     """The account closes over many impacts, no corner sinks in, and nothing is lost where nothing can be."""
     block = RockingBlock(restitution=restitution, friction=friction, t_end=1.5)
-    solution = ns.simulate(block.build(), block.t_end, sample_interval=block.sample_interval, options=FINE)
+    solution = ns.simulate(block.build(), block.t_end, sample_interval=block.sample_interval, engine=FINE)
     assert solution.energy.residual <= 1e-10
     assert (solution.energy.restitution_loss > 1e-3) == (restitution < 1.0)
     assert np.min(block.corner_heights(solution)) >= -1e-9

@@ -14,7 +14,7 @@ from scenarios.rocking_block import housner
 from scenarios.rocking_block.scenario import RockingBlock
 from scenarios.rocking_block.spatial import RockingBlock3D
 
-FINE = ns.Options(tolerance=1e-12, impact_tolerance=1e-12)
+FINE = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 
 
 @pytest.mark.parametrize(("restitution", "friction", "t_end"), [(0.8, 0.0, 1.2), (0.3, 1.5, 0.8)])
@@ -23,8 +23,8 @@ def test_on_an_edge_as_in_the_plane(restitution: float, friction: float, t_end: 
     common = {"base": 1.0, "height": 0.5, "restitution": restitution, "friction": friction, "t_end": t_end}
     flat = RockingBlock(tilt=0.5, **common)
     deep = RockingBlock3D(depth=0.4, direction=0.0, tilt=0.5, **common)
-    one = ns.simulate(flat.build(), t_end, options=FINE)
-    two = ns.simulate(deep.build(), t_end, options=FINE)
+    one = ns.simulate(flat.build(), t_end, engine=FINE)
+    two = ns.simulate(deep.build(), t_end, engine=FINE)
     times = [run.events.time[run.events.cause == IMPACT] for run in (one, two)]
     assert len(times[0]) >= 3
     # equal and opposite corners may strike within the time tolerance, not at the very same instant
@@ -39,7 +39,7 @@ def test_velocity_ratio_on_an_edge() -> None:
     alpha = 0.3
     friction = 1.1 * housner.least_friction(alpha)
     block = RockingBlock3D(base=math.tan(alpha), depth=0.5, direction=0.0, tilt=0.05, friction=friction, t_end=0.5)
-    solution = ns.simulate(block.build(), block.t_end, options=FINE)
+    solution = ns.simulate(block.build(), block.t_end, engine=FINE)
     first = np.flatnonzero(solution.events.cause == IMPACT)[0]
     assert solution.events.words("during")[first] == "{01010101,01010000,00000000}"
     ratio = solution.events.u_after[first, 4] / solution.events.u_before[first, 4]
@@ -68,7 +68,7 @@ def test_rocking_on_corners() -> None:
 def test_mirror_image() -> None:
     """Tilted towards -y instead of +y, it moves as its mirror image."""
     one, two = (RockingBlock3D(direction=direction, t_end=0.7) for direction in (0.7, -0.7))
-    runs = [ns.simulate(block.build(), block.t_end, options=FINE) for block in (one, two)]
+    runs = [ns.simulate(block.build(), block.t_end, engine=FINE) for block in (one, two)]
     np.testing.assert_allclose(one.lean(runs[0]), one.lean(runs[1]) * [1.0, -1.0], rtol=0, atol=1e-8)
     assert np.max(np.abs(one.lean(runs[0])[:, 1])) > 0.05
 

@@ -16,7 +16,7 @@ from scenarios.rolling_disc import steady
 from scenarios.rolling_disc.scenario import RollingDisc
 
 Floats = NDArray[np.float64]
-FINE = ns.Options(tolerance=1e-12)
+FINE = ns.EventDriven(tolerance=1e-12)
 GRAVITY = 9.81
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -56,7 +56,7 @@ def test_steady_rolling(tilt: float, friction: float) -> None:
     """Omega^2 sin(alpha) = 4 g / a keeps tilt, rate and centre over ten turns, with friction and without."""
     scenario = RollingDisc(tilt=tilt, friction=friction, viscosity=0.0)
     rate = math.sqrt(4.0 * GRAVITY / (scenario.radius * math.sin(tilt)))
-    solution = ns.simulate(scenario.build(), 20.0 * math.pi / rate, options=FINE)
+    solution = ns.simulate(scenario.build(), 20.0 * math.pi / rate, engine=FINE)
     np.testing.assert_allclose(scenario.tilts(solution), tilt, rtol=1e-8)
     np.testing.assert_allclose(scenario.precession(solution), rate, rtol=1e-8)
     assert np.max(np.abs(solution.q[:, :2])) <= 1e-8 * scenario.radius
@@ -77,7 +77,7 @@ def test_another_rate_is_not_steady(pace: float) -> None:
 def test_rolling_by_scipy(pace: float, viscosity: float) -> None:
     """Tilt, precession and rolling velocity follow the equations of a disc that cannot slip."""
     scenario = RollingDisc(tilt=0.5, pace=pace, viscosity=viscosity, friction=2.0, end_tilt=0.05)
-    solution = ns.simulate(scenario.build(), 0.6, options=FINE)
+    solution = ns.simulate(scenario.build(), 0.6, engine=FINE)
     assert set(solution.events.causes()) == {"start"}
     times = solution.t[::50]
     axis, spin = _roll(scenario, times)
@@ -90,7 +90,7 @@ def test_rolling_by_scipy(pace: float, viscosity: float) -> None:
 def _time_over_theory(**given: float) -> float:
     """Return the time to half the tilt over that of slow settling, less one."""
     scenario = RollingDisc(end_tilt=0.5 * given["tilt"], **given)
-    solution = ns.simulate(scenario.build(), scenario.t_end, options=ns.Options(tolerance=1e-11))
+    solution = ns.simulate(scenario.build(), scenario.t_end, engine=ns.EventDriven(tolerance=1e-11))
     assert solution.message == "a guard of the scenario ended the run"
     flat = steady.time_to_flat(scenario.tilt, scenario.radius, scenario.mass, scenario.viscosity)
     exact = flat * (1.0 - (math.sin(scenario.end_tilt) / math.sin(scenario.tilt)) ** 3)
@@ -128,7 +128,7 @@ def test_power_of_the_air(tilt: float) -> None:
     """In steady rolling the air takes pi viscosity g a^2 / sin^2(alpha), Moffatt's power for small tilts."""
     scenario = RollingDisc(tilt=tilt, viscosity=1e-5)
     time = 1e-3
-    solution = ns.simulate(scenario.build(), time, options=FINE)
+    solution = ns.simulate(scenario.build(), time, engine=FINE)
     power = math.pi * scenario.viscosity * GRAVITY * scenario.radius**2 / math.sin(tilt) ** 2
     assert -solution.energy.load_work / time == pytest.approx(power, rel=1e-4)
 
@@ -136,7 +136,7 @@ def test_power_of_the_air(tilt: float) -> None:
 def test_slip_ends_in_rolling() -> None:
     """A spin about the own axis slides, friction takes energy until the disc rolls, and nothing does after that."""
     scenario = RollingDisc(tilt=0.5, spin=10.0, viscosity=0.0)
-    longer, shorter = (ns.simulate(scenario.build(), t, options=FINE) for t in (0.6, 0.3))
+    longer, shorter = (ns.simulate(scenario.build(), t, engine=FINE) for t in (0.6, 0.3))
     assert longer.events.causes() == ["start", "slip to stick"]
     caught = longer.events.time[1]
     assert 0.0 < caught < 0.2
@@ -158,7 +158,7 @@ def test_energy_account_converges(given: dict[str, Any]) -> None:
     scenario = RollingDisc(tilt=0.5, **given)
     residuals = []
     for tolerance in (1e-6, 1e-8, 1e-10, 1e-12):
-        run = ns.simulate(scenario.build(), 0.3, options=ns.Options(tolerance=tolerance))
+        run = ns.simulate(scenario.build(), 0.3, engine=ns.EventDriven(tolerance=tolerance))
         residuals.append(run.energy.residual)
     slope = np.polyfit([-6.0, -8.0, -10.0, -12.0], np.log10(residuals), 1)[0]
     assert slope > 0.8

@@ -22,7 +22,7 @@ def _run(scenario: SliderCrank, t_end: float | None = None, **options: Any) -> n
         scenario.build(),
         t_end or scenario.t_end,
         sample_interval=scenario.sample_interval,
-        options=ns.Options(**options),
+        engine=ns.EventDriven(**options),
     )
 
 

@@ -17,12 +17,12 @@ from scenarios.sliding_rod import figures
 from scenarios.sliding_rod.paradox import Rod
 from scenarios.sliding_rod.scenario import GRAVITY, SlidingRod
 
-EXACT = ns.Options(tolerance=1e-11)
+EXACT = ns.EventDriven(tolerance=1e-11)
 
 
 def _run(**start: Any) -> tuple[SlidingRod, ns.Solution]:
     scenario = SlidingRod(**start)
-    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, options=EXACT)
+    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, engine=EXACT)
     assert solution.energy.residual <= 1e-8
     return scenario, solution
 

@@ -14,12 +14,12 @@ import nonsmooth as ns
 from scenarios.tippe_top.friction import SpinningCoulomb
 from scenarios.tippe_top.scenario import GRAVITY, TippeTop
 
-EXACT = ns.Options(tolerance=1e-11)
+EXACT = ns.EventDriven(tolerance=1e-11)
 
 
-def _run(options: ns.Options | None = None, **start: Any) -> tuple[TippeTop, ns.Solution]:
+def _run(engine: ns.EventDriven | None = None, **start: Any) -> tuple[TippeTop, ns.Solution]:
     scenario = TippeTop(**start)
-    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, options=options)
+    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, engine=engine)
     assert solution.energy.residual <= 1e-8
     return scenario, solution
 

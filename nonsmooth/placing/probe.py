@@ -9,12 +9,12 @@ import numpy as np
 
 from nonsmooth.engine.memory.layout import FRAME
 from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.options import Options
-from nonsmooth.solids.start import frames_of
+from nonsmooth.model.overlaps import frames_of
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
@@ -42,7 +42,7 @@ class Probe:
     def of(cls, system: System, body: Body) -> Probe:
         """Return the probe of a body where it starts."""
         number = next(i for i, other in enumerate(system.bodies) if other is body)
-        return cls(lay_out(system.about(body), Options()), body, number)
+        return cls(lay_out(system.about(body), EventDriven()), body, number)
 
     @property
     def contacts(self) -> tuple[Contact, ...]:

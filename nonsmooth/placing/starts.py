@@ -10,8 +10,8 @@ import numpy as np
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.solids.line import Line
-from nonsmooth.solids.probe import Probe
+from nonsmooth.placing.line import Line
+from nonsmooth.placing.probe import Probe
 from nonsmooth.system.system import System
 
 _ROUND_OFF = 1e-9

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from nonsmooth.results.variables import of_events, of_samples, of_system
 from nonsmooth.solution.solution import Solution
+from nonsmooth.solution.variables import of_events, of_samples, of_system
 
 if TYPE_CHECKING:
     import xarray

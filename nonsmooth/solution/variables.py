@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import CAUSES
-from nonsmooth.results.labels import labels
-from nonsmooth.results.zarr_folder import Variable
 from nonsmooth.solution.events import Events
+from nonsmooth.solution.labels import labels
+from nonsmooth.solution.variable import Variable
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]

@@ -8,9 +8,9 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.model.overlaps import solid_pairs
+from nonsmooth.placing.probe import Probe
 from nonsmooth.solids.passage import Passage
-from nonsmooth.solids.probe import Probe
-from nonsmooth.solids.start import solid_pairs
 
 _STEPS = 5000
 _FARTHEST = 1e6

@@ -6,8 +6,8 @@ import csv
 from pathlib import Path
 
 from nonsmooth.engine.memory.modes import GUARD
-from nonsmooth.results.labels import labels
 from nonsmooth.solution.files import replacing
+from nonsmooth.solution.labels import labels
 from nonsmooth.solution.solution import Solution
 
 _ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")

@@ -1,0 +1,61 @@
+"""Arrays: what one room of the engine works with, and functions that give lengths."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias, final
+
+from nonsmooth.engine.memory.layout import MOST_BLOCKS, MOST_ENTRIES
+
+Counts: TypeAlias = Mapping[str, int]
+Size: TypeAlias = Callable[[Counts], int]
+
+
+@final
+@dataclass(frozen=True)
+class Arrays:
+    """The arrays of a room: the length of each as a function of the counts of a system.
+
+    Attributes
+    ----------
+    floats, integers : dict
+        Those in which a step may find what one before it left.
+    later_floats, later_integers : dict
+        Output, and room for the worst case, mostly unused: they come last, and cost no memory before they are written.
+    """
+
+    floats: dict[str, Size]
+    integers: dict[str, Size]
+    later_floats: dict[str, Size] = field(default_factory=dict)
+    later_integers: dict[str, Size] = field(default_factory=dict)
+
+
+def per(stride: int, count: str) -> Size:
+    """Return a length of so many for each of what is counted."""
+    return lambda n: stride * n[count]
+
+
+def fixed(length: int) -> Size:
+    """Return a length that is the same in all systems."""
+    return lambda n: length
+
+
+def entries(n: Counts) -> int:
+    """Return the length of a matrix of all unknowns of the contacts."""
+    return int(min((3 * n["n_slots"]) ** 2, MOST_ENTRIES))
+
+
+def blocks(n: Counts) -> int:
+    """Return how many pairs of contacts may act on one another."""
+    return int(min(n["n_slots"] ** 2, MOST_BLOCKS))
+
+
+def guards(n: Counts) -> int:
+    """Return the number of guards: three for each contact, and those of the system."""
+    return 3 * n["n_slots"] + n["n_own_guards"]
+
+
+def ends(count: str) -> Size:
+    """Return the length of a list of starts, with the end behind the last."""
+    return lambda n: n[count] + 1

@@ -1,0 +1,51 @@
+"""The problem of the active contacts, its solvers, and its linear algebra."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, per
+
+ARRAYS = Arrays(
+    floats={
+        "f": per(3, "n_slots"),
+        "d": per(2, "n_slots"),
+        "mu": per(1, "n_slots"),
+        "mu_static": per(1, "n_slots"),
+        "mu_kept": per(1, "n_slots"),
+        "static_kept": per(1, "n_slots"),
+        "d_found": per(2, "n_slots"),
+        "d_closed": per(2, "n_slots"),
+        "f_raw": per(3, "n_slots"),
+        "f_kept": per(3, "n_slots"),
+        "margin": per(1, "n_slots"),
+        "acceleration": per(3, "n_slots"),
+        "share": per(3, "n_slots"),
+        "slack": per(1, "n_slots"),
+        "right": per(3, "n_slots"),
+        "x": per(3, "n_slots"),
+        "sigma": per(6, "n_slots"),
+    },
+    integers={
+        "mode_tried": per(1, "n_slots"),
+        "normal_held": per(1, "n_slots"),
+        "tangent_held": per(1, "n_slots"),
+        "at_rest": per(1, "n_slots"),
+        "redundant": per(1, "n_slots"),
+        "freed": per(1, "n_slots"),
+        "mode_past": per(1, "n_slots"),
+        "mode_found": per(1, "n_slots"),
+        "mode_closed": per(1, "n_slots"),
+        "lemke_contact": per(6, "n_pivoted"),
+        "lemke_corner": per(6, "n_pivoted"),
+        "lemke_row": per(6, "n_pivoted"),
+        "lemke_column": lambda n: 6 * n["n_pivoted"] + 1,
+        "column": per(3, "n_slots"),
+        "turn": per(3, "n_slots"),
+        "first_unknown": ends("n_slots"),
+    },
+    later_floats={
+        "reduced": entries,
+        "basis": entries,
+        "null": entries,
+        "tableau": lambda n: 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2),
+    },
+)

@@ -1,0 +1,15 @@
+"""The coefficients of the Runge-Kutta pair."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed
+from nonsmooth.engine.memory.layout import N_STAGES
+
+ARRAYS = Arrays(
+    floats={
+        "stages": fixed(6 * N_STAGES),
+        "error_weights": fixed(N_STAGES),
+        "dense": fixed(4 * N_STAGES),
+    },
+    integers={},
+)

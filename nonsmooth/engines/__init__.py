@@ -1,0 +1,1 @@
+"""Engines: what integrates a laid-out system, each with its options."""

@@ -1,0 +1,87 @@
+"""Engine: what takes a laid-out system from its start to the end of a run."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from nonsmooth.parameters import Component
+
+if TYPE_CHECKING:
+    from nonsmooth.engine.memory.memory import Memory
+    from nonsmooth.system.system import System
+
+
+class Engine(Component, ABC):
+    """An integrator; its parameters are its options.
+
+    All engines share the model: bodies, geometry, contacts, laws, laid out in one memory
+    (:mod:`nonsmooth.engine.memory.tables`), and what comes out of it: samples, events, energies, the state in which a
+    run ends.  The contract:
+
+    1. ``check`` refuses a system that this engine cannot run, before anything is laid out.
+    2. ``rooms`` are the rooms of :mod:`nonsmooth.engine` whose arrays it works with; those of the bodies and those that
+       record there always are, all others have no length.
+    3. ``counts`` gives the lengths that its options decide, ``settings`` the scalars of the record ``S``.
+    4. ``advance`` goes on, from wherever the memory stands, with compiled rooms or otherwise.  All that it needs to go
+       on later, in another process too, it leaves in the memory.
+    """
+
+    @property
+    @abstractmethod
+    def rooms(self) -> tuple[str, ...]:
+        """Names of the rooms whose arrays it works with."""
+
+    @abstractmethod
+    def check(self, system: System) -> None:
+        """Look whether it can run a system.
+
+        Raises
+        ------
+        InvalidInput
+            If it cannot; the message names what it is that it cannot run, and another engine.
+        """
+
+    @abstractmethod
+    def counts(self, n_slots: int) -> Mapping[str, int]:
+        """Return the counts of :data:`nonsmooth.engine.memory.tables.COUNTS` that it decides; others are 0.
+
+        Parameters
+        ----------
+        n_slots : int
+            Contacts that may be near each other at one time.
+        """
+
+    @abstractmethod
+    def settings(self, time_scale: float) -> Mapping[str, float]:
+        """Return scalars of the record ``S`` by name.
+
+        Parameters
+        ----------
+        time_scale : float
+            Shortest period of the prescribed motions [s].
+        """
+
+    @abstractmethod
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+        """Go on to the end time ``S.t_end``, a failure, full buffers or ``most_steps``; return the status.
+
+        Parameters
+        ----------
+        call : callable
+            ``call(room, *numbers)`` calls a compiled room on the memory, watched: with progress, and with Ctrl-C where
+            nothing is lost.
+        memory : Memory
+            The memory.
+        most_steps : int
+            So many steps at most.
+        wary : bool
+            Whether to pause before a step whose length depends on the end time.
+
+        Returns
+        -------
+        int
+            ``DONE`` at the end time, ``PAUSED`` to be called again, ``STOPPED`` where a guard ends the run, or a
+            failure of :data:`nonsmooth.engine.memory.modes.REASONS`.
+        """

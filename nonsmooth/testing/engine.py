@@ -1,0 +1,95 @@
+"""Properties of engines."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.testing import assert_allclose
+
+from nonsmooth.engine.memory.tables import ARRAYS_OF, COUNTS, SCALARS
+from nonsmooth.interfaces import Engine
+from nonsmooth.runs.model import Model
+from nonsmooth.simulate import assemble
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.property import Broken, Property, properties
+from nonsmooth.testing.puck import Puck
+
+_GRAVITY, _END, _SAMPLES = 9.81, 0.3, 6
+_START = np.array([0.3, -0.2, 1.0, 2.0, -1.0, 0.5])
+_EXACT = 1e-6
+
+
+def check_engine(engine: Engine) -> list[Property]:
+    """Return the properties of an engine; it is looked at with one free body."""
+    look = _Look(engine)
+    rows = [
+        ("names", "`rooms`, `counts` and `settings` name what the memory has", look.names),
+        ("free fall", "a free body moves as gravity has it", look.falls),
+        ("samples", "the samples are at the times asked for, from the start to the end", look.samples),
+        ("energy", "the account of energy closes", look.energy),
+        ("repeatable", "a second run of one model is the same to the last bit", look.repeats),
+        ("continues", "a run that is stopped and goes on is the run that is not, to the last bit", look.continues),
+    ]
+    return properties(engine, [*component_rows(engine), *rows])
+
+
+class _Look:
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+
+    @cached_property
+    def _model(self) -> Model:
+        puck = Puck()
+        system = System([puck], _GRAVITY)
+        system.set_start(puck, np.zeros(3), _START)
+        return assemble(system, self._engine)
+
+    @cached_property
+    def _solution(self) -> Solution:
+        return self._model.run(_END, sample_interval=_END / _SAMPLES)
+
+    def names(self) -> None:
+        """Look at the names."""
+        known = {"rooms": (*ARRAYS_OF,), "counts": COUNTS, "settings": SCALARS.names or ()}
+        told = {"rooms": self._engine.rooms, "counts": self._engine.counts(3), "settings": self._engine.settings(1.0)}
+        for what, names in told.items():
+            unknown = [name for name in names if name not in known[what]]
+            if unknown:
+                raise Broken("the memory has none of that name", what, unknown)
+
+    def falls(self) -> None:
+        """Compare with the parabola."""
+        t, solution = self._solution.t, self._solution
+        path = np.outer(t, _START[:3])
+        path[:, 2] -= 0.5 * _GRAVITY * t**2
+        assert_allclose(solution.q, path, rtol=0.0, atol=_EXACT)
+        assert_allclose(solution.u[:, 3:], np.broadcast_to(_START[3:], (len(t), 3)), rtol=0.0, atol=_EXACT)
+
+    def samples(self) -> None:
+        """Compare the times."""
+        assert_allclose(self._solution.t, np.linspace(0.0, _END, _SAMPLES + 1), rtol=0.0, atol=1e-12)
+        if self._solution.t_end != _END:
+            raise Broken("the run must end there", "t_end", self._solution.t_end)
+
+    def energy(self) -> None:
+        """Look at the residual."""
+        if not self._solution.energy.residual <= _EXACT:
+            raise Broken(f"must be at most {_EXACT:g}", "energy residual", self._solution.energy.residual)
+
+    def repeats(self) -> None:
+        """Run again."""
+        self._compare(self._model.run(_END, sample_interval=_END / _SAMPLES))
+
+    def continues(self) -> None:
+        """Stop between two samples, and go on."""
+        half = self._model.run(0.55 * _END)
+        self._compare(self._model.run(_END, start=half.state))
+
+    def _compare(self, other: Solution) -> None:
+        for name in ("q_end", "u_end"):
+            one, two = getattr(self._solution, name), getattr(other, name)
+            if not np.array_equal(one, two):
+                raise Broken("must be the same", name, float(np.abs(one - two).max()))

@@ -1,0 +1,81 @@
+"""Engines with one fault each, round the event-driven one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.interfaces import Engine
+from nonsmooth.system.system import System
+
+Fault = Callable[[Memory, int], None]
+
+
+def _none(memory: Memory, call: int) -> None:
+    """Do nothing."""
+
+
+def _push(memory: Memory, call: int) -> None:
+    if memory.scalars["t"][0] == 0.0:
+        memory.array("y", 4)[3] += 0.1
+
+
+def _late(memory: Memory, call: int) -> None:
+    if memory.scalars["t"][0] == 0.0:
+        memory.scalars["next_sample"] += 0.01
+
+
+def _gain(memory: Memory, call: int) -> None:
+    memory.scalars["driven_work"] += 0.01
+
+
+def _age(memory: Memory, call: int) -> None:
+    memory.array("y", 1)[0] += 1e-12 * call
+
+
+def _forget(memory: Memory, call: int) -> None:
+    if memory.scalars["resumed"][0] == 1:
+        memory.array("y", 1)[0] += 1e-12
+
+
+@dataclass(frozen=True)
+class Dummy(Engine):
+    """The event-driven engine, with something done before each advance."""
+
+    fault: Fault = _none
+    attic: tuple[str, ...] = ()
+    calls: list[int] = field(default_factory=list, compare=False)
+
+    def parameters(self) -> Mapping[str, Any]:
+        return {}
+
+    @property
+    def rooms(self) -> tuple[str, ...]:
+        return (*EventDriven().rooms, *self.attic)
+
+    def check(self, system: System) -> None:
+        EventDriven().check(system)
+
+    def counts(self, n_slots: int) -> Mapping[str, int]:
+        return EventDriven().counts(n_slots)
+
+    def settings(self, time_scale: float) -> Mapping[str, float]:
+        return EventDriven().settings(time_scale)
+
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+        self.calls.append(1)
+        self.fault(memory, len(self.calls))
+        return EventDriven().advance(call, memory, most_steps, wary)
+
+
+DUMMIES: list[tuple[str, Engine]] = [
+    ("names", Dummy(attic=("attic",))),
+    ("free fall", Dummy(_push)),
+    ("samples", Dummy(_late)),
+    ("energy", Dummy(_gain)),
+    ("repeatable", Dummy(_age)),
+    ("continues", Dummy(_forget)),
+]
