@@ -9,8 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from bodies.blocks import put
 from bodies.inertia import check_inertia, tensor_of
 from bodies.values import Word, read_start, unit_quaternion
+from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.types import Floats
@@ -21,6 +23,14 @@ _WORDS: dict[str, Word] = {
     "velocity": (3, (0.0, 0.0, 0.0), "m/s"),
     "angular_velocity": (3, (0.0, 0.0, 0.0), "rad/s"),
 }
+_RATES = FRAME + 6 * 6
+"""Where the coordinate rates stand in the output block,"""
+_FORCE = _RATES + 7
+"""the forces,"""
+_INVERSE = _FORCE + 6
+"""the inverse mass matrix,"""
+_ENERGY = _INVERSE + 36
+"""and the energies."""
 
 
 def _evaluate(
@@ -49,52 +59,49 @@ def _evaluate(
     ox, oy, oz = u[3], u[4], u[5]
     for i in range(3):
         out[i] = q[i]
-        out[12 + i] = u[i]
+        out[VELOCITY + i] = u[i]
     # homogeneous in the quaternion, so that its length does not matter between two normalisations
-    out[3], out[4], out[5] = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
-    out[6], out[7], out[8] = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
-    out[9], out[10], out[11] = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
+    put(out, ROTATION, a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c))
+    put(out, ROTATION + 3, 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b))
+    put(out, ROTATION + 6, 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d)
     for i in range(3):
-        out[15 + i] = out[3 + 3 * i] * ox + out[4 + 3 * i] * oy + out[5 + 3 * i] * oz
+        r = ROTATION + 3 * i
+        out[SPIN + i] = out[r] * ox + out[r + 1] * oy + out[r + 2] * oz
         # Jacobian of (velocity, angular velocity): identity and rotation
-        out[24 + 7 * i] = 1.0
+        out[JACOBIAN + 7 * i] = 1.0
         for j in range(3):
-            out[24 + 18 + 6 * i + 3 + j] = out[3 + 3 * i + j]
+            out[JACOBIAN + 18 + 6 * i + 3 + j] = out[ROTATION + 3 * i + j]
     # coordinate rates: velocity and half the quaternion product q (0, omega)
-    rates = 60
     for i in range(3):
-        out[rates + i] = u[i]
-    out[rates + 3] = 0.5 * (-b * ox - c * oy - d * oz)
-    out[rates + 4] = 0.5 * (a * ox + c * oz - d * oy)
-    out[rates + 5] = 0.5 * (a * oy + d * ox - b * oz)
-    out[rates + 6] = 0.5 * (a * oz + b * oy - c * ox)
+        out[_RATES + i] = u[i]
+    out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)
+    out[_RATES + 4] = 0.5 * (a * ox + c * oz - d * oy)
+    out[_RATES + 5] = 0.5 * (a * oy + d * ox - b * oz)
+    out[_RATES + 6] = 0.5 * (a * oz + b * oy - c * ox)
     # force and gyroscopic moment
-    force = 67
-    out[force], out[force + 1], out[force + 2] = mass * gravity_x, mass * gravity_y, mass * gravity_z
+    put(out, _FORCE, mass * gravity_x, mass * gravity_y, mass * gravity_z)
     # -omega x (J omega), grouped so that in principal axes nothing but the differences of the moments is left
-    out[force + 3] = (inertia_y - inertia_z) * oy * oz + (
+    out[_FORCE + 3] = (inertia_y - inertia_z) * oy * oz + (
         inertia_yz * (oz * oz - oy * oy) + ox * (inertia_xy * oz - inertia_xz * oy)
     )
-    out[force + 4] = (inertia_z - inertia_x) * oz * ox + (
+    out[_FORCE + 4] = (inertia_z - inertia_x) * oz * ox + (
         inertia_xz * (ox * ox - oz * oz) + oy * (inertia_yz * ox - inertia_xy * oz)
     )
-    out[force + 5] = (inertia_x - inertia_y) * ox * oy + (
+    out[_FORCE + 5] = (inertia_x - inertia_y) * ox * oy + (
         inertia_xy * (oy * oy - ox * ox) + oz * (inertia_xz * oy - inertia_yz * ox)
     )
-    inverse = 73
     for i in range(3):
-        out[inverse + 7 * i] = 1.0 / mass
-    out[inverse + 21], out[inverse + 22], out[inverse + 23] = mobility_x, mobility_xy, mobility_xz
-    out[inverse + 27], out[inverse + 28], out[inverse + 29] = mobility_xy, mobility_y, mobility_yz
-    out[inverse + 33], out[inverse + 34], out[inverse + 35] = mobility_xz, mobility_yz, mobility_z
-    energy = 109
-    out[energy] = 0.5 * (
+        out[_INVERSE + 7 * i] = 1.0 / mass
+    put(out, _INVERSE + 21, mobility_x, mobility_xy, mobility_xz)
+    put(out, _INVERSE + 27, mobility_xy, mobility_y, mobility_yz)
+    put(out, _INVERSE + 33, mobility_xz, mobility_yz, mobility_z)
+    out[_ENERGY] = 0.5 * (
         mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
         + inertia_x * ox * ox
         + inertia_y * oy * oy
         + inertia_z * oz * oz
     ) + (inertia_yz * oy * oz + inertia_xz * ox * oz + inertia_xy * ox * oy)
-    out[energy + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
+    out[_ENERGY + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
 
 
 class FreeBody(Body):

@@ -9,15 +9,25 @@ from typing import Any, final
 
 import numpy as np
 
+from bodies.blocks import put
 from bodies.carried import check_carried
 from bodies.motions.pose import pose_parameters
 from bodies.values import Word, read_start, unit_quaternion, unit_vector, vector
+from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
 _WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
+_RATES = FRAME + 6 * 1
+"""Where the coordinate rates stand in the output block,"""
+_FORCE = _RATES + 1
+"""the forces,"""
+_INVERSE = _FORCE + 1
+"""the inverse mass matrix,"""
+_ENERGY = _INVERSE + 1
+"""and the energies."""
 
 
 def _evaluate(
@@ -45,17 +55,19 @@ def _evaluate(
     gravity_y: float,
     gravity_z: float,
 ) -> None:
-    out[0], out[1], out[2] = x + direction_x * q[0], y + direction_y * q[0], z + direction_z * q[0]
-    out[3], out[4], out[5] = xx, xy, xz
-    out[6], out[7], out[8] = yx, yy, yz
-    out[9], out[10], out[11] = zx, zy, zz
-    out[12], out[13], out[14] = direction_x * u[0], direction_y * u[0], direction_z * u[0]
-    out[24], out[25], out[26] = direction_x, direction_y, direction_z
-    out[30] = u[0]
-    out[31] = mass * (gravity_x * direction_x + gravity_y * direction_y + gravity_z * direction_z)
-    out[32] = 1.0 / mass
-    out[33] = 0.5 * mass * u[0] * u[0]
-    out[34] = -mass * (gravity_x * out[0] + gravity_y * out[1] + gravity_z * out[2])
+    put(out, POSITION, x + direction_x * q[0], y + direction_y * q[0], z + direction_z * q[0])
+    put(out, ROTATION, xx, xy, xz)
+    put(out, ROTATION + 3, yx, yy, yz)
+    put(out, ROTATION + 6, zx, zy, zz)
+    put(out, VELOCITY, direction_x * u[0], direction_y * u[0], direction_z * u[0])
+    put(out, JACOBIAN, direction_x, direction_y, direction_z)
+    out[_RATES] = u[0]
+    out[_FORCE] = mass * (gravity_x * direction_x + gravity_y * direction_y + gravity_z * direction_z)
+    out[_INVERSE] = 1.0 / mass
+    out[_ENERGY] = 0.5 * mass * u[0] * u[0]
+    out[_ENERGY + 1] = -mass * (
+        gravity_x * out[POSITION] + gravity_y * out[POSITION + 1] + gravity_z * out[POSITION + 2]
+    )
 
 
 @final

@@ -9,8 +9,10 @@ from typing import Any, final
 
 import numpy as np
 
+from bodies.blocks import put
 from bodies.carried import check_carried
 from bodies.values import Word, read_start
+from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
@@ -22,6 +24,14 @@ _WORDS: dict[str, Word] = {
     "velocity": (2, (0.0, 0.0), "m/s"),
     "angular_velocity": (0, 0.0, "rad/s"),
 }
+_RATES = FRAME + 6 * 3
+"""Where the coordinate rates stand in the output block,"""
+_FORCE = _RATES + 3
+"""the forces,"""
+_INVERSE = _FORCE + 3
+"""the inverse mass matrix,"""
+_ENERGY = _INVERSE + 9
+"""and the energies."""
 
 
 def _evaluate(
@@ -37,21 +47,20 @@ def _evaluate(
     gravity_z: float,
 ) -> None:
     c, s = math.cos(q[2]), math.sin(q[2])
-    out[0], out[1], out[2] = q[0], y, q[1]
-    out[3], out[5] = c, s
-    out[7] = 1.0
-    out[9], out[11] = -s, c
-    out[12], out[14], out[16] = u[0], u[1], u[2]
+    put(out, POSITION, q[0], y, q[1])
+    out[ROTATION], out[ROTATION + 2] = c, s
+    out[ROTATION + 4] = 1.0
+    out[ROTATION + 6], out[ROTATION + 8] = -s, c
+    out[VELOCITY], out[VELOCITY + 2], out[SPIN + 1] = u[0], u[1], u[2]
     # Jacobian: x, z and the turn about y
-    out[24] = out[24 + 7] = out[24 + 14] = 1.0
-    rates, force, inverse, energy = 42, 45, 48, 57
+    out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
     for i in range(3):
-        out[rates + i] = u[i]
-    out[force], out[force + 1] = mass * gravity_x, mass * gravity_z
-    out[inverse] = out[inverse + 4] = 1.0 / mass
-    out[inverse + 8] = 1.0 / moment
-    out[energy] = 0.5 * (mass * (u[0] * u[0] + u[1] * u[1]) + moment * u[2] * u[2])
-    out[energy + 1] = -mass * (gravity_x * q[0] + gravity_y * y + gravity_z * q[1])
+        out[_RATES + i] = u[i]
+    out[_FORCE], out[_FORCE + 1] = mass * gravity_x, mass * gravity_z
+    out[_INVERSE] = out[_INVERSE + 4] = 1.0 / mass
+    out[_INVERSE + 8] = 1.0 / moment
+    out[_ENERGY] = 0.5 * (mass * (u[0] * u[0] + u[1] * u[1]) + moment * u[2] * u[2])
+    out[_ENERGY + 1] = -mass * (gravity_x * q[0] + gravity_y * y + gravity_z * q[1])
 
 
 @final

@@ -139,7 +139,7 @@ def solve_impact(
     outcome = FINISHED
     if np.any(rates[::3] < 0.0):
         with Watch(memory) as watch:
-            outcome = int(watch.call("energetic_impact"))
+            outcome = int(watch.call("energetic_impact", 0.0))
     if outcome != FINISHED:
         raise RunFailed(f"The impact did not end. {_culprit(memory, impact, friction)}")
     impulse = memory.array("impulse", 3 * n).reshape(n, 3).copy()

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from bodies.contacts.curvature import write_flat, write_round
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAIR, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
 NO_CANDIDATE = (0.0, 0.0, 0.0, 0.0)
@@ -14,11 +16,12 @@ _APART = 1e3
 @compiled
 def write_apart(a: Floats, out: Floats, size: float) -> None:
     """Write the geometry block of bodies that are far apart, in sizes of the larger one [m]."""
-    for i in range(31):
+    for i in range(PAIR):
         out[i] = 0.0
-    out[0] = out[30] = _APART * size
-    out[3], out[4] = 1.0, 1.0
+    out[GAP] = out[PAST_END] = _APART * size
+    out[NORMAL + 2], out[TANGENT] = 1.0, 1.0
     for i in range(3):
-        out[7 + i] = a[i]
-        out[10 + i] = a[i] + out[0] * out[1 + i]
-    out[17] = out[20] = out[21] = out[24] = 1.0
+        out[POINT_A + i] = a[i]
+        out[POINT_B + i] = a[i] + out[GAP] * out[NORMAL + i]
+    write_flat(out, SIDE_A)
+    write_round(out, SIDE_B, 0.0)

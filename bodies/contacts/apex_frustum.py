@@ -8,7 +8,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.across import across
 from bodies.contacts.apex_swept import past_apex
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.curvature import write_round
 from bodies.contacts.frustum import (
     HIGH_RIM,
     LOW_RIM,
@@ -22,6 +22,7 @@ from bodies.contacts.frustum_writing import write_side, write_two
 from bodies.contacts.polytope_tables import Numbers
 from bodies.contacts.swept_vertex import END, NEAR
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, without_feet
+from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -46,7 +47,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, swap: float, first: Floats, sec
         up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[0])
         past = max(past, END * size - (second[SIDE] - up))
     write_two(a, out, swap, first, second, distance, past, nx, ny, nz, px, py, pz, 0.0)
-    out[29] = part_number(second, part)
+    out[FEATURE] = part_number(second, part)
     point = away - distance * radial
     if part == LOW_RIM or part == HIGH_RIM:
         point = second[0] if part == LOW_RIM else second[1]

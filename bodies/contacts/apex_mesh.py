@@ -7,8 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.blocks import put
 from bodies.contacts.apex_swept import past_apex
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.curvature import write_round
 from bodies.contacts.frames import vector_in_body
 from bodies.contacts.frustum import axis_in_world, center_in_world
 from bodies.contacts.surface_feature import out_of_surface, write_feature
@@ -21,6 +22,7 @@ from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.frustum import HIGH, SIDE, SWEEP, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
@@ -52,7 +54,7 @@ def write_apex(
     ax, ay, az = axis_in_world(a, first)
     px, py, pz = center_in_world(a, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
-    x, y, z = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
+    x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
     found = nearest_in_patch(surface, patch, x, y, z, reach)
     # the patch of a surface that has one only does not end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
@@ -67,11 +69,11 @@ def write_apex(
     if past > 0.0:
         # so small a way past the end is written large, that nobody takes the open contact for one that touches
         gap = math.hypot(max(gap, 0.0), max(past, OPEN * shared))
-    out[1], out[2], out[3] = -nx, -ny, -nz
-    out[7], out[8], out[9] = px - radius * nx, py - radius * ny, pz - radius * nz
-    out[0], out[30] = gap, past
+    put(out, NORMAL, -nx, -ny, -nz)
+    put(out, POINT_A, px - radius * nx, py - radius * ny, pz - radius * nz)
+    out[GAP], out[PAST_END] = gap, past
     for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
     write_round(out, SIDE_A, radius)
     write_feature(b, out, SIDE_B, surface, found[2], found[3])

@@ -17,6 +17,7 @@ from bodies.contacts.swept_vertex import END, write_vertex_over
 from bodies.shapes.frustum import COS, HIGH, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -48,7 +49,7 @@ def _evaluate(
     ax, ay, az = axis_in_world(a, first)
     px, py, pz = center_in_world(a, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
-    x, y, z = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
+    x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
     found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(b, found[2], found[3], found[4])
     past = past_apex(first, found[1], -nx * ax - ny * ay - nz * az, size)

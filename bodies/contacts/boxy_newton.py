@@ -14,6 +14,7 @@ from bodies.contacts.smooth_core import RADIUS, Axes, back, bend, forth
 from bodies.contacts.tangents import tangent_of
 from bodies.shapes.support_function import boxy_gauge_of, support_of
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
 from nonsmooth.types import Floats
 
 _STEPS = 200
@@ -153,12 +154,12 @@ def write_boxy(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: fl
     Normal and first tangent stand in ``out`` already; ``axes`` are those of the core in the world.
     """
     s = place_on(core, x, y, z)
-    tx, ty, tz = back(axes, out[4], out[5], out[6])
+    tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])
     ux, uy, uz = back(
         axes,
-        out[2] * out[6] - out[3] * out[5],
-        out[3] * out[4] - out[1] * out[6],
-        out[1] * out[5] - out[2] * out[4],
+        out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
+        out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
+        out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
     )
     c11, c12 = tx * s[6] + ty * s[7] + tz * s[8], tx * s[9] + ty * s[10] + tz * s[11]
     c21, c22 = ux * s[6] + uy * s[7] + uz * s[8], ux * s[9] + uy * s[10] + uz * s[11]

@@ -7,13 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal, write_round
+from bodies.blocks import put
+from bodies.contacts.curvature import write_principal, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import join_cores
 from bodies.contacts.sides import by_side
 from bodies.contacts.tangents import tangent_of
 from bodies.shapes.capsule import Capsule
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -96,8 +98,8 @@ def _evaluate(
         distance = math.sqrt(dx * dx + dy * dy + dz * dz)
         if distance <= shortest + allowed:
             s, t, shortest = s_tried, t_tried, distance
-    out[7], out[8], out[9] = first_x + s * ux, first_y + s * uy, first_z + s * uz
-    out[10], out[11], out[12] = second_x + t * vx, second_y + t * vy, second_z + t * vz
+    put(out, POINT_A, first_x + s * ux, first_y + s * uy, first_z + s * uz)
+    put(out, POINT_B, second_x + t * vx, second_y + t * vy, second_z + t * vz)
     if square > 0.0:
         sine = math.sqrt(square)
         cx, cy, cz = cx / sine, cy / sine, cz / sine
@@ -118,7 +120,7 @@ def _evaluate(
         number += 3.0 if s > 0.0 else -3.0
     if not side_b:
         number += 1.0 if t > 0.0 else -1.0
-    out[29] = number
+    out[FEATURE] = number
 
 
 @final

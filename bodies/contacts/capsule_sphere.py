@@ -6,13 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal, write_round
+from bodies.blocks import put
+from bodies.contacts.curvature import write_principal, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import join_cores
 from bodies.contacts.sides import by_side
 from bodies.contacts.tangents import tangent_of
 from bodies.shapes.capsule import Capsule
 from bodies.shapes.sphere import Sphere
+from nonsmooth.engine.memory.blocks import FEATURE, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -37,18 +39,18 @@ def _evaluate(
 ) -> None:
     x, y, z = point_in_world(a, x_a, y_a, z_a)
     axis_x, axis_y, axis_z = vector_in_world(a, axis_x_a, axis_y_a, axis_z_a)
-    out[10], out[11], out[12] = point_in_world(b, x_b, y_b, z_b)
-    along = (out[10] - x) * axis_x + (out[11] - y) * axis_y + (out[12] - z) * axis_z
+    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(b, x_b, y_b, z_b)
+    along = (out[POINT_B] - x) * axis_x + (out[POINT_B + 1] - y) * axis_y + (out[POINT_B + 2] - z) * axis_z
     near = min(max(along, -half_length_a), half_length_a)
-    out[7], out[8], out[9] = x + near * axis_x, y + near * axis_y, z + near * axis_z
+    put(out, POINT_A, x + near * axis_x, y + near * axis_y, z + near * axis_z)
     nx, ny, nz = tangent_of(axis_x, axis_y, axis_z)
     join_cores(a, out, radius_a, radius_b, nx, ny, nz)
     if near == along:
         write_principal(out, SIDE_A, axis_x, axis_y, axis_z, 0.0, 1.0, 1.0, radius_a)
-        out[29] = 1.0
+        out[FEATURE] = 1.0
     else:
         write_round(out, SIDE_A, radius_a)
-        out[29] = 2.0 if along > 0.0 else 0.0
+        out[FEATURE] = 2.0 if along > 0.0 else 0.0
     write_round(out, SIDE_B, radius_b)
 
 

@@ -18,6 +18,7 @@ from bodies.contacts.smooth_core import RADIUS, Axes, back, bend
 from bodies.contacts.tangents import tangent_of
 from bodies.shapes.support_function import support_by
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
 from nonsmooth.types import Floats
 
 _FLATTEST = 1e-12
@@ -151,12 +152,12 @@ def write_chart(out: Floats, side: int, core: Floats, axes: Axes, nx: float, ny:
     norm, size = (core[0], core[1], core[2], core[3], core[4]), max(core[0], core[1], core[2])
     w = start_of(norm, nx, ny, nz)
     _, _, first, second, slide, turn, _, _, _ = chart_of(norm, size, w[0], w[1], w[2])
-    tx, ty, tz = back(axes, out[4], out[5], out[6])
+    tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])
     ux, uy, uz = back(
         axes,
-        out[2] * out[6] - out[3] * out[5],
-        out[3] * out[4] - out[1] * out[6],
-        out[1] * out[5] - out[2] * out[4],
+        out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
+        out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
+        out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
     )
     c11 = tx * first[0] + ty * first[1] + tz * first[2]
     c12 = tx * second[0] + ty * second[1] + tz * second[2]

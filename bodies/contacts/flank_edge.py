@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, write_sweep
+from bodies.contacts.curvature import write_sweep
 from bodies.contacts.frustum import FLANK, center_in_world, write_part
 from bodies.contacts.frustum_edge import (
     astray_of_edge,
@@ -21,6 +21,7 @@ from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.smooth_core import axes_in_world, forth
 from bodies.shapes.frustum import COS, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.swept import SweptPolytope
+from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bodies.shapes.placement import turned
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION, ROTATION
 from nonsmooth.types import Floats
 
 
@@ -11,9 +12,9 @@ from nonsmooth.types import Floats
 def point_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
     """Return where a point of the body stands [m]."""
     return (
-        frame[0] + frame[3] * x + frame[4] * y + frame[5] * z,
-        frame[1] + frame[6] * x + frame[7] * y + frame[8] * z,
-        frame[2] + frame[9] * x + frame[10] * y + frame[11] * z,
+        frame[POSITION] + frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
+        frame[POSITION + 1] + frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,
+        frame[POSITION + 2] + frame[ROTATION + 6] * x + frame[ROTATION + 7] * y + frame[ROTATION + 8] * z,
     )
 
 
@@ -21,9 +22,9 @@ def point_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, 
 def vector_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
     """Return a vector of the body in world axes."""
     return (
-        frame[3] * x + frame[4] * y + frame[5] * z,
-        frame[6] * x + frame[7] * y + frame[8] * z,
-        frame[9] * x + frame[10] * y + frame[11] * z,
+        frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
+        frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,
+        frame[ROTATION + 6] * x + frame[ROTATION + 7] * y + frame[ROTATION + 8] * z,
     )
 
 
@@ -31,9 +32,9 @@ def vector_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float,
 def vector_in_body(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
     """Return a vector of the world in body axes."""
     return (
-        frame[3] * x + frame[6] * y + frame[9] * z,
-        frame[4] * x + frame[7] * y + frame[10] * z,
-        frame[5] * x + frame[8] * y + frame[11] * z,
+        frame[ROTATION] * x + frame[ROTATION + 3] * y + frame[ROTATION + 6] * z,
+        frame[ROTATION + 1] * x + frame[ROTATION + 4] * y + frame[ROTATION + 7] * z,
+        frame[ROTATION + 2] * x + frame[ROTATION + 5] * y + frame[ROTATION + 8] * z,
     )
 
 

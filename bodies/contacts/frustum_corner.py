@@ -7,8 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.blocks import put
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.curvature import write_round
 from bodies.contacts.disc_tip import tip_past_rim
 from bodies.contacts.frames import point_in_world, vector_in_body
 from bodies.contacts.frustum import (
@@ -31,6 +32,7 @@ from bodies.meshes.patches import patches_for_body
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
@@ -99,7 +101,11 @@ def _evaluate(
             past_rim = tip_past_rim(
                 b, n_star, star, lengths, px - cx, py - cy, pz - cz, nx, ny, nz, -height, frustum[0]
             )
-            x, y, z = px - height * nx - b[0], py - height * ny - b[1], pz - height * nz - b[2]
+            x, y, z = (
+                px - height * nx - b[POSITION],
+                py - height * ny - b[POSITION + 1],
+                pz - height * nz - b[POSITION + 2],
+            )
             x, y, z = vector_in_body(b, x, y, z)
             if past_rim > 0.0 and depth_inside(surface, x, y, z) == 0.0:
                 beyond = min(-height, past_rim)
@@ -113,11 +119,11 @@ def _evaluate(
         else:
             gap = math.sqrt(gap * gap + past * past)
     _, _, radial, axial = over_part(frustum, found, along, away)
-    out[0], out[29], out[30] = gap, part_number(frustum, found), past
-    out[1], out[2], out[3] = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
-    out[10], out[11], out[12] = px, py, pz
+    out[GAP], out[FEATURE], out[PAST_END] = gap, part_number(frustum, found), past
+    put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
+    put(out, POINT_B, px, py, pz)
     for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
     write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
     write_round(out, SIDE_B, 0.0)

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.curvature import SIDE_B, write_principal
+from bodies.blocks import put
+from bodies.contacts.curvature import write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.frustum import nearest_part
 from bodies.contacts.smooth_core import Axes, back, forth
@@ -16,6 +17,7 @@ from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.frustum import FEET, SWEEP, Frustum
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_B
 from nonsmooth.types import Floats
 
 PARALLEL = 0.01
@@ -123,11 +125,11 @@ def write_crossing(
     if past > 0.0:
         # what overlaps is no contact of this crossing, but a sign that another one was passed
         gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.sqrt(gap * gap + past * past)
-    out[0], out[29], out[30] = gap, 0.0, past
-    out[1], out[2], out[3] = forth(axes, nx, ny, nz)
-    out[7], out[8], out[9] = px + sweep * out[1], py + sweep * out[2], pz + sweep * out[3]
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)
+    put(out, POINT_A, px + sweep * out[NORMAL], py + sweep * out[NORMAL + 1], pz + sweep * out[NORMAL + 2])
     for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
     ex, ey, ez = vector_in_world(b, edge[3], edge[4], edge[5])
     write_principal(out, SIDE_B, ex, ey, ez, 0.0, 1.0, 1.0, radius)

@@ -18,6 +18,7 @@ from bodies.contacts.swept_near import steepest
 from bodies.contacts.vertex_face import DEEP
 from bodies.shapes.frustum import LOW, SIDE, SIN, SWEEP
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 FrustumPose: TypeAlias = tuple[float, float, float, float, float, float]
@@ -35,7 +36,7 @@ def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     ax, ay, az = vector_in_body(b, ax, ay, az)
-    cx, cy, cz = vector_in_body(b, cx - b[0], cy - b[1], cz - b[2])
+    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
     return cx, cy, cz, ax, ay, az
 
 

@@ -8,8 +8,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.blocks import put
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.contacts.curvature import write_round
 from bodies.contacts.disc_tip import tip_past_rim
 from bodies.contacts.flank_edge import FlankEdge
 from bodies.contacts.frames import point_in_world, vector_in_body
@@ -33,6 +34,7 @@ from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -52,7 +54,7 @@ def _least(
     z: float,
 ) -> float:
     """Return the least height of the second body's vertices over the plane through a point with the normal n."""
-    base = nx * (b[0] - x) + ny * (b[1] - y) + nz * (b[2] - z)
+    base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
     nx, ny, nz = vector_in_body(b, nx, ny, nz)
     least = 1e300
     for i in range(int(n_vertices)):
@@ -135,11 +137,11 @@ def _evaluate(
     radial, axial = 0.0, -1.0 if found == LOW_CAP else 1.0
     if found == FLANK:
         radial, axial = cosine, sine
-    out[0], out[29], out[30] = gap, part_number(frustum, found), past
-    out[1], out[2], out[3] = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
-    out[10], out[11], out[12] = px, py, pz
+    out[GAP], out[FEATURE], out[PAST_END] = gap, part_number(frustum, found), past
+    put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
+    put(out, POINT_B, px, py, pz)
     for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
     write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
     write_round(out, SIDE_B, 0.0)

@@ -11,8 +11,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias, final
 
+from bodies.blocks import put
 from bodies.contacts.boxy_newton import Answer
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_sweep
+from bodies.contacts.curvature import write_sweep
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.frustum import (
     FLANK,
@@ -37,6 +38,7 @@ from bodies.contacts.tangents import write_tangent
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.smooth_shape import SmoothShape
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -300,14 +302,14 @@ def _evaluate(
     x, y, z = back(axes_a, bx - ax, by - ay, bz - az)
     turn = between_axes(axes_a, axes_b)
     (g, px, py, pz, nx, ny, nz), part = _nearest(first, low, high, point, second, turn, x, y, z)
-    out[0] = g - second[RADIUS] - first[SWEEP]
-    out[1], out[2], out[3] = forth(axes_a, nx, ny, nz)
+    out[GAP] = g - second[RADIUS] - first[SWEEP]
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes_a, nx, ny, nz)
     qx, qy, qz = forth(axes_a, px, py, pz)
-    out[10], out[11], out[12] = ax + qx, ay + qy, az + qz
+    put(out, POINT_B, ax + qx, ay + qy, az + qz)
     for i in range(3):
-        out[10 + i] -= second[RADIUS] * out[1 + i]
-        out[7 + i] = out[10 + i] - out[0] * out[1 + i]
-    out[29] = part_number(first, part)
+        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
+        out[POINT_A + i] = out[POINT_B + i] - out[GAP] * out[NORMAL + i]
+    out[FEATURE] = part_number(first, part)
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     qx, qy, qz = back(turn, px - x, py - y, pz - z)

@@ -6,14 +6,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.blocks import put
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round, write_sweep
+from bodies.contacts.curvature import write_round, write_sweep
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.frustum import axis_in_world, center_in_world, nearest_part, part_names, part_number, write_part
 from bodies.contacts.offset import place_sphere
 from bodies.shapes.frustum import SWEEP, Frustum, without_feet
 from bodies.shapes.sphere import Sphere
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -32,8 +34,8 @@ def write_frustum_ball(
     x, y, z = point_in_world(b, x, y, z)
     along, away, ex, ey, ez = across(x - cx, y - cy, z - cz, ax, ay, az)
     distance, radial, axial, part = nearest_part(first, along, away)
-    out[1], out[2], out[3] = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
-    out[29] = part_number(first, part)
+    put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
+    out[FEATURE] = part_number(first, part)
     place_sphere(a, out, x, y, z, distance - first[SWEEP], radius)
     write_part(out, SIDE_A, part, ax, ay, az, ex, ey, ez, radial, away - distance * radial)
     write_sweep(out, SIDE_A, first[SWEEP])

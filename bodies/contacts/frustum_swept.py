@@ -21,6 +21,7 @@ from bodies.contacts.swept_vertex import ended_gap, past_star
 from bodies.shapes.frustum import Frustum, without_feet
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -42,8 +43,8 @@ def _evaluate(
 ) -> None:
     """Write the geometry block of a vertex, with a radius; parameters as the attributes of :class:`FrustumSwept`."""
     x, y, z, distance = write_frustum_ball(a, b, out, first, radius, x, y, z)
-    past = past_star(b, star, n_star, distance, out[1], out[2], out[3], size)
-    gap, out[30] = ended_gap(out[0], past, size)
+    past = past_star(b, star, n_star, distance, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2], size)
+    gap, out[PAST_END] = ended_gap(out[GAP], past, size)
     place_sphere(a, out, x, y, z, gap + radius, radius)
 
 

@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
+from bodies.blocks import put
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_sweep
+from bodies.contacts.curvature import write_sweep
 from bodies.contacts.frustum import axis_in_world, center_in_world, nearest_part, write_part
 from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import DEEP, REACH
 from bodies.shapes.frustum import COS, FEET, SIN, SWEEP
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 Point: TypeAlias = tuple[float, float, float]
@@ -91,8 +93,8 @@ def write_two(
     px, py, pz = px + sweep * nx, py + sweep * ny, pz + sweep * nz
     sign = 1.0 - 2.0 * swap
     own, other = 7 + int(3.0 * swap), 10 - int(3.0 * swap)
-    out[0], out[29], out[30] = gap, 0.0, past
-    out[1], out[2], out[3] = sign * nx, sign * ny, sign * nz
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    put(out, NORMAL, sign * nx, sign * ny, sign * nz)
     out[own], out[own + 1], out[own + 2] = px, py, pz
     out[other], out[other + 1], out[other + 2] = px + gap * nx, py + gap * ny, pz + gap * nz
     write_tangent(a, out)

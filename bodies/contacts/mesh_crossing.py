@@ -17,6 +17,7 @@ from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_body
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION
 from nonsmooth.parameters import Table
 from nonsmooth.types import Floats
 
@@ -66,37 +67,41 @@ def judge_crossing(
     where neither point of what overlaps is inside of the other body, they lie on the far sides of each other.  But an
     edge that goes through the frustum is a sign that they overlap.
     """
-    x, y, z = vector_in_body(b, out[1], out[2], out[3])
+    x, y, z = vector_in_body(b, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2])
     astray = max(-x * edge[7] - y * edge[8] - z * edge[9], -x * edge[10] - y * edge[11] - z * edge[12])
     beyond = size * (astray - _ASTRAY)
-    if out[30] <= 0.0 < beyond and out[0] >= -DEEP * size:
-        apart = math.sqrt(out[0] * out[0] + beyond * beyond)
-        out[0], out[30] = apart, beyond
+    if out[PAST_END] <= 0.0 < beyond and out[GAP] >= -DEEP * size:
+        apart = math.sqrt(out[GAP] * out[GAP] + beyond * beyond)
+        out[GAP], out[PAST_END] = apart, beyond
         for i in range(3):
-            out[10 + i] = out[7 + i] + apart * out[1 + i]
-    gap, past = out[0], out[30]
+            out[POINT_B + i] = out[POINT_A + i] + apart * out[NORMAL + i]
+    gap, past = out[GAP], out[PAST_END]
     axes = axes_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     if gap > 0.0:
         depth = _pierced(b, frustum, edge, axes, cx, cy, cz, size)
         if depth > 0.0:
-            out[0], out[30] = -depth, max(past, DEEP * size)
+            out[GAP], out[PAST_END] = -depth, max(past, DEEP * size)
             for i in range(3):
-                out[10 + i] = out[7 + i] - depth * out[1 + i]
+                out[POINT_B + i] = out[POINT_A + i] - depth * out[NORMAL + i]
         return
     if past > 0.0 or gap >= -DEEP * size:
         return
-    x, y, z = vector_in_body(b, out[7] - b[0], out[8] - b[1], out[9] - b[2])
+    x, y, z = vector_in_body(
+        b, out[POINT_A] - b[POSITION], out[POINT_A + 1] - b[POSITION + 1], out[POINT_A + 2] - b[POSITION + 2]
+    )
     if depth_inside(surface, x, y, z) > 0.0:
         return
-    along, away, _, _, _ = across(out[10] - cx, out[11] - cy, out[12] - cz, axes[2], axes[5], axes[8])
+    along, away, _, _, _ = across(
+        out[POINT_B] - cx, out[POINT_B + 1] - cy, out[POINT_B + 2] - cz, axes[2], axes[5], axes[8]
+    )
     outside, _, _, _ = nearest_part(frustum, along, away)
     if outside < frustum[SWEEP]:
         return
     apart = math.sqrt(2.0) * gap
-    out[0], out[30] = -apart, -gap
+    out[GAP], out[PAST_END] = -apart, -gap
     for i in range(3):
-        out[10 + i] = out[7 + i] - apart * out[1 + i]
+        out[POINT_B + i] = out[POINT_A + i] - apart * out[NORMAL + i]
 
 
 def edges_of(second: Features) -> Iterator[tuple[Numbers, Table, str]]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
+from bodies.contacts.curvature import write_flat, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.offset import gap_at_distance
 from bodies.contacts.surface_search import FAR
@@ -18,6 +18,7 @@ from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.point import Point
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
@@ -62,11 +63,11 @@ def write_over_first(
     """
     face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
     f = int(surface[FACES]) + FACE * face
-    out[0], out[29], out[30] = gap, float(face), past
-    out[1], out[2], out[3] = vector_in_world(a, surface[f], surface[f + 1], surface[f + 2])
-    out[10], out[11], out[12] = point_in_world(b, vertex_x, vertex_y, vertex_z)
+    out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, surface[f], surface[f + 1], surface[f + 2])
+    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(b, vertex_x, vertex_y, vertex_z)
     for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
     write_flat(out, SIDE_A)
     write_round(out, SIDE_B, 0.0)
@@ -108,12 +109,12 @@ def write_over_second(
     face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
     f = int(surface[FACES]) + FACE * face
     gap = gap_at_distance(gap, past, radius)
-    out[0], out[29], out[30] = gap, float(face), past
-    out[1], out[2], out[3] = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
-    out[7], out[8], out[9] = point_in_world(a, vertex_x, vertex_y, vertex_z)
+    out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
+    out[POINT_A], out[POINT_A + 1], out[POINT_A + 2] = point_in_world(a, vertex_x, vertex_y, vertex_z)
     for i in range(3):
-        out[7 + i] += radius * out[1 + i]
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_A + i] += radius * out[NORMAL + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
     write_round(out, SIDE_A, radius)
     write_flat(out, SIDE_B)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+from bodies.blocks import put
 from bodies.contacts.tangents import write_tangent
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B
 from nonsmooth.types import Floats
 
 
@@ -17,24 +19,24 @@ def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: flo
     """
     square = 0.0
     for i in range(3):
-        square += (out[10 + i] - out[7 + i]) * (out[10 + i] - out[7 + i])
+        square += (out[POINT_B + i] - out[POINT_A + i]) * (out[POINT_B + i] - out[POINT_A + i])
     distance = math.sqrt(square)
-    out[0] = distance - radius_a - radius_b
-    out[1], out[2], out[3] = nx, ny, nz
+    out[GAP] = distance - radius_a - radius_b
+    put(out, NORMAL, nx, ny, nz)
     for i in range(3):
         if distance > 0.0:
-            out[1 + i] = (out[10 + i] - out[7 + i]) / distance
-        out[7 + i] += radius_a * out[1 + i]
-        out[10 + i] -= radius_b * out[1 + i]
+            out[NORMAL + i] = (out[POINT_B + i] - out[POINT_A + i]) / distance
+        out[POINT_A + i] += radius_a * out[NORMAL + i]
+        out[POINT_B + i] -= radius_b * out[NORMAL + i]
     write_tangent(a, out)
 
 
 @compiled
 def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance: float, radius: float) -> None:
     """Write gap, tangent and witness points of a sphere about (x, y, z) at a distance along the normal in ``out``."""
-    out[0] = distance - radius
-    out[7], out[8], out[9] = x - distance * out[1], y - distance * out[2], z - distance * out[3]
-    out[10], out[11], out[12] = x - radius * out[1], y - radius * out[2], z - radius * out[3]
+    out[GAP] = distance - radius
+    put(out, POINT_A, x - distance * out[NORMAL], y - distance * out[NORMAL + 1], z - distance * out[NORMAL + 2])
+    put(out, POINT_B, x - radius * out[NORMAL], y - radius * out[NORMAL + 1], z - radius * out[NORMAL + 2])
     write_tangent(a, out)
 
 

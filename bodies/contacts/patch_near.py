@@ -13,6 +13,7 @@ from bodies.contacts.surface_near import patches_near
 from bodies.contacts.surface_tables import N_PATCHES, surface_numbers
 from bodies.meshes.features import Features
 from bodies.meshes.patches import Patches
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -26,7 +27,7 @@ def _find(
 ) -> None:
     """Find the patches with a feature near the ball that holds the second body."""
     x, y, z = point_in_world(b, x_b, y_b, z_b)
-    x, y, z = vector_in_body(a, x - a[0], y - a[1], z - a[2])
+    x, y, z = vector_in_body(a, x - a[POSITION], y - a[POSITION + 1], z - a[POSITION + 2])
     most = int(surface[N_PATCHES])
     out[0] = float(patches_near(surface, x, y, z, extent + out[0], 1.0, 0.0, out, 0, most))
 

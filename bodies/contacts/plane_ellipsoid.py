@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_B
 from bodies.contacts.frames import point_in_world, turned_by, vector_in_body
 from bodies.contacts.plane_point import place_over_plane
 from bodies.shapes.ellipsoid import Ellipsoid
 from bodies.shapes.ground import Ground
+from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -35,9 +35,9 @@ def _evaluate(
 ) -> None:
     # the outward normal of the ellipsoid at the point sought, in its own axes, and the plane's tangents there
     inverse_x, inverse_y, inverse_z = -orientation_x, -orientation_y, -orientation_z
-    nx, ny, nz = vector_in_body(b, -a[5], -a[8], -a[11])
+    nx, ny, nz = vector_in_body(b, -a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8])
     nx, ny, nz = turned_by(orientation_w, inverse_x, inverse_y, inverse_z, nx, ny, nz)
-    sx, sy, sz = vector_in_body(b, a[3], a[6], a[9])
+    sx, sy, sz = vector_in_body(b, a[ROTATION], a[ROTATION + 3], a[ROTATION + 6])
     sx, sy, sz = turned_by(orientation_w, inverse_x, inverse_y, inverse_z, sx, sy, sz)
     tx, ty, tz = sy * nz - sz * ny, sz * nx - sx * nz, sx * ny - sy * nx
     # support function h and its derivative, the point

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from bodies.blocks import put
+from bodies.contacts.curvature import write_flat, write_round
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, ROTATION, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
 
@@ -12,17 +15,16 @@ def place_over_plane(a: Floats, out: Floats, x: float, y: float, z: float, heigh
 
     Normal and first tangent are the third and first axis of the plane's frame.
     """
-    out[10], out[11], out[12] = x, y, z
+    put(out, POINT_B, x, y, z)
     gap = -height
     for i in range(3):
-        out[1 + i] = a[3 + 3 * i + 2]
-        out[4 + i] = a[3 + 3 * i]
-        gap += out[1 + i] * (out[10 + i] - a[i])
-    out[0] = gap
+        out[NORMAL + i] = a[ROTATION + 3 * i + 2]
+        out[TANGENT + i] = a[ROTATION + 3 * i]
+        gap += out[NORMAL + i] * (out[POINT_B + i] - a[i])
+    out[GAP] = gap
     for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
-    # slide 0, turn 1
-    out[17] = out[20] = 1.0
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
+    write_flat(out, SIDE_A)
 
 
 def evaluate_ball_over_plane(
@@ -39,16 +41,15 @@ def evaluate_ball_over_plane(
     # normal and first tangent are the third and first axis of the plane's frame
     gap = -height - radius
     for i in range(3):
-        normal = a[3 + 3 * i + 2]
-        center = b[i] + b[3 + 3 * i] * x + b[3 + 3 * i + 1] * y + b[3 + 3 * i + 2] * z
-        out[1 + i] = normal
-        out[4 + i] = a[3 + 3 * i]
-        out[10 + i] = center - radius * normal
+        r = ROTATION + 3 * i
+        normal = a[r + 2]
+        center = b[i] + b[r] * x + b[r + 1] * y + b[r + 2] * z
+        out[NORMAL + i] = normal
+        out[TANGENT + i] = a[r]
+        out[POINT_B + i] = center - radius * normal
         gap += normal * (center - a[i])
-    out[0] = gap
+    out[GAP] = gap
     for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
-    # plane: slide 0, turn 1; ball: slide 1, turn its radius
-    out[17] = out[20] = 1.0
-    out[21] = out[24] = 1.0
-    out[25] = out[28] = radius
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
+    write_flat(out, SIDE_A)
+    write_round(out, SIDE_B, radius)

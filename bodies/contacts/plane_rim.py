@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_B, write_principal, write_sweep
+from bodies.contacts.curvature import write_principal, write_sweep
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.plane_point import place_over_plane
+from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
 from nonsmooth.types import Floats
 
 FLATTEST = 1e-9
@@ -32,9 +33,13 @@ def evaluate_rim_over_plane(
     """
     x, y, z = point_in_world(b, x, y, z)
     axis_x, axis_y, axis_z = vector_in_world(b, axis_x, axis_y, axis_z)
-    _, sine, down_x, down_y, down_z = across(-a[5], -a[8], -a[11], axis_x, axis_y, axis_z)
+    _, sine, down_x, down_y, down_z = across(
+        -a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8], axis_x, axis_y, axis_z
+    )
     x, y, z = x + radius * down_x, y + radius * down_y, z + radius * down_z
-    place_over_plane(a, out, x - rounding * a[5], y - rounding * a[8], z - rounding * a[11], height)
+    place_over_plane(
+        a, out, x - rounding * a[ROTATION + 2], y - rounding * a[ROTATION + 5], z - rounding * a[ROTATION + 8], height
+    )
     rim_x = axis_y * down_z - axis_z * down_y
     rim_y = axis_z * down_x - axis_x * down_z
     rim_z = axis_x * down_y - axis_y * down_x

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_B
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.plane_point import place_over_plane
 from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, forth
@@ -14,6 +13,7 @@ from bodies.contacts.smooth_newton import write_surface
 from bodies.shapes.ground import Ground
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import support_of
+from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -22,11 +22,13 @@ from nonsmooth.types import Floats
 def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) -> None:
     axes = axes_in_world(b, second)
     x, y, z = point_in_world(b, second[6], second[7], second[8])
-    mx, my, mz = back(axes, -a[5], -a[8], -a[11])
+    mx, my, mz = back(axes, -a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8])
     s = support_of(second, mx, my, mz)
     px, py, pz = forth(axes, s[1], s[2], s[3])
     r = second[RADIUS]
-    place_over_plane(a, out, x + px - r * a[5], y + py - r * a[8], z + pz - r * a[11], height)
+    place_over_plane(
+        a, out, x + px - r * a[ROTATION + 2], y + py - r * a[ROTATION + 5], z + pz - r * a[ROTATION + 8], height
+    )
     write_surface(out, SIDE_B, second, axes, mx, my, mz, s[1], s[2], s[3])
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_round
+from bodies.contacts.curvature import write_flat, write_round
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polyhedron_sphere import PolyhedronSphere
 from bodies.contacts.polytope_tables import FACE, Numbers, face_table, vertex_table
@@ -16,6 +16,7 @@ from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.polytope import Polytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -25,7 +26,7 @@ from nonsmooth.types import Floats
 def _write_face_tangent(frame: Floats, out: Floats, faces: Floats, f: int) -> None:
     """Write the first tangent of a face, fixed to its body."""
     x, y, z = tangent_of(faces[f], faces[f + 1], faces[f + 2])
-    out[4], out[5], out[6] = vector_in_world(frame, x, y, z)
+    out[TANGENT], out[TANGENT + 1], out[TANGENT + 2] = vector_in_world(frame, x, y, z)
 
 
 def _evaluate(
@@ -41,11 +42,11 @@ def _evaluate(
 ) -> None:
     face, gap, past = nearest_face(a, b, n_faces, faces, n_vertices, vertices, vertex, size)
     f, v = FACE * int(face), 3 * int(vertex)
-    out[0], out[29], out[30] = gap, face, past
-    out[1], out[2], out[3] = vector_in_world(a, faces[f], faces[f + 1], faces[f + 2])
-    out[10], out[11], out[12] = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
+    out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, faces[f], faces[f + 1], faces[f + 2])
+    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
     for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     _write_face_tangent(a, out, faces, f)
     write_flat(out, SIDE_A)
     write_round(out, SIDE_B, 0.0)
@@ -64,11 +65,11 @@ def _evaluate_reversed(
 ) -> None:
     face, gap, past = nearest_face(b, a, n_faces, faces, n_vertices, vertices, vertex, size)
     f, v = FACE * int(face), 3 * int(vertex)
-    out[0], out[29], out[30] = gap, face, past
-    out[1], out[2], out[3] = vector_in_world(b, -faces[f], -faces[f + 1], -faces[f + 2])
-    out[7], out[8], out[9] = point_in_world(a, vertices[v], vertices[v + 1], vertices[v + 2])
+    out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(b, -faces[f], -faces[f + 1], -faces[f + 2])
+    out[POINT_A], out[POINT_A + 1], out[POINT_A + 2] = point_in_world(a, vertices[v], vertices[v + 1], vertices[v + 2])
     for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     _write_face_tangent(b, out, faces, f)
     write_round(out, SIDE_A, 0.0)
     write_flat(out, SIDE_B)

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
+from bodies.blocks import put
+from bodies.contacts.curvature import write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polyhedron_point import PointPolyhedron, PolyhedronPoint
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
@@ -18,6 +19,7 @@ from bodies.contacts.tangents import tangent_of
 from bodies.contacts.vertex_face import DEEP, REACH, height_over
 from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -109,13 +111,13 @@ def _evaluate(
             overlap = max(-abs(gap), outside)
     if past > 0.0:
         gap = overlap if overlap < 0.0 else math.sqrt(gap * gap + past * past)
-    out[0], out[29], out[30] = gap, 0.0, past
-    out[1], out[2], out[3] = nx, ny, nz
-    out[7], out[8], out[9] = ax + s * ex, ay + s * ey, az + s * ez
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, ax + s * ex, ay + s * ey, az + s * ez)
     for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     # fixed to a body even where the edge lies in a face and the normal is that of the face but for round-off
-    out[4], out[5], out[6] = ex, ey, ez
+    put(out, TANGENT, ex, ey, ez)
     write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)
 

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.blocks import put
+from bodies.contacts.curvature import write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.nearest import nearest_feature
 from bodies.contacts.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
@@ -15,6 +16,7 @@ from bodies.contacts.swept_side import write_swept
 from bodies.contacts.tangents import write_tangent
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -36,14 +38,14 @@ def _evaluate(
     z_b: float,
 ) -> None:
     center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
-    x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
+    x, y, z = vector_in_body(a, center_x - a[POSITION], center_y - a[POSITION + 1], center_z - a[POSITION + 2])
     number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(a, nx, ny, nz)
     off = distance - rounding
-    out[0], out[29] = off - radius, number
-    out[1], out[2], out[3] = nx, ny, nz
-    out[7], out[8], out[9] = center_x - off * nx, center_y - off * ny, center_z - off * nz
-    out[10], out[11], out[12] = center_x - radius * nx, center_y - radius * ny, center_z - radius * nz
+    out[GAP], out[FEATURE] = off - radius, number
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, center_x - off * nx, center_y - off * ny, center_z - off * nz)
+    put(out, POINT_B, center_x - radius * nx, center_y - radius * ny, center_z - radius * nz)
     write_tangent(a, out)
     write_swept(a, out, SIDE_A, number, n_faces, n_edges, edges, rounding)
     write_round(out, SIDE_B, radius)

@@ -12,7 +12,7 @@ import math
 from typing import TypeAlias
 
 from bodies.contacts.boxy_newton import Answer
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round
+from bodies.contacts.curvature import write_flat, write_principal, write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.gauge import gauge
 from bodies.contacts.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
@@ -22,6 +22,7 @@ from bodies.contacts.smooth_newton import widest_from, write_surface
 from bodies.contacts.tangents import tangent_of, write_tangent
 from bodies.shapes.support_function import is_round, support_of
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 _HERE, _VERTEX, _EDGE, _FACE = -1, 0, 1, 2
@@ -333,7 +334,7 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
-    x, y, z = vector_in_body(a, bx - a[0], by - a[1], bz - a[2])
+    x, y, z = vector_in_body(a, bx - a[POSITION], by - a[POSITION + 1], bz - a[POSITION + 2])
     turn = between_axes(axes_a, axes_b)
     g, nx, ny, nz, feature, base = _nearest(first, second, turn, x, y, z)
     px, py, pz = _point_along(second, turn, x, y, z, nx, ny, nz)
@@ -341,13 +342,13 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     if feature >= n_faces and not is_round(second):
         # along a flat place the normal says little of the point
         px, py, pz = base[0] + g * nx, base[1] + g * ny, base[2] + g * nz
-    out[0] = g - first[RADIUS] - second[RADIUS]
-    out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
-    out[10], out[11], out[12] = point_in_world(a, px, py, pz)
+    out[GAP] = g - first[RADIUS] - second[RADIUS]
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)
+    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(a, px, py, pz)
     for i in range(3):
-        out[10 + i] -= second[RADIUS] * out[1 + i]
-        out[7 + i] = out[10 + i] - out[0] * out[1 + i]
-    out[29] = feature
+        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
+        out[POINT_A + i] = out[POINT_B + i] - out[GAP] * out[NORMAL + i]
+    out[FEATURE] = feature
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     px, py, pz = back(turn, px - x, py - y, pz - z)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, write_sweep
+from bodies.contacts.curvature import write_sweep
 from bodies.contacts.frustum import HIGH_RIM, LOW_RIM, center_in_world, nearest_part, write_part
 from bodies.contacts.frustum_edge import (
     astray_of_edge,
@@ -27,6 +27,7 @@ from bodies.contacts.vertex_face import height_over
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats

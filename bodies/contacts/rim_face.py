@@ -7,8 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.blocks import put
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_round, write_sweep
+from bodies.contacts.curvature import write_flat, write_principal, write_round, write_sweep
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.frustum import axis_in_world, center_in_world, least_height
 from bodies.contacts.frustum_edge import size_of_both
@@ -19,6 +20,7 @@ from bodies.contacts.vertex_face import DEEP, REACH, past_face, plane_height
 from bodies.shapes.frustum import SWEEP, Frustum
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -61,7 +63,7 @@ def _evaluate(
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     ux, uy, uz = vector_in_body(b, ax, ay, az)
-    kx, ky, kz = vector_in_body(b, cx - b[0], cy - b[1], cz - b[2])
+    kx, ky, kz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
     margin = REACH * size
     best = -1e300
     for i in range(int(n_faces)):
@@ -77,7 +79,7 @@ def _evaluate(
             continue
         nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
         px, py, pz, _, _, _, _ = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
-        px, py, pz = vector_in_body(b, px - b[0], py - b[1], pz - b[2])
+        px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
         height = plane_height(faces, f, px, py, pz)
         beyond = past_face(faces, n_faces, f, height, px, py, pz)
         highest = height
@@ -97,11 +99,11 @@ def _evaluate(
     f = FACE * found
     nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
     px, py, pz, ex, ey, ez, sine = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
-    out[0], out[29], out[30] = gap, float(found), past
-    out[1], out[2], out[3] = -nx, -ny, -nz
-    out[7], out[8], out[9] = px - own * nx, py - own * ny, pz - own * nz
+    out[GAP], out[FEATURE], out[PAST_END] = gap, float(found), past
+    put(out, NORMAL, -nx, -ny, -nz)
+    put(out, POINT_A, px - own * nx, py - own * ny, pz - own * nz)
     for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
     write_flat(out, SIDE_B)
     if radius > 0.0:

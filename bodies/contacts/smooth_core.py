@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 from bodies.shapes.support_function import Support, support_of
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import NORMAL, ROTATION, TANGENT
 from nonsmooth.types import Floats
 
 Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
@@ -48,7 +49,18 @@ def axes_in_world(frame: Floats, core: Floats) -> Axes:
 @compiled
 def axes_of(frame: Floats) -> Axes:
     """Return the axes of a body in the world, as columns."""
-    return frame[3], frame[4], frame[5], frame[6], frame[7], frame[8], frame[9], frame[10], frame[11]
+    x, y, z = ROTATION, ROTATION + 3, ROTATION + 6
+    return (
+        frame[x],
+        frame[x + 1],
+        frame[x + 2],
+        frame[y],
+        frame[y + 1],
+        frame[y + 2],
+        frame[z],
+        frame[z + 1],
+        frame[z + 2],
+    )
 
 
 @compiled
@@ -94,12 +106,12 @@ def write_core(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: fl
     Normal and first tangent stand in ``out`` already; ``axes`` are those of the core in the world.
     """
     s = support_of(core, x, y, z)
-    tx, ty, tz = back(axes, out[4], out[5], out[6])
+    tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])
     ux, uy, uz = back(
         axes,
-        out[2] * out[6] - out[3] * out[5],
-        out[3] * out[4] - out[1] * out[6],
-        out[1] * out[5] - out[2] * out[4],
+        out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
+        out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
+        out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
     )
     out[side] = out[side + 3] = 1.0
     out[side + 1] = out[side + 2] = 0.0

@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B
+from bodies.blocks import put
 from bodies.contacts.frames import point_in_world
 from bodies.contacts.smooth_core import RADIUS, axes_in_world, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest, write_surface
 from bodies.contacts.tangents import write_tangent
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import OF_FUNCTION
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -31,15 +32,15 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) 
     turn = between_axes(axes_a, axes_b)
     g, qx, qy, qz, nx, ny, nz = widest(first, second, turn, x, y, z)
     px, py, pz = qx - g * nx, qy - g * ny, qz - g * nz
-    out[0] = g - first[RADIUS] - second[RADIUS]
-    out[1], out[2], out[3] = forth(axes_a, nx, ny, nz)
+    out[GAP] = g - first[RADIUS] - second[RADIUS]
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes_a, nx, ny, nz)
     wx, wy, wz = forth(axes_a, px, py, pz)
-    out[7], out[8], out[9] = ax + wx, ay + wy, az + wz
+    put(out, POINT_A, ax + wx, ay + wy, az + wz)
     wx, wy, wz = forth(axes_a, qx, qy, qz)
-    out[10], out[11], out[12] = ax + wx, ay + wy, az + wz
+    put(out, POINT_B, ax + wx, ay + wy, az + wz)
     for i in range(3):
-        out[7 + i] += first[RADIUS] * out[1 + i]
-        out[10 + i] -= second[RADIUS] * out[1 + i]
+        out[POINT_A + i] += first[RADIUS] * out[NORMAL + i]
+        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
     write_tangent(a, out)
     write_surface(out, SIDE_A, first, axes_a, nx, ny, nz, px, py, pz)
     mx, my, mz = back(turn, -nx, -ny, -nz)

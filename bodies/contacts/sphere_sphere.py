@@ -6,9 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.contacts.curvature import write_round
 from bodies.contacts.offset import join_cores
 from bodies.contacts.sides import by_side
 from bodies.shapes.sphere import Sphere
+from nonsmooth.engine.memory.blocks import POINT_A, POINT_B, ROTATION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -28,13 +30,12 @@ def _evaluate(
     z_b: float,
 ) -> None:
     for i in range(3):
-        out[7 + i] = a[i] + a[3 + 3 * i] * x_a + a[3 + 3 * i + 1] * y_a + a[3 + 3 * i + 2] * z_a
-        out[10 + i] = b[i] + b[3 + 3 * i] * x_b + b[3 + 3 * i + 1] * y_b + b[3 + 3 * i + 2] * z_b
-    join_cores(a, out, radius_a, radius_b, a[5], a[8], a[11])
-    # sphere: slide 1, turn its radius
-    out[13] = out[16] = out[21] = out[24] = 1.0
-    out[17] = out[20] = radius_a
-    out[25] = out[28] = radius_b
+        r = ROTATION + 3 * i
+        out[POINT_A + i] = a[i] + a[r] * x_a + a[r + 1] * y_a + a[r + 2] * z_a
+        out[POINT_B + i] = b[i] + b[r] * x_b + b[r + 1] * y_b + b[r + 2] * z_b
+    join_cores(a, out, radius_a, radius_b, a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8])
+    write_round(out, SIDE_A, radius_a)
+    write_round(out, SIDE_B, radius_b)
 
 
 @final

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.blocks import put
+from bodies.contacts.curvature import write_round
 from bodies.contacts.frames import point_in_world, vector_in_body
 from bodies.contacts.offset import place_sphere
 from bodies.contacts.surface_feature import out_of_surface, write_feature
@@ -12,6 +13,7 @@ from bodies.contacts.surface_search import nearest_in_patch
 from bodies.contacts.surface_tables import N_PATCHES
 from bodies.contacts.swept_vertex import END, NEAR, past_star
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import NORMAL, PAST_END, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 
@@ -33,7 +35,7 @@ def write_ball(
 ) -> None:
     """Write the geometry block of a ball of the second body and a patch of the first, looked for up to a reach [m]."""
     center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
-    x, y, z = vector_in_body(a, center_x - a[0], center_y - a[1], center_z - a[2])
+    x, y, z = vector_in_body(a, center_x - a[POSITION], center_y - a[POSITION + 1], center_z - a[POSITION + 2])
     found = nearest_in_patch(surface, patch, x, y, z, reach)
     distance, kind, number = found[0], found[2], found[3]
     # the patch of a surface that has one only does not end
@@ -42,11 +44,11 @@ def write_ball(
     if n_star > 0.0:
         beyond = past_star(b, star, n_star, distance, nx, ny, nz, size)
         past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
-    out[1], out[2], out[3] = nx, ny, nz
+    put(out, NORMAL, nx, ny, nz)
     if past > 0.0:
         apart = max(distance - radius, 0.0)
         distance = math.sqrt(apart * apart + past * past) + radius
     place_sphere(a, out, center_x, center_y, center_z, distance, radius)
-    out[30] = past
+    out[PAST_END] = past
     write_feature(a, out, SIDE_A, surface, kind, number)
     write_round(out, SIDE_B, radius)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
+from bodies.blocks import put
+from bodies.contacts.curvature import write_principal
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.surface_search import depth_inside
 from bodies.contacts.surface_vertex import ASTRAY
 from bodies.contacts.tangents import tangent_of, write_tangent
 from bodies.contacts.vertex_face import DEEP, REACH
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 _PARALLEL = 0.01
@@ -32,7 +34,7 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: 
 @compiled
 def _depth(frame: Floats, surface: Floats, x: float, y: float, z: float) -> float:
     """Return how far a point of the world is inside of a body [m]."""
-    x, y, z = vector_in_body(frame, x - frame[0], y - frame[1], z - frame[2])
+    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
     return float(depth_inside(surface, x, y, z))
 
 
@@ -114,11 +116,11 @@ def write_edges(
         gap = -depth - radius if depth > DEEP * size else math.sqrt(apart * apart + past * past)
     else:
         gap -= radius
-    out[0], out[29], out[30] = gap, 0.0, past
-    out[1], out[2], out[3] = nx, ny, nz
-    out[7], out[8], out[9] = ax + s * ex, ay + s * ey, az + s * ez
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, ax + s * ex, ay + s * ey, az + s * ez)
     for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
     write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, radius)

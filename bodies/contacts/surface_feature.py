@@ -7,6 +7,7 @@ from bodies.contacts.frames import vector_in_world
 from bodies.contacts.surface_search import ON_EDGE, ON_FACE, Found
 from bodies.contacts.surface_tables import EDGE, EDGES, FACE, FACES, N_EDGES, N_FACES
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE
 from nonsmooth.types import Floats
 
 
@@ -28,14 +29,14 @@ def out_of_surface(
 @compiled
 def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: int, number: int) -> None:
     """Write a face, an edge or a corner, and its number among all, faces first; normal and tangent stand there."""
-    out[29] = float(number)
+    out[FEATURE] = float(number)
     if kind == ON_FACE:
         write_flat(out, side)
     elif kind == ON_EDGE:
         e = int(surface[EDGES]) + EDGE * number
         x, y, z = vector_in_world(frame, surface[e + 3], surface[e + 4], surface[e + 5])
         write_principal(out, side, x, y, z, 0.0, 1.0, 1.0, 0.0)
-        out[29] += surface[N_FACES]
+        out[FEATURE] += surface[N_FACES]
     else:
         write_round(out, side, 0.0)
-        out[29] += surface[N_FACES] + surface[N_EDGES]
+        out[FEATURE] += surface[N_FACES] + surface[N_EDGES]

@@ -25,6 +25,7 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.surface_vertex import ASTRAY, leaning
 from nonsmooth.compiled import block_at, compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
@@ -46,7 +47,7 @@ def room_ahead(reach: float, narrow: float, most: int) -> int:
 def seen_from(frame: Floats, other: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
     """Return a point of the other body in the axes of a frame [m]."""
     x, y, z = point_in_world(other, x, y, z)
-    x, y, z = vector_in_body(frame, x - frame[0], y - frame[1], z - frame[2])
+    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
     return x, y, z
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
+from bodies.blocks import put
 from bodies.contacts.across import across
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_flat, write_principal, write_sweep
+from bodies.contacts.curvature import write_flat, write_principal, write_sweep
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.frustum import axis_in_world
 from bodies.contacts.frustum_writing import astray_of_rim
@@ -30,6 +31,7 @@ from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import REACH
 from bodies.shapes.frustum import AXIS, HIGH, LOW, SIDE, SWEEP
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 _FLAT = 1e-12
@@ -57,7 +59,7 @@ def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z:
     cx, cy, cz = point_in_world(a, x, y, z)
     ax, ay, az = vector_in_body(b, ax, ay, az)
     fx, fy, fz = vector_in_body(b, fx, fy, fz)
-    cx, cy, cz = vector_in_body(b, cx - b[0], cy - b[1], cz - b[2])
+    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
     return cx, cy, cz, ax, ay, az, fx, fy, fz
 
 
@@ -217,12 +219,12 @@ def write_rim(
     f = int(surface[FACES]) + FACE * face
     nx, ny, nz = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
     _, sine, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, fx, fy, fz)
-    out[0], out[29], out[30] = gap, float(face), past
-    out[1], out[2], out[3] = nx, ny, nz
-    out[7], out[8], out[9] = cx + radius * ex, cy + radius * ey, cz + radius * ez
+    out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, cx + radius * ex, cy + radius * ey, cz + radius * ez)
     for i in range(3):
-        out[7 + i] += sweep * out[1 + i]
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_A + i] += sweep * out[NORMAL + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
     rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
     write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)

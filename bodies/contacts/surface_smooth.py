@@ -11,7 +11,6 @@ import math
 from typing import TypeAlias
 
 from bodies.contacts.boxy_line import across_line
-from bodies.contacts.curvature import SIDE_A, SIDE_B
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth_newton import widest_from, write_surface
@@ -53,6 +52,7 @@ from bodies.contacts.tangents import write_tangent
 from bodies.contacts.vertex_face import REACH
 from bodies.shapes.support_function import OF_FUNCTION, is_round, support_of
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 _SAME = 1e-15
@@ -286,7 +286,7 @@ def write_surface_smooth(
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
-    x, y, z = vector_in_body(a, bx - a[0], by - a[1], bz - a[2])
+    x, y, z = vector_in_body(a, bx - a[POSITION], by - a[POSITION + 1], bz - a[POSITION + 2])
     turn = between_axes(axes_a, axes_b)
     g, past, kind, number, nx, ny, nz = _nearest(surface, patch, second, point, turn, (x, y, z), reach)
     gap, depth = g - second[RADIUS], 0.0
@@ -304,12 +304,12 @@ def write_surface_smooth(
         _, px, py, pz, _, _, _ = across_line(second, turn, wx, wy, wz, ex, ey, ez, nx, ny, nz, 1.0, 0.0, 0.0)
         px, py, pz = px + surface[e], py + surface[e + 1], pz + surface[e + 2]
     # the patch of a surface that has one only does not end
-    out[0], out[30] = gap, past if surface[N_PATCHES] > 1.0 or depth > 0.0 else 0.0
-    out[1], out[2], out[3] = vector_in_world(a, nx, ny, nz)
-    out[10], out[11], out[12] = point_in_world(a, px, py, pz)
+    out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 or depth > 0.0 else 0.0
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)
+    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(a, px, py, pz)
     for i in range(3):
-        out[10 + i] -= second[RADIUS] * out[1 + i]
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
+        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     bx, by, bz = back(turn, px - x, py - y, pz - z)

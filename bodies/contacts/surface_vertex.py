@@ -28,6 +28,7 @@ from bodies.contacts.surface_tables import (
 )
 from bodies.contacts.vertex_face import DEEP, REACH
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 ASTRAY = 0.25
@@ -133,7 +134,7 @@ def face_under(
     [m], that is the distance and the way past the end.
     """
     px, py, pz = point_in_world(other, vertex_x, vertex_y, vertex_z)
-    x, y, z = vector_in_body(frame, px - frame[0], py - frame[1], pz - frame[2])
+    x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
     margin = REACH * size

@@ -19,6 +19,7 @@ from bodies.contacts.surface_tables import (
     STARS,
 )
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import NORMAL
 from nonsmooth.types import Floats
 
 
@@ -91,7 +92,7 @@ def corners_over(
             nx, ny, nz = vector_in_world(b, nx, ny, nz)
             nx, ny, nz = vector_in_body(a, nx, ny, nz)
             if distance <= 0.0 or distance * steepest(surface, c, -nx, -ny, -nz) <= reach + turn * distance:
-                out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, float(corner), 0.0
+                out[NORMAL + 3 * n], out[NORMAL + 1 + 3 * n], out[NORMAL + 2 + 3 * n] = kind, float(corner), 0.0
                 n += 1
         node += 1
     return n

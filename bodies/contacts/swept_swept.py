@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_principal
+from bodies.blocks import put
+from bodies.contacts.curvature import write_principal
 from bodies.contacts.frames import point_in_world, vector_in_world
 from bodies.contacts.polytope_tables import FACE, Numbers, edge_rows, face_table
 from bodies.contacts.swept_vertex import END, SweptVertex, size_of
@@ -15,6 +16,7 @@ from bodies.contacts.tangents import tangent_of, write_tangent
 from bodies.contacts.vertex_face import height_over
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -89,11 +91,11 @@ def _evaluate(
     gap = distance - radius_a - radius_b
     if past > 0.0:
         gap = math.sqrt(gap * gap + past * past)
-    out[0], out[29], out[30] = gap, 0.0, past
-    out[1], out[2], out[3] = nx, ny, nz
-    out[7], out[8], out[9] = px + radius_a * nx, py + radius_a * ny, pz + radius_a * nz
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, px + radius_a * nx, py + radius_a * ny, pz + radius_a * nz)
     for i in range(3):
-        out[10 + i] = out[7 + i] + gap * out[1 + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
     write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, radius_a)
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, radius_b)

@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.curvature import SIDE_A, SIDE_B, write_round
+from bodies.blocks import put
+from bodies.contacts.curvature import write_round
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.nearest import Nearest, nearest_feature
 from bodies.contacts.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
@@ -17,6 +18,7 @@ from bodies.contacts.tangents import write_tangent
 from bodies.shapes.polytope import Point
 from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -87,8 +89,8 @@ def write_vertex_over(
         gap, past = math.hypot(distance - sweep - radius, OPEN * shared), max(past, shared)
     sign = 1.0 - 2.0 * swap
     near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
-    out[0], out[29], out[30] = gap, number, past
-    out[1], out[2], out[3] = sign * nx, sign * ny, sign * nz
+    out[GAP], out[FEATURE], out[PAST_END] = gap, number, past
+    put(out, NORMAL, sign * nx, sign * ny, sign * nz)
     out[near], out[near + 1], out[near + 2] = center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz
     out[far], out[far + 1], out[far + 2] = out[near] - gap * nx, out[near + 1] - gap * ny, out[near + 2] - gap * nz
     write_tangent(a, out)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import NORMAL, ROTATION, TANGENT
 from nonsmooth.types import Floats
 
 _ROUND_OFF = 1e-16
@@ -35,9 +36,10 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
 def write_tangent(a: Floats, out: Floats) -> None:
     """Write the first tangent for the normal that stands in ``out``, fixed to the first body but for the normal."""
     x, y, z = tangent_of(
-        a[3] * out[1] + a[6] * out[2] + a[9] * out[3],
-        a[4] * out[1] + a[7] * out[2] + a[10] * out[3],
-        a[5] * out[1] + a[8] * out[2] + a[11] * out[3],
+        a[ROTATION] * out[NORMAL] + a[ROTATION + 3] * out[NORMAL + 1] + a[ROTATION + 6] * out[NORMAL + 2],
+        a[ROTATION + 1] * out[NORMAL] + a[ROTATION + 4] * out[NORMAL + 1] + a[ROTATION + 7] * out[NORMAL + 2],
+        a[ROTATION + 2] * out[NORMAL] + a[ROTATION + 5] * out[NORMAL + 1] + a[ROTATION + 8] * out[NORMAL + 2],
     )
     for i in range(3):
-        out[4 + i] = a[3 + 3 * i] * x + a[4 + 3 * i] * y + a[5 + 3 * i] * z
+        r = ROTATION + 3 * i
+        out[TANGENT + i] = a[r] * x + a[r + 1] * y + a[r + 2] * z

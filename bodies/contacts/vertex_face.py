@@ -7,6 +7,7 @@ import math
 from bodies.contacts.frames import point_in_world, vector_in_body, vector_in_world
 from bodies.contacts.polytope_tables import FACE
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 REACH = 1e-9
@@ -39,7 +40,12 @@ def _least(
 ) -> float:
     """Return the least height of the other body over a face, or one below ``enough``."""
     nx, ny, nz = _normal_in(frame, other, faces, face)
-    x, y, z = vector_in_body(frame, other[0] - frame[0], other[1] - frame[1], other[2] - frame[2])
+    x, y, z = vector_in_body(
+        frame,
+        other[POSITION] - frame[POSITION],
+        other[POSITION + 1] - frame[POSITION + 1],
+        other[POSITION + 2] - frame[POSITION + 2],
+    )
     base, least = plane_height(faces, face, x, y, z), 1e300
     for i in range(int(n_vertices)):
         height = base + nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2]
@@ -73,7 +79,7 @@ def _past_end(
 @compiled
 def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
     """Return the height of a point of the world over the highest of the planes of the faces: negative inside."""
-    x, y, z = vector_in_body(frame, x - frame[0], y - frame[1], z - frame[2])
+    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
     highest = -1e300
     for i in range(int(n_faces)):
         highest = max(highest, plane_height(faces, FACE * i, x, y, z))
@@ -99,7 +105,7 @@ def nearest_face(
     """
     v = 3 * int(vertex)
     px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])
-    x, y, z = vector_in_body(frame, px - frame[0], py - frame[1], pz - frame[2])
+    x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
     margin = REACH * size
     best, deepest, inner = -1e300, -1e300, 0
     for i in range(int(n_faces)):

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from bodies.generalised.algebra import clear, invert, multiply, quadratic
 from bodies.generalised.frames import Function, MovingFrame
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import at
 
 LEADING = {

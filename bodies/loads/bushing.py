@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
+from nonsmooth.engine.memory.blocks import LOAD_MOMENT, LOAD_POINT, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Load
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
@@ -18,15 +19,17 @@ def _evaluate(
     t: float, a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, stiffness: float, damping: float
 ) -> None:
     for i in range(3):
-        out[3 + i] = b[i] + b[3 + 3 * i] * second[0] + b[4 + 3 * i] * second[1] + b[5 + 3 * i] * second[2]
-        out[6 + i] = 0.0
+        r = ROTATION + 3 * i
+        out[LOAD_POINT + i] = b[i] + b[r] * second[0] + b[r + 1] * second[1] + b[r + 2] * second[2]
+        out[LOAD_MOMENT + i] = 0.0
     for i in range(3):
+        r = ROTATION + 3 * i
         j, k = (i + 1) % 3, (i + 2) % 3
-        x_a = a[3 + 3 * i] * first[0] + a[4 + 3 * i] * first[1] + a[5 + 3 * i] * first[2]
+        x_a = a[r] * first[0] + a[r + 1] * first[1] + a[r + 2] * first[2]
         # both points move as the one where the force acts, so that equal and opposite forces do no work on a rotation
-        v_a = a[12 + i] + a[15 + j] * (out[3 + k] - a[k]) - a[15 + k] * (out[3 + j] - a[j])
-        v_b = b[12 + i] + b[15 + j] * (out[3 + k] - b[k]) - b[15 + k] * (out[3 + j] - b[j])
-        out[i] = -stiffness * (out[3 + i] - a[i] - x_a) - damping * (v_b - v_a)
+        v_a = a[VELOCITY + i] + a[SPIN + j] * (out[LOAD_POINT + k] - a[k]) - a[SPIN + k] * (out[LOAD_POINT + j] - a[j])
+        v_b = b[VELOCITY + i] + b[SPIN + j] * (out[LOAD_POINT + k] - b[k]) - b[SPIN + k] * (out[LOAD_POINT + j] - b[j])
+        out[i] = -stiffness * (out[LOAD_POINT + i] - a[i] - x_a) - damping * (v_b - v_a)
 
 
 @final

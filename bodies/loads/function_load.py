@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, final
 
+from nonsmooth.engine.memory.blocks import LOAD_MOMENT, LOAD_POINT, POSITION
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Load
 from nonsmooth.parameters import Value
@@ -14,11 +15,15 @@ from nonsmooth.types import Floats
 
 
 def _pull(t: float, a: Floats, b: Floats, out: Floats, force: float) -> None:
-    distance = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
+    distance = math.sqrt(
+        (b[POSITION] - a[POSITION]) ** 2
+        + (b[POSITION + 1] - a[POSITION + 1]) ** 2
+        + (b[POSITION + 2] - a[POSITION + 2]) ** 2
+    )
     for i in range(3):
         out[i] = -force * (b[i] - a[i]) / distance
-        out[3 + i] = b[i]
-        out[6 + i] = 0.0
+        out[LOAD_POINT + i] = b[i]
+        out[LOAD_MOMENT + i] = 0.0
 
 
 @final

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
+from nonsmooth.engine.memory.blocks import LOAD_MOMENT, LOAD_POINT, ROTATION, SPIN
 from nonsmooth.interfaces import Load
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
@@ -27,18 +28,19 @@ def _evaluate(
 ) -> None:
     along = across = rate = 0.0
     for i in range(3):
+        r = ROTATION + 3 * i
         out[i] = 0.0
-        out[3 + i] = b[i]
-        side_a = a[3 + 3 * i] * side[0] + a[4 + 3 * i] * side[1] + a[5 + 3 * i] * side[2]
-        other_a = a[3 + 3 * i] * other_side[0] + a[4 + 3 * i] * other_side[1] + a[5 + 3 * i] * other_side[2]
-        side_b = b[3 + 3 * i] * side[0] + b[4 + 3 * i] * side[1] + b[5 + 3 * i] * side[2]
-        out[6 + i] = a[3 + 3 * i] * axis[0] + a[4 + 3 * i] * axis[1] + a[5 + 3 * i] * axis[2]
+        out[LOAD_POINT + i] = b[i]
+        side_a = a[r] * side[0] + a[r + 1] * side[1] + a[r + 2] * side[2]
+        other_a = a[r] * other_side[0] + a[r + 1] * other_side[1] + a[r + 2] * other_side[2]
+        side_b = b[r] * side[0] + b[r + 1] * side[1] + b[r + 2] * side[2]
+        out[LOAD_MOMENT + i] = a[r] * axis[0] + a[r + 1] * axis[1] + a[r + 2] * axis[2]
         along += side_a * side_b
         across += other_a * side_b
-        rate += (b[15 + i] - a[15 + i]) * out[6 + i]
+        rate += (b[SPIN + i] - a[SPIN + i]) * out[LOAD_MOMENT + i]
     moment = -stiffness * (math.atan2(across, along) - angle) - damping * rate
     for i in range(3):
-        out[6 + i] *= moment
+        out[LOAD_MOMENT + i] *= moment
 
 
 @final

@@ -7,8 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
+from bodies.blocks import put
 from bodies.motions.pose import pose_parameters
 from bodies.values import unit_quaternion, unit_vector, vector
+from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -49,17 +51,17 @@ def _evaluate(
     r00, r01, r02 = c + d * axis_x * axis_x, d * axis_x * axis_y - s * axis_z, d * axis_x * axis_z + s * axis_y
     r10, r11, r12 = d * axis_x * axis_y + s * axis_z, c + d * axis_y * axis_y, d * axis_y * axis_z - s * axis_x
     r20, r21, r22 = d * axis_x * axis_z - s * axis_y, d * axis_y * axis_z + s * axis_x, c + d * axis_z * axis_z
-    out[3], out[4], out[5] = (
-        r00 * xx + r01 * yx + r02 * zx,
-        r00 * xy + r01 * yy + r02 * zy,
-        r00 * xz + r01 * yz + r02 * zz,
-    )
-    out[6], out[7], out[8] = (
+    put(out, ROTATION, r00 * xx + r01 * yx + r02 * zx, r00 * xy + r01 * yy + r02 * zy, r00 * xz + r01 * yz + r02 * zz)
+    put(
+        out,
+        ROTATION + 3,
         r10 * xx + r11 * yx + r12 * zx,
         r10 * xy + r11 * yy + r12 * zy,
         r10 * xz + r11 * yz + r12 * zz,
     )
-    out[9], out[10], out[11] = (
+    put(
+        out,
+        ROTATION + 6,
         r20 * xx + r21 * yx + r22 * zx,
         r20 * xy + r21 * yy + r22 * zy,
         r20 * xz + r21 * yz + r22 * zz,
@@ -69,14 +71,10 @@ def _evaluate(
     ox, oy, oz = rate * axis_x, rate * axis_y, rate * axis_z
     # velocity omega x arm and acceleration omega x (omega x arm) about the moving centre
     wx, wy, wz = oy * bz - oz * by, oz * bx - ox * bz, ox * by - oy * bx
-    out[0], out[1], out[2] = (
-        centre_x + velocity_x * t + bx,
-        centre_y + velocity_y * t + by,
-        centre_z + velocity_z * t + bz,
-    )
-    out[12], out[13], out[14] = velocity_x + wx, velocity_y + wy, velocity_z + wz
-    out[15], out[16], out[17] = ox, oy, oz
-    out[18], out[19], out[20] = oy * wz - oz * wy, oz * wx - ox * wz, ox * wy - oy * wx
+    put(out, POSITION, centre_x + velocity_x * t + bx, centre_y + velocity_y * t + by, centre_z + velocity_z * t + bz)
+    put(out, VELOCITY, velocity_x + wx, velocity_y + wy, velocity_z + wz)
+    put(out, SPIN, ox, oy, oz)
+    put(out, ACCELERATION, oy * wz - oz * wy, oz * wx - ox * wz, ox * wy - oy * wx)
 
 
 @final

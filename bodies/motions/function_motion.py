@@ -7,8 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias, final
 
+from bodies.blocks import put
 from bodies.motions.function_check import Function, check_linear, check_turn
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
@@ -21,10 +23,10 @@ def _translation(position: Function, velocity: Function, acceleration: Function)
     p, v, a = compiled(position), compiled(velocity), compiled(acceleration)
 
     def evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
-        out[0], out[1], out[2] = p(t)
-        out[3] = out[7] = out[11] = 1.0
-        out[12], out[13], out[14] = v(t)
-        out[18], out[19], out[20] = a(t)
+        out[POSITION], out[POSITION + 1], out[POSITION + 2] = p(t)
+        out[ROTATION] = out[ROTATION + 4] = out[ROTATION + 8] = 1.0
+        out[VELOCITY], out[VELOCITY + 1], out[VELOCITY + 2] = v(t)
+        out[ACCELERATION], out[ACCELERATION + 1], out[ACCELERATION + 2] = a(t)
 
     return evaluate
 
@@ -35,11 +37,11 @@ def _turning(translation: Evaluator, orientation: Function, velocity: Function, 
     def evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
         move(t, q, u, out)
         w, x, y, z = r(t)
-        out[3], out[4], out[5] = w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)
-        out[6], out[7], out[8] = 2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x)
-        out[9], out[10], out[11] = 2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z
-        out[15], out[16], out[17] = v(t)
-        out[21], out[22], out[23] = a(t)
+        put(out, ROTATION, w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y))
+        put(out, ROTATION + 3, 2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x))
+        put(out, ROTATION + 6, 2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z)
+        out[SPIN], out[SPIN + 1], out[SPIN + 2] = v(t)
+        out[SPIN_ACCELERATION], out[SPIN_ACCELERATION + 1], out[SPIN_ACCELERATION + 2] = a(t)
 
     return evaluate
 

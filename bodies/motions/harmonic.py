@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
+from bodies.blocks import put
+from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, VELOCITY
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -30,10 +32,10 @@ def _evaluate(
     displacement = amplitude * math.sin(angle)
     velocity = amplitude * omega * math.cos(angle)
     acceleration = -omega * omega * displacement
-    out[0], out[1], out[2] = displacement * axis_x, displacement * axis_y, displacement * axis_z
-    out[3] = out[7] = out[11] = 1.0
-    out[12], out[13], out[14] = velocity * axis_x, velocity * axis_y, velocity * axis_z
-    out[18], out[19], out[20] = acceleration * axis_x, acceleration * axis_y, acceleration * axis_z
+    put(out, POSITION, displacement * axis_x, displacement * axis_y, displacement * axis_z)
+    out[ROTATION] = out[ROTATION + 4] = out[ROTATION + 8] = 1.0
+    put(out, VELOCITY, velocity * axis_x, velocity * axis_y, velocity * axis_z)
+    put(out, ACCELERATION, acceleration * axis_x, acceleration * axis_y, acceleration * axis_z)
 
 
 @final

@@ -7,8 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
+from bodies.blocks import put
 from bodies.motions.pose import pose_parameters
 from bodies.values import unit_quaternion, vector
+from nonsmooth.engine.memory.blocks import POSITION, ROTATION
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -34,10 +36,10 @@ def _evaluate(
     zz: float,
 ) -> None:
     c, s = math.cos(slope), math.sin(slope)
-    out[0], out[1], out[2] = x, y, z
-    out[3], out[4], out[5] = xx * c - xz * s, xy, xx * s + xz * c
-    out[6], out[7], out[8] = yx * c - yz * s, yy, yx * s + yz * c
-    out[9], out[10], out[11] = zx * c - zz * s, zy, zx * s + zz * c
+    put(out, POSITION, x, y, z)
+    put(out, ROTATION, xx * c - xz * s, xy, xx * s + xz * c)
+    put(out, ROTATION + 3, yx * c - yz * s, yy, yx * s + yz * c)
+    put(out, ROTATION + 6, zx * c - zz * s, zy, zx * s + zz * c)
 
 
 @final

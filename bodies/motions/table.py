@@ -10,9 +10,11 @@ from typing import Any, final
 
 import numpy as np
 
+from bodies.blocks import put
 from bodies.motions.pose import pose_parameters
 from bodies.values import unit_quaternion
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import ACCELERATION, ROTATION, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Motion
 from nonsmooth.interfaces.body import Vector
@@ -41,9 +43,9 @@ def _write(out: Floats, times: Floats, coefficients: Floats, count: float, t: fl
         velocity = (3.0 * coefficients[c] * d + 2.0 * coefficients[c + 1]) * d + coefficients[c + 2]
         position = ((coefficients[c] * d + coefficients[c + 1]) * d + coefficients[c + 2]) * d + coefficients[c + 3]
         out[i] = position + velocity * rest
-        out[12 + i] = velocity
+        out[VELOCITY + i] = velocity
         # a natural spline has none at its ends
-        out[18 + i] = 6.0 * coefficients[c] * d + 2.0 * coefficients[c + 1] if rest == 0.0 else 0.0
+        out[ACCELERATION + i] = 6.0 * coefficients[c] * d + 2.0 * coefficients[c + 1] if rest == 0.0 else 0.0
 
 
 def _evaluate(
@@ -64,9 +66,9 @@ def _evaluate(
     zy: float,
     zz: float,
 ) -> None:
-    out[3], out[4], out[5] = xx, xy, xz
-    out[6], out[7], out[8] = yx, yy, yz
-    out[9], out[10], out[11] = zx, zy, zz
+    put(out, ROTATION, xx, xy, xz)
+    put(out, ROTATION + 3, yx, yy, yz)
+    put(out, ROTATION + 6, zx, zy, zz)
     _write(out, times, coefficients, count, t)
 
 
@@ -88,9 +90,9 @@ def _evaluate_periodic(
     zy: float,
     zz: float,
 ) -> None:
-    out[3], out[4], out[5] = xx, xy, xz
-    out[6], out[7], out[8] = yx, yy, yz
-    out[9], out[10], out[11] = zx, zy, zz
+    put(out, ROTATION, xx, xy, xz)
+    put(out, ROTATION + 3, yx, yy, yz)
+    put(out, ROTATION + 6, zx, zy, zz)
     first = times[0]
     period = times[int(count) - 1] - first
     _write(out, times, coefficients, count, t - period * math.floor((t - first) / period))

@@ -15,7 +15,7 @@ import numpy as np
 
 from nonsmooth.binding.compile import in_python
 from nonsmooth.binding.source import described, line_of
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.errors import PluginError
 from nonsmooth.parameters import Value
 

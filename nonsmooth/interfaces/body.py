@@ -21,7 +21,7 @@ class Body(Component, ABC):
     The contract:
 
     1. ``evaluator`` is a plain function ``evaluate(t, q, u, out, ...)`` that writes the body's output
-       block (:mod:`nonsmooth.engine.memory.layout`) at time t [s], coordinates q, velocities u; parts that are
+       block (:mod:`nonsmooth.engine.memory.blocks`) at time t [s], coordinates q, velocities u; parts that are
        zero need not be written.  Its further arguments are names out of ``parameters()`` and of the
        surroundings (gravity_x, gravity_y, gravity_z [m/s^2]).
     2. M du/dt = h + contact forces, dq/dt = B(q) u; the Jacobian maps u to the velocity of the frame

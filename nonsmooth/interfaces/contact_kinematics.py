@@ -41,7 +41,7 @@ class ContactKinematics(Component, ABC):
 
     1. ``pair`` names the two classes of shapes, ``between`` returns the contacts of two such shapes.
     2. ``evaluator`` is a plain function ``evaluate(a, b, out, ...)``; a and b are the frame blocks of the two
-       bodies, out the geometry block (:mod:`nonsmooth.engine.memory.layout`).
+       bodies, out the geometry block (:mod:`nonsmooth.engine.memory.blocks`).
     3. The normal points from the first body to the second; the gap is negative under penetration.
     4. The first tangent is fixed to the first body as far as the normal allows.
     """

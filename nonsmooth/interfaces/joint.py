@@ -14,7 +14,7 @@ class Joint(Component, ABC):
     The contract:
 
     1. ``evaluator`` is a plain function ``evaluate(a, b, out, ...)``; a and b are the frame blocks of the two bodies,
-       out the rows of the joint (:mod:`nonsmooth.engine.memory.layout`); its further arguments are parameters of the
+       out the rows of the joint (:mod:`nonsmooth.engine.memory.blocks`); its further arguments are parameters of the
        joint.
     2. Residuals vanish where the joint is closed; rates and biases are their derivatives.
     """

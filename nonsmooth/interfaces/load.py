@@ -14,7 +14,7 @@ class Load(Component, ABC):
     The contract:
 
     1. ``evaluator`` is a plain function ``evaluate(t, a, b, out, ...)`` of time [s] and the frame blocks of the two
-       bodies that writes force, point and moment (:mod:`nonsmooth.engine.memory.layout`); its further arguments are
+       bodies that writes force, point and moment (:mod:`nonsmooth.engine.memory.blocks`); its further arguments are
        parameters of the load.
     2. It is smooth in its arguments; the first body gets the opposite.
     """

@@ -15,7 +15,7 @@ class Motion(Component, ABC):
 
     1. ``evaluator`` is a plain function ``evaluate(t, q, u, out, ...)`` with q and u empty; it writes
        position, rotation, velocity, angular velocity and both accelerations of the frame, in the order of
-       :mod:`nonsmooth.engine.memory.layout`.
+       :mod:`nonsmooth.engine.memory.blocks`.
     2. Position, velocity and acceleration are derivatives of one another and continuous.
     """
 

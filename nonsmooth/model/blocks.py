@@ -9,17 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.binding.source import described
-from nonsmooth.engine.memory.layout import (
-    CATALOGUE,
-    FORCE_AND_MOMENT,
-    FRAME,
-    GEOMETRY,
-    GUARD,
-    JOINT_ROW,
-    LOAD,
-    PAIR,
-    UNTOUCHED,
-)
+from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
+from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.linkages import linkages

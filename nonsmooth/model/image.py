@@ -10,7 +10,8 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.layout import CATALOGUE, UNTOUCHED
+from nonsmooth.engine.memory.blocks import UNTOUCHED
+from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.memory import Memory
 
 Integers = NDArray[np.int64]

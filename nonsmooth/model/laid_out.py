@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
-from nonsmooth.engine.memory.layout import GEOMETRY, N_ACCOUNTS
+from nonsmooth.engine.memory.blocks import GEOMETRY
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING
 from nonsmooth.engine.native.kernel import call_room

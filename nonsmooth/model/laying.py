@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from nonsmooth.binding.bounds import FRAMES, try_out
 from nonsmooth.binding.compile import bind
-from nonsmooth.engine.memory.layout import FRAME, JOINT_ROW, LOAD
+from nonsmooth.engine.memory.blocks import FRAME, JOINT_ROW, LOAD
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import Joint, Load
 from nonsmooth.model.linkages import Linkage

@@ -11,7 +11,8 @@ import numpy as np
 
 from nonsmooth.binding.bounds import try_out
 from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, FORCE_AND_MOMENT, PAIR
+from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, PAIR
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CONTACT_TIME, DIRECTION, LEVERS, REACH, SIZE
 from nonsmooth.engine.memory.memory import Heap, Memory, output_block
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.errors import InvalidInput
@@ -128,13 +129,13 @@ def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) ->
 def lay_floats(memory: Memory, contacts: Sequence[Contact]) -> None:
     """Lay what the catalogue holds of each contact in floats."""
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * len(contacts)).reshape(len(contacts), CATALOGUE_FLOATS)
-    floats[:, 0] = [0.0 if contact.impact is None else contact.impact.contact_time for contact in contacts]
-    floats[:, 1] = 1.0
-    floats[:, 3] = [
+    floats[:, CONTACT_TIME] = [0.0 if contact.impact is None else contact.impact.contact_time for contact in contacts]
+    floats[:, DIRECTION] = 1.0
+    floats[:, REACH] = [
         contact.normal.reach if isinstance(contact.normal, CompliantNormalLaw) else 0.0 for contact in contacts
     ]
-    floats[:, 5:7] = np.reshape([contact.levers for contact in contacts], (len(contacts), 2))
-    floats[:, 7] = [contact.size for contact in contacts]
+    floats[:, LEVERS : LEVERS + 2] = np.reshape([contact.levers for contact in contacts], (len(contacts), 2))
+    floats[:, SIZE] = [contact.size for contact in contacts]
 
 
 def initial_state(contact: Contact) -> tuple[float, ...]:

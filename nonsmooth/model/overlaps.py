@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import CATALOGUE, GEOMETRY
+from nonsmooth.engine.memory.blocks import GEOMETRY
+from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.solids.placed import Placed, overlap

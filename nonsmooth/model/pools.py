@@ -11,7 +11,7 @@ from nonsmooth.binding import interpreted
 from nonsmooth.binding.bounds import try_out
 from nonsmooth.binding.compile import bind, parameter_place
 from nonsmooth.binding.source import described
-from nonsmooth.engine.memory.layout import CANDIDATE
+from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch

@@ -7,7 +7,7 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body
@@ -68,7 +68,7 @@ class Probe:
         return self._state(self.model.n_q, "u", self.body.n_u)
 
     def frame(self, number: int) -> Vector:
-        """Return the motion of a frame (:mod:`nonsmooth.engine.memory.layout`)."""
+        """Return the motion of a frame (:mod:`nonsmooth.engine.memory.blocks`)."""
         call_room("evaluate_at", self.model.memory)
         return self._part("out", number * (FRAME + 6 * self.body.n_u), FRAME).copy()
 

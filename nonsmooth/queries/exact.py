@@ -9,7 +9,7 @@ import numpy as np
 
 from nonsmooth.binding.call import candidate_caller, pair_caller
 from nonsmooth.binding.source import described
-from nonsmooth.engine.memory.layout import CANDIDATE, FRAME, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY, PAST_END
 from nonsmooth.errors import PluginError
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.interfaces.distance_backend import Place

@@ -8,7 +8,7 @@ from typing import Any, final
 import numpy as np
 
 from nonsmooth.binding.call import body_caller
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place

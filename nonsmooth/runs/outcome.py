@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
 from nonsmooth.engine.memory.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Difference, Guards, Image
@@ -102,7 +103,8 @@ def state_of(model: LaidOut, blank: Image, key: str, start: tuple[float, float],
     y = memory.array("y", model.n_y)
     rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
-    modes, directions, rates = rows[:, _MODE].copy(), floats[:, 1:3].copy(), floats[:, 4].copy()
+    modes, rates = rows[:, _MODE].copy(), floats[:, CLOSING_RATE].copy()
+    directions = floats[:, DIRECTION : DIRECTION + 2].copy()
     # what stands in a slot is newer than what the catalogue keeps of it
     listed = memory.array("identity", slots)
     modes[listed] = memory.array("mode", slots)

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS, N_ACCOUNTS
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.image import Image
@@ -83,7 +84,8 @@ def begin(model: LaidOut, blank: Image, state: State) -> None:
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
     rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
-    rows[:, _MODE], floats[:, 1:3], floats[:, 4] = state.modes, state.slip_directions, state.closing_rates
+    rows[:, _MODE], floats[:, CLOSING_RATE] = state.modes, state.closing_rates
+    floats[:, DIRECTION : DIRECTION + 2] = state.slip_directions
     places = rows[:, _PLACE]
     for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
         memory.floats[places[number] :][:CANDIDATE] = state.features[number]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nonsmooth.engine.memory.layout import CANDIDATE
+from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.interfaces import StatefulFrictionLaw, TractionLaw
 from nonsmooth.solution.energy import EnergyAccount

@@ -9,7 +9,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Body
 from nonsmooth.rotations import turned
 from nonsmooth.testing.callers import Caller, compiled_caller, plain_caller
@@ -25,7 +25,7 @@ OBLIQUE = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
 @final
 @dataclass(frozen=True)
 class Block:
-    """What a body writes; shapes of the parts as in :mod:`nonsmooth.engine.memory.layout`."""
+    """What a body writes; shapes of the parts as in :mod:`nonsmooth.engine.memory.blocks`."""
 
     body: Body
     numbers: Array

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import JOINT_ROW
+from nonsmooth.engine.memory.blocks import JOINT_ROW
 from nonsmooth.interfaces import Joint
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing import moving

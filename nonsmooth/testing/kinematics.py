@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.layout import FRAME, PAIR, PAST_END
+from nonsmooth.engine.memory.blocks import FRAME, PAIR, PAST_END
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.rotations import rotation, turned

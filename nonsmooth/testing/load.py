@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import LOAD
+from nonsmooth.engine.memory.blocks import LOAD
 from nonsmooth.interfaces import Load
 from nonsmooth.rotations import cross
 from nonsmooth.testing import moving

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Motion
 from nonsmooth.testing import moving
 from nonsmooth.testing.callers import compiled_caller, plain_caller

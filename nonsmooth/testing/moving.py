@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.rotations import cross, rotation, turned
 from nonsmooth.testing.draws import Case, Variable
 

@@ -10,6 +10,22 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory.blocks import (
+    FRAME,
+    GAP,
+    JACOBIAN,
+    NORMAL,
+    POINT_A,
+    POINT_B,
+    ROTATION,
+    SIDE_A,
+    SIDE_B,
+    SLIDE_MATRIX,
+    SPIN,
+    TANGENT,
+    TURN_MATRIX,
+    VELOCITY,
+)
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, CompliantNormalLaw, ContactKinematics, ImpactLaw, NormalLaw, Shape, TangentialLaw
 from nonsmooth.simulate import simulate
@@ -21,13 +37,21 @@ from nonsmooth.types import Floats
 Array = NDArray[np.float64]
 Numbers = tuple[float, ...]
 _UPRIGHT: Numbers = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+_RATES = FRAME + 36
+"""Where the coordinate rates of the puck stand,"""
+_FORCE = _RATES + 3
+"""its forces,"""
+_INVERSE = _FORCE + 6
+"""its inverse masses,"""
+_ENERGY = _INVERSE + 36
+"""and its energies."""
 _FINE = 1e-9
 """Tolerances of gap, velocity and time, in units of the puck's length and speed."""
 
 
 def _evaluate_slab(t: float, q: Floats, u: Floats, out: Floats, axes: Floats) -> None:
     for i in range(9):
-        out[3 + i] = axes[i]
+        out[ROTATION + i] = axes[i]
 
 
 def _evaluate_puck(
@@ -42,21 +66,21 @@ def _evaluate_puck(
     gravity_z: float,
 ) -> None:
     for i in range(9):
-        out[3 + i] = axes[i]
+        out[ROTATION + i] = axes[i]
     for i in range(3):
         out[i] = q[i]
-        out[12 + i], out[15 + i] = u[i], u[3 + i]
-        out[60 + i] = u[i]
-        out[63 + i] = push[i]
-        out[69 + 7 * i], out[90 + 7 * i] = 1.0 / mass, 1.0 / inertia
+        out[VELOCITY + i], out[SPIN + i] = u[i], u[3 + i]
+        out[_RATES + i] = u[i]
+        out[_FORCE + i] = push[i]
+        out[_INVERSE + 7 * i], out[_INVERSE + 21 + 7 * i] = 1.0 / mass, 1.0 / inertia
     for i in range(6):
-        out[24 + 7 * i] = 1.0
-    out[65] = push[2] + mass * gravity_z
+        out[JACOBIAN + 7 * i] = 1.0
+    out[_FORCE + 2] = push[2] + mass * gravity_z
     energy = 0.0
     for i in range(3):
         energy += 0.5 * mass * u[i] * u[i] + 0.5 * inertia * u[3 + i] * u[3 + i]
-    out[105] = energy
-    out[106] = -mass * gravity_z * q[2] - push[0] * q[0] - push[1] * q[1] - push[2] * q[2]
+    out[_ENERGY] = energy
+    out[_ENERGY + 1] = -mass * gravity_z * q[2] - push[0] * q[0] - push[1] * q[1] - push[2] * q[2]
 
 
 def _evaluate_touch(a: Floats, b: Floats, out: Floats, normal: Floats, tangent: Floats) -> None:
@@ -64,16 +88,16 @@ def _evaluate_touch(a: Floats, b: Floats, out: Floats, normal: Floats, tangent: 
     for i in range(3):
         n = t = 0.0
         for j in range(3):
-            n += a[3 + 3 * i + j] * normal[j]
-            t += a[3 + 3 * i + j] * tangent[j]
-        out[1 + i], out[4 + i], out[10 + i] = n, t, b[i]
+            n += a[ROTATION + 3 * i + j] * normal[j]
+            t += a[ROTATION + 3 * i + j] * tangent[j]
+        out[NORMAL + i], out[TANGENT + i], out[POINT_B + i] = n, t, b[i]
         gap += n * (b[i] - a[i])
-    out[0] = gap
+    out[GAP] = gap
     for i in range(3):
-        out[7 + i] = out[10 + i] - gap * out[1 + i]
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     # a plane: slide 0, turn 1; a point: slide 1, turn 0
-    out[17] = out[20] = 1.0
-    out[21] = out[24] = 1.0
+    out[SIDE_A + TURN_MATRIX] = out[SIDE_A + TURN_MATRIX + 3] = 1.0
+    out[SIDE_B + SLIDE_MATRIX] = out[SIDE_B + SLIDE_MATRIX + 3] = 1.0
 
 
 @final

@@ -10,7 +10,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.layout import PAIR
+from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, PAIR, ROTATION, SPIN, VELOCITY
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
@@ -27,16 +27,17 @@ Pose = tuple[Array, Array]
 
 def _evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
-    out[3], out[4], out[5] = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
-    out[6], out[7], out[8] = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
-    out[9], out[10], out[11] = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
+    r = ROTATION
+    out[r], out[r + 1], out[r + 2] = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
+    out[r + 3], out[r + 4], out[r + 5] = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
+    out[r + 6], out[r + 7], out[r + 8] = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
     for i in range(3):
         out[i] = q[i]
-        out[12 + i], out[15 + i] = u[i], u[3 + i]
+        out[VELOCITY + i], out[SPIN + i] = u[i], u[3 + i]
     for i in range(6):
-        out[24 + 7 * i] = 1.0
+        out[JACOBIAN + 7 * i] = 1.0
         # behind Jacobian 36, coordinate rates 7 and force 6
-        out[73 + 7 * i] = 1.0
+        out[FRAME + 49 + 7 * i] = 1.0
 
 
 @final

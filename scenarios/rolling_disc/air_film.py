@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
+from nonsmooth.engine.memory.blocks import FORCE, LOAD_MOMENT, LOAD_POINT, SPIN
 from nonsmooth.interfaces import Load
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -19,9 +20,9 @@ def _evaluate(t: float, a: Floats, b: Floats, out: Floats, viscosity: float, rad
     sine = math.sqrt(x * x + y * y + z * z)
     drag = 0.25 * math.pi * viscosity * (radius / sine) ** 3
     for i in range(3):
-        out[i] = 0.0
-        out[3 + i] = b[i]
-        out[6 + i] = -drag * (b[15 + i] - a[15 + i])
+        out[FORCE + i] = 0.0
+        out[LOAD_POINT + i] = b[i]
+        out[LOAD_MOMENT + i] = -drag * (b[SPIN + i] - a[SPIN + i])
 
 
 @final

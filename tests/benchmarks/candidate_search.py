@@ -21,7 +21,7 @@ from scipy.spatial.transform import Rotation
 
 from bodies import Box, MeshMesh, MeshSwept, TriangleMesh, Triangles
 from nonsmooth.binding.call import pair_caller
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Shape
 from tests.bodies.meshes.parts import box, hills, torus
 

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 import nonsmooth as ns
 from nonsmooth.binding.compile import bind
-from nonsmooth.engine.memory.layout import FRAME, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY, PAST_END
 from nonsmooth.errors import InvalidInput, NoDistance
 from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
 from nonsmooth.plugins import registry

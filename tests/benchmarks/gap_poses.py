@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from nonsmooth.binding.compile import bind
-from nonsmooth.engine.memory.layout import FRAME, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY, PAST_END
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.plugins import registry
 from nonsmooth.system.pairing import nearest_pair

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import nonsmooth as ns
 from bodies import FreeBody, Rest
-from nonsmooth.engine.memory.layout import GEOMETRY
+from nonsmooth.engine.memory.blocks import GEOMETRY
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, Shape

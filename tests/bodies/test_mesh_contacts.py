@@ -29,7 +29,7 @@ from bodies.contacts import patch_near
 from bodies.contacts.apex_mesh import ApexMesh
 from bodies.contacts.mesh_point import MeshPoint, PointMesh
 from nonsmooth.binding.call import pair_caller
-from nonsmooth.engine.memory.layout import FRAME, GEOMETRY
+from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import Table

@@ -34,7 +34,7 @@ from bodies.contacts.mesh_mesh import MeshMesh
 from bodies.contacts.mesh_swept import MeshSwept
 from nonsmooth.binding.call import candidate_caller, pair_caller
 from nonsmooth.binding.compile import parameter_names
-from nonsmooth.engine.memory.layout import CANDIDATE, FRAME, GEOMETRY
+from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY
 from nonsmooth.engine.memory.modes import FEATURE_CHANGE, FEATURE_END, IMPACT
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, ConvexShape, Shape

@@ -10,7 +10,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BoxBody, CapsuleBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.engine.native.kernel import PLAIN, call_room
 from nonsmooth.engines.event_driven import EventDriven

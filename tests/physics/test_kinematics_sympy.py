@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bodies import Dumbbell, Harmonic
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble

@@ -14,7 +14,7 @@ import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, LinearCompliant, NewtonImpact, Unilateral
 from nonsmooth.binding import bounds
-from nonsmooth.engine.memory.layout import GUARD
+from nonsmooth.engine.memory.blocks import GUARD
 from nonsmooth.interfaces import Load
 from nonsmooth.parameters import parameter
 from nonsmooth.system.contact import Contact

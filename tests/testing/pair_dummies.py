@@ -29,11 +29,11 @@ BEYOND = 20.0
 
 
 def evaluate(a: Floats, b: Floats, out: Floats, fault: float) -> None:
+    left = out[14]
     _sound(a, b, out, 0.2, 0.1, 0.0, 0.0, 0.3, 0.0, -0.05, 0.0)
-    if fault != 1.0 or out[0] > 0.0:
-        out[14] = out[15] = 0.0
     if fault == 1.0 and out[0] <= 0.0:
-        out[14] = out[14] + 1e-9
+        # what another contact left there
+        out[14] = left + 1e-9
     if fault == 2.0:
         for i in range(3):
             out[4 + i] = 1.0001 * out[4 + i]

@@ -10,8 +10,11 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 
+_SIDE, _AXIS, _FORWARD, _BACKWARD, _ACROSS = 0, 1, 4, 5, 6
+"""Where these numbers of the law stand: the body that it is fixed to, its axis, and its ratios."""
 _UPRIGHT = 1e-7
 """Sine of the angle to the normal below which an axis has no direction in the tangent plane, but that of round-off."""
 
@@ -30,18 +33,18 @@ def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, tangents: int) 
 
     ``tangents`` says where the unit tangents stand, one after the other.
     """
-    law = k[S.axis + c]
-    frame = k[S.frame_a + c] if w[law] == 0.0 else k[S.frame_b + c]
+    law, axis = k[S.axis + c], k[S.axis + c] + _AXIS
+    frame = k[S.frame_a + c] if w[law + _SIDE] == 0.0 else k[S.frame_b + c]
     p1 = p2 = 0.0
     for i in range(3):
-        r = frame + 3 + 3 * i
-        world = w[r] * w[law + 1] + w[r + 1] * w[law + 2] + w[r + 2] * w[law + 3]
+        r = frame + ROTATION + 3 * i
+        world = w[r] * w[axis] + w[r + 1] * w[axis + 1] + w[r + 2] * w[axis + 2]
         p1 += world * w[tangents + i]
         p2 += world * w[tangents + 3 + i]
     length = math.sqrt(p1 * p1 + p2 * p2)
     if length < _UPRIGHT:
         # another axis of the body in its place: a direction that turns with the body, whoever looks on
-        r = frame + 3 + _least(w[law + 1], w[law + 2], w[law + 3])
+        r = frame + ROTATION + _least(w[axis], w[axis + 1], w[axis + 2])
         p1 = w[r] * w[tangents] + w[r + 3] * w[tangents + 1] + w[r + 6] * w[tangents + 2]
         p2 = w[r] * w[tangents + 3] + w[r + 3] * w[tangents + 4] + w[r + 6] * w[tangents + 5]
         length = math.sqrt(p1 * p1 + p2 * p2)
@@ -50,10 +53,10 @@ def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, tangents: int) 
     forward = e1 * v1 + e2 * v2
     if abs(forward) > S.velocity_tolerance:
         k[S.facing + c] = 1 if forward > 0.0 else -1
-    along = w[law + 4] if k[S.facing + c] == 1 else w[law + 5]
+    along = w[law + _FORWARD] if k[S.facing + c] == 1 else w[law + _BACKWARD]
     skew = S.skew + 4 * c
     w[skew], w[skew + 1] = along * e1, along * e2
-    w[skew + 2], w[skew + 3] = -w[law + 6] * e2, w[law + 6] * e1
+    w[skew + 2], w[skew + 3] = -w[law + _ACROSS] * e2, w[law + _ACROSS] * e1
     for r in range(2):
         s1, s2 = w[skew + 2 * r], w[skew + 2 * r + 1]
         for i in range(3):
@@ -82,7 +85,7 @@ def facing_force(S: Scalars, w: Floats, k: Integers, c: int, f1: float) -> float
     if k[S.oriented + c] == 0 or f1 * k[S.facing + c] <= 0.0:
         return f1
     law = k[S.axis + c]
-    ratio = w[law + 4] / w[law + 5]
+    ratio = w[law + _FORWARD] / w[law + _BACKWARD]
     return f1 * ratio if k[S.facing + c] == 1 else f1 / ratio
 
 
@@ -93,4 +96,4 @@ def turn_facing(S: Scalars, w: Floats, k: Integers, c: int, f1: float) -> int:
         return 0
     law = k[S.axis + c]
     k[S.facing + c] = -k[S.facing + c]
-    return 1 if w[law + 4] != w[law + 5] else 0
+    return 1 if w[law + _FORWARD] != w[law + _BACKWARD] else 0

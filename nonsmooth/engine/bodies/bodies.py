@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.bodies.linkages import evaluate_linkage
-from nonsmooth.engine.memory.layout import FRAME
+from nonsmooth.engine.memory.blocks import FORCE, FRAME, LOAD_MOMENT, LOAD_POINT
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_body, call_load, kernel, room
 from nonsmooth.engine.native.watch import interrupted
 
@@ -82,17 +82,18 @@ def _apply(S: Scalars, w: Floats, k: Integers, load: int, t: float, y: int) -> N
         at(w, k[S.load_parameters + load]),
         at(w, out),
     )
+    force_at, point, moment = out + FORCE, out + LOAD_POINT, out + LOAD_MOMENT
     for side in range(2):
         body = k[S.load_body_a + load] if side == 0 else k[S.load_body_b + load]
         frame = k[S.load_frame_a + load] if side == 0 else k[S.load_frame_b + load]
         n_u = k[S.body_nu + body]
         force = k[S.body_tail + body] + k[S.body_nq + body]
         sign = -1.0 if side == 0 else 1.0
-        fx, fy, fz = sign * w[out], sign * w[out + 1], sign * w[out + 2]
-        x, y_, z = w[out + 3] - w[frame], w[out + 4] - w[frame + 1], w[out + 5] - w[frame + 2]
-        mx = sign * w[out + 6] + y_ * fz - z * fy
-        my = sign * w[out + 7] + z * fx - x * fz
-        mz = sign * w[out + 8] + x * fy - y_ * fx
+        fx, fy, fz = sign * w[force_at], sign * w[force_at + 1], sign * w[force_at + 2]
+        x, y_, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
+        mx = sign * w[moment] + y_ * fz - z * fy
+        my = sign * w[moment + 1] + z * fx - x * fz
+        mz = sign * w[moment + 2] + x * fy - y_ * fx
         for j in range(n_u):
             v = frame + FRAME + j
             o = v + 3 * n_u

@@ -9,17 +9,18 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.kinematics import evaluate_row_response, push_response, wrench_row
-from nonsmooth.engine.memory.layout import GEOMETRY, N_ACCOUNTS
+from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, GAP, GEOMETRY, SPIN, TRACTION, TRACTION_MOMENT
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_compliance, call_load, kernel
 
 
 @kernel("void(S, F, I, i8)")
-def evaluate_given_force(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+def evaluate_compliant_force(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write the normal force of the compliant contact ``c``, its geometry and rates being known."""
-    w[S.given + c] = call_compliance(
+    w[S.compliant_force + c] = call_compliance(
         k[S.normal_function + c],
-        -w[S.geometry + GEOMETRY * c],
+        -w[S.geometry + GEOMETRY * c + GAP],
         -w[S.rate + 3 * c],
         w[S.closing_rate + c],
         at(w, k[S.normal_parameters + c]),
@@ -29,7 +30,7 @@ def evaluate_given_force(S: Scalars, w: Floats, k: Integers, c: int) -> None:
 @kernel("void(S, F, I, i8)")
 def _evaluate_motion(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write slip velocity and relative angular velocity of contact ``c`` along its unit tangents and normal."""
-    a, b = k[S.frame_a + c] + 15, k[S.frame_b + c] + 15
+    a, b = k[S.frame_a + c] + SPIN, k[S.frame_b + c] + SPIN
     axes = S.axes + 9 * c
     for i in range(2):
         w[S.motion + i] = w[S.rate + 3 * c + 1 + i]
@@ -48,7 +49,7 @@ def evaluate_traction(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> Non
     out = k[S.traction_out + c]
     call_load(
         k[S.traction_function + c],
-        w[S.given + c],
+        w[S.compliant_force + c],
         at(w, S.motion),
         at(w, state_at(S, k, c, y)),
         at(w, k[S.traction_parameters + c]),
@@ -56,7 +57,7 @@ def evaluate_traction(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> Non
     )
     w[S.turned + c] = 0.0
     for i in range(3):
-        w[S.turned + c] += w[out + 2 + i] * w[S.motion + 2 + i]
+        w[S.turned + c] += w[out + TRACTION_MOMENT + i] * w[S.motion + 2 + i]
 
 
 @kernel("i8(S, I, i8, i8)")
@@ -95,7 +96,7 @@ def write_state_rates(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> N
         n = k[S.n_state + c]
         if n == 0 or k[S.mode + c] == OPEN:
             continue
-        source = k[S.traction_out + c] + 5
+        source = k[S.traction_out + c] + FORCE_AND_MOMENT
         if k[S.state_copy + c] > 0:
             source = k[S.rates_out + c]
             v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
@@ -115,7 +116,7 @@ def lay_wrench(S: Scalars, w: Floats, k: Integers, c: int, f: int) -> None:
         for r in range(3):
             w[force + i] += w[f + r] * w[axes + 3 * r + i]
         if k[S.traction_function + c] != 0:
-            out = k[S.traction_out + c] + 2
+            out = k[S.traction_out + c] + TRACTION_MOMENT
             for r in range(3):
                 w[moment + i] += w[out + r] * w[axes + 3 * ((r + 1) % 3) + i]
     wrench_row(S, w, k, c, 1, force, moment)
@@ -126,13 +127,13 @@ def lay_wrench(S: Scalars, w: Floats, k: Integers, c: int, f: int) -> None:
 def rub_by_traction(S: Scalars, w: Floats, k: Integers, c: int, f: int, y: int) -> None:
     """Write the forces of a contact with a law of traction to ``f``."""
     evaluate_traction(S, w, k, c, y)
-    w[f] = w[S.given + c]
+    w[f] = w[S.compliant_force + c]
     for r in range(2):
-        w[f + 1 + r] = w[k[S.traction_out + c] + r]
+        w[f + 1 + r] = w[k[S.traction_out + c] + TRACTION + r]
 
 
 @kernel()
-def push_given(S: Scalars, w: Floats, k: Integers) -> None:
+def push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
     """Add to ``du`` what the touching compliant contacts are known to do, all of it or the normal force alone."""
     for c in range(S.n_contacts):
         if k[S.normal_function + c] == 0 or k[S.touching + c] == 0:
@@ -142,13 +143,13 @@ def push_given(S: Scalars, w: Floats, k: Integers) -> None:
             lay_wrench(S, w, k, c, S.force + 3 * c)
             push_response(S, w, k, c, 0, 1.0, S.du)
         else:
-            push_response(S, w, k, c, 0, w[S.given + c], S.du)
+            push_response(S, w, k, c, 0, w[S.compliant_force + c], S.du)
 
 
 @kernel("i8(S, F, I, i8)")
 def rubs_unasked(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return 1 if the friction of the compliant contact ``c`` is no question: by a law of traction, or without load."""
-    return 1 if k[S.traction_function + c] != 0 or w[S.given + c] <= 0.0 else 0
+    return 1 if k[S.traction_function + c] != 0 or w[S.compliant_force + c] <= 0.0 else 0
 
 
 @kernel()
@@ -165,7 +166,7 @@ def decouple_normals(S: Scalars, w: Floats, k: Integers) -> None:
             g, d = S.delassus + 9 * block, k[S.block_column + block]
             if d == a and not rigid:
                 own = w[g] if w[g] > 0.0 else 1.0
-                w[S.b + 3 * a] = -own * w[S.given + k[S.active + a]]
+                w[S.b + 3 * a] = -own * w[S.compliant_force + k[S.active + a]]
                 for i in range(1, 3):
                     w[g + i] = w[g + 3 * i] = 0.0
                 w[g] = own

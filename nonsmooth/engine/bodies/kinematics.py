@@ -5,7 +5,23 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.anisotropy import stretch_bias, stretch_tangents
-from nonsmooth.engine.memory.layout import FRAME, GEOMETRY
+from nonsmooth.engine.memory.blocks import (
+    ACCELERATION,
+    FRAME,
+    GAP,
+    GEOMETRY,
+    NORMAL,
+    POINT_A,
+    POINT_B,
+    SIDE_A,
+    SIDE_B,
+    SLIDE_MATRIX,
+    SPIN,
+    SPIN_ACCELERATION,
+    TANGENT,
+    TURN_MATRIX,
+    VELOCITY,
+)
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_pair, kernel, room
 
 
@@ -22,7 +38,7 @@ def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     n = S.axes + 9 * c
     t = n + 3
     for i in range(6):
-        w[n + i] = w[S.geometry + GEOMETRY * c + 1 + i]
+        w[n + i] = w[S.geometry + GEOMETRY * c + NORMAL + i]
     w[n + 6] = w[n + 1] * w[t + 2] - w[n + 2] * w[t + 1]
     w[n + 7] = w[n + 2] * w[t] - w[n] * w[t + 2]
     w[n + 8] = w[n] * w[t + 1] - w[n + 1] * w[t]
@@ -31,7 +47,7 @@ def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
 @kernel("void(S, F, i8)")
 def _unit_tangents(S: Scalars, w: Floats, c: int) -> None:
     """Write both unit tangents of contact ``c`` to ``tangents``."""
-    n, t, out = S.geometry + GEOMETRY * c + 1, S.geometry + GEOMETRY * c + 4, S.tangents
+    n, t, out = S.geometry + GEOMETRY * c + NORMAL, S.geometry + GEOMETRY * c + TANGENT, S.tangents
     for i in range(3):
         w[out + i] = w[t + i]
     w[out + 3] = w[n + 1] * w[t + 2] - w[n + 2] * w[t + 1]
@@ -45,12 +61,12 @@ def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     vx = vy = vz = 0.0
     for side in range(2):
         frame = k[S.frame_a + c] if side == 0 else k[S.frame_b + c]
-        point = S.geometry + GEOMETRY * c + 7 + 3 * side
+        point = S.geometry + GEOMETRY * c + (POINT_A if side == 0 else POINT_B)
         x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
-        ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
-        vx = w[frame + 12] + oy * z - oz * y - vx
-        vy = w[frame + 13] + oz * x - ox * z - vy
-        vz = w[frame + 14] + ox * y - oy * x - vz
+        ox, oy, oz = w[frame + SPIN], w[frame + SPIN + 1], w[frame + SPIN + 2]
+        vx = w[frame + VELOCITY] + oy * z - oz * y - vx
+        vy = w[frame + VELOCITY + 1] + oz * x - ox * z - vy
+        vz = w[frame + VELOCITY + 2] + ox * y - oy * x - vz
     if k[S.oriented + c] == 1:
         _unit_tangents(S, w, c)
         for r in range(2):
@@ -88,21 +104,21 @@ def _side_wrench(w: Floats, frame: int, point: int, force: int, moment: int, sig
 @kernel("void(S, F, I, i8, i8, i8, i8)")
 def wrench_row(S: Scalars, w: Floats, k: Integers, c: int, r: int, force: int, moment: int) -> None:
     """Write row ``r`` of contact ``c``: what a force and a moment on the second body do, in world components."""
-    point = S.geometry + GEOMETRY * c + 7
+    geometry = S.geometry + GEOMETRY * c
     row_a = k[S.jacobian_a + c] + r * k[S.linkage_nu + k[S.linkage_a + c]] + k[S.shift_a + c]
     row_b = k[S.jacobian_b + c] + r * k[S.linkage_nu + k[S.linkage_b + c]] + k[S.shift_b + c]
-    _side_wrench(w, k[S.frame_a + c], point, force, moment, -1.0, k[S.nu_a + c], row_a)
-    _side_wrench(w, k[S.frame_b + c], point + 3, force, moment, 1.0, k[S.nu_b + c], row_b)
+    _side_wrench(w, k[S.frame_a + c], geometry + POINT_A, force, moment, -1.0, k[S.nu_a + c], row_a)
+    _side_wrench(w, k[S.frame_b + c], geometry + POINT_B, force, moment, 1.0, k[S.nu_b + c], row_b)
 
 
 @kernel("void(S, F, I, i8, i8, f8, f8, f8)")
 def evaluate_row(S: Scalars, w: Floats, k: Integers, c: int, r: int, ax: float, ay: float, az: float) -> None:
     """Write row ``r`` of the Jacobians of contact ``c``: of the relative velocity along the axis given."""
-    point = S.geometry + GEOMETRY * c + 7
+    geometry = S.geometry + GEOMETRY * c
     row_a = k[S.jacobian_a + c] + r * k[S.linkage_nu + k[S.linkage_a + c]] + k[S.shift_a + c]
     row_b = k[S.jacobian_b + c] + r * k[S.linkage_nu + k[S.linkage_b + c]] + k[S.shift_b + c]
-    side_row(w, k[S.frame_a + c], point, -ax, -ay, -az, k[S.nu_a + c], row_a)
-    side_row(w, k[S.frame_b + c], point + 3, ax, ay, az, k[S.nu_b + c], row_b)
+    side_row(w, k[S.frame_a + c], geometry + POINT_A, -ax, -ay, -az, k[S.nu_a + c], row_a)
+    side_row(w, k[S.frame_b + c], geometry + POINT_B, ax, ay, az, k[S.nu_b + c], row_b)
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -178,16 +194,17 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
         _unit_tangents(S, w, c)
         t1, t2, slip = S.tangents, S.tangents + 3, S.slip + 2 * c
     a, b = k[S.frame_a + c], k[S.frame_b + c]
-    gap = w[geometry]
+    gap = w[geometry + GAP]
     # turning of the normal with the first body, (omega_A x n) in the tangent plane; rho likewise for B - A
-    turn_a1 = w[a + 15] * w[t2] + w[a + 16] * w[t2 + 1] + w[a + 17] * w[t2 + 2]
-    turn_a2 = -(w[a + 15] * w[t1] + w[a + 16] * w[t1 + 1] + w[a + 17] * w[t1 + 2])
-    rho1 = w[b + 15] * w[t2] + w[b + 16] * w[t2 + 1] + w[b + 17] * w[t2 + 2] - turn_a1
-    rho2 = -(w[b + 15] * w[t1] + w[b + 16] * w[t1 + 1] + w[b + 17] * w[t1 + 2]) - turn_a2
+    turn_a1 = w[a + SPIN] * w[t2] + w[a + SPIN + 1] * w[t2 + 1] + w[a + SPIN + 2] * w[t2 + 2]
+    turn_a2 = -(w[a + SPIN] * w[t1] + w[a + SPIN + 1] * w[t1 + 1] + w[a + SPIN + 2] * w[t1 + 2])
+    rho1 = w[b + SPIN] * w[t2] + w[b + SPIN + 1] * w[t2 + 1] + w[b + SPIN + 2] * w[t2 + 2] - turn_a1
+    rho2 = -(w[b + SPIN] * w[t1] + w[b + SPIN + 1] * w[t1 + 1] + w[b + SPIN + 2] * w[t1 + 2]) - turn_a2
     v1, v2 = w[slip], w[slip + 1]
     d1, d2 = v1 - gap * turn_a1, v2 - gap * turn_a2
     # slide and turn of one surface commute, so u = turn_a x, nu = slide_a x leaves two unknowns
-    slide_a, turn_a, slide_b, turn_b = geometry + 13, geometry + 17, geometry + 21, geometry + 25
+    slide_a, turn_a = geometry + SIDE_A + SLIDE_MATRIX, geometry + SIDE_A + TURN_MATRIX
+    slide_b, turn_b = geometry + SIDE_B + SLIDE_MATRIX, geometry + SIDE_B + TURN_MATRIX
     r1 = w[slide_b] * d1 + w[slide_b + 1] * d2 + w[turn_b] * rho1 + w[turn_b + 1] * rho2
     r2 = w[slide_b + 2] * d1 + w[slide_b + 3] * d2 + w[turn_b + 2] * rho1 + w[turn_b + 3] * rho2
     for i in range(2):
@@ -211,20 +228,21 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     for side in range(2):
         frame = a if side == 0 else b
         s1, s2 = (u1, u2) if side == 0 else (w1, w2)
-        point = geometry + 7 + 3 * side
+        point = geometry + (POINT_A if side == 0 else POINT_B)
         x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
-        ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
-        bx, by, bz = w[frame + 21], w[frame + 22], w[frame + 23]
+        ox, oy, oz = w[frame + SPIN], w[frame + SPIN + 1], w[frame + SPIN + 2]
+        turning = frame + SPIN_ACCELERATION
+        bx, by, bz = w[turning], w[turning + 1], w[turning + 2]
         vx = oy * z - oz * y + s1 * w[t1] + s2 * w[t2]
         vy = oz * x - ox * z + s1 * w[t1 + 1] + s2 * w[t2 + 1]
         vz = ox * y - oy * x + s1 * w[t1 + 2] + s2 * w[t2 + 2]
-        ax = w[frame + 18] + by * z - bz * y + oy * vz - oz * vy - ax
-        ay = w[frame + 19] + bz * x - bx * z + oz * vx - ox * vz - ay
-        az = w[frame + 20] + bx * y - by * x + ox * vy - oy * vx - az
+        ax = w[frame + ACCELERATION] + by * z - bz * y + oy * vz - oz * vy - ax
+        ay = w[frame + ACCELERATION + 1] + bz * x - bx * z + oz * vx - ox * vz - ay
+        az = w[frame + ACCELERATION + 2] + bx * y - by * x + ox * vy - oy * vx - az
     w[S.bias + 3 * c] = w[n] * ax + w[n + 1] * ay + w[n + 2] * az
     # the axes themselves turn: n' = omega_A x n + nu, and the tangents spin about n with the first body
     n1, n2 = turn_a1 + nu1, turn_a2 + nu2
-    spin = w[a + 15] * w[n] + w[a + 16] * w[n + 1] + w[a + 17] * w[n + 2]
+    spin = w[a + SPIN] * w[n] + w[a + SPIN + 1] * w[n + 1] + w[a + SPIN + 2] * w[n + 2]
     rate = w[S.rate + 3 * c]
     w[S.bias + 3 * c] += n1 * v1 + n2 * v2
     if rows == 3:

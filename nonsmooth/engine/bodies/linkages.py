@@ -9,7 +9,18 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.kinematics import side_row
-from nonsmooth.engine.memory.layout import FRAME, JOINT_ROW
+from nonsmooth.engine.memory.blocks import (
+    AXIS,
+    FRAME,
+    JOINT_ROW,
+    MOMENT,
+    POINT_A,
+    POINT_B,
+    RESIDUAL,
+    ROW_BIAS,
+    SPIN,
+    VELOCITY,
+)
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_pair, kernel
 
 _REDUNDANT = 1e-10
@@ -27,11 +38,11 @@ def _add_moment(w: Floats, frame: int, moment: int, n_u: int, sign: float, out: 
 def _speed(w: Floats, frame: int, axis: int, point: int, moment: int) -> float:
     """Return how fast a frame moves along a row: axis . velocity of the point + moment . angular velocity."""
     x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
-    ox, oy, oz = w[frame + 15], w[frame + 16], w[frame + 17]
+    ox, oy, oz = w[frame + SPIN], w[frame + SPIN + 1], w[frame + SPIN + 2]
     return (
-        w[axis] * (w[frame + 12] + oy * z - oz * y)
-        + w[axis + 1] * (w[frame + 13] + oz * x - ox * z)
-        + w[axis + 2] * (w[frame + 14] + ox * y - oy * x)
+        w[axis] * (w[frame + VELOCITY] + oy * z - oz * y)
+        + w[axis + 1] * (w[frame + VELOCITY + 1] + oz * x - ox * z)
+        + w[axis + 2] * (w[frame + VELOCITY + 2] + ox * y - oy * x)
         + w[moment] * ox
         + w[moment + 1] * oy
         + w[moment + 2] * oz
@@ -50,16 +61,17 @@ def _rows(S: Scalars, w: Floats, k: Integers, joint: int, linkage: int) -> int:
     n_a, n_b = k[S.joint_nu_a + joint], k[S.joint_nu_b + joint]
     for r in range(k[S.joint_rows + joint]):
         o = out + JOINT_ROW * r
+        axis, moment = o + AXIS, o + MOMENT
         line = k[S.linkage_jacobian + linkage] + (first + r) * n
         side_a, side_b = line + k[S.joint_shift_a + joint], line + k[S.joint_shift_b + joint]
-        side_row(w, frame_a, o + 7, -w[o + 1], -w[o + 2], -w[o + 3], n_a, side_a)
-        side_row(w, frame_b, o + 10, w[o + 1], w[o + 2], w[o + 3], n_b, side_b)
-        _add_moment(w, frame_a, o + 4, n_a, -1.0, side_a)
-        _add_moment(w, frame_b, o + 4, n_b, 1.0, side_b)
-        w[k[S.linkage_residual + linkage] + first + r] = w[o]
-        w[k[S.linkage_bias + linkage] + first + r] = w[o + 13]
-        w[k[S.linkage_rate + linkage] + first + r] = _speed(w, frame_b, o + 1, o + 10, o + 4) - _speed(
-            w, frame_a, o + 1, o + 7, o + 4
+        side_row(w, frame_a, o + POINT_A, -w[axis], -w[axis + 1], -w[axis + 2], n_a, side_a)
+        side_row(w, frame_b, o + POINT_B, w[axis], w[axis + 1], w[axis + 2], n_b, side_b)
+        _add_moment(w, frame_a, moment, n_a, -1.0, side_a)
+        _add_moment(w, frame_b, moment, n_b, 1.0, side_b)
+        w[k[S.linkage_residual + linkage] + first + r] = w[o + RESIDUAL]
+        w[k[S.linkage_bias + linkage] + first + r] = w[o + ROW_BIAS]
+        w[k[S.linkage_rate + linkage] + first + r] = _speed(w, frame_b, axis, o + POINT_B, moment) - _speed(
+            w, frame_a, axis, o + POINT_A, moment
         )
     return k[S.joint_rows + joint]
 

@@ -12,7 +12,17 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.pools import fill_pools, is_empty
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, GEOMETRY, PAIR
+from nonsmooth.engine.memory.blocks import GEOMETRY, PAIR, ROTATION, SPIN, VELOCITY
+from nonsmooth.engine.memory.layout import (
+    CATALOGUE,
+    CATALOGUE_FLOATS,
+    CLOSING_RATE,
+    CONTACT_TIME,
+    DIRECTION,
+    LEVERS,
+    REACH,
+    SIZE,
+)
 from nonsmooth.engine.memory.modes import NO_SLOT, RUNNING
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 
@@ -38,9 +48,10 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     # the arrays of the catalogue's entries follow one another
     for i in range(_WIDTH):
         k[S.body_a + i * S.n_slots + c] = k[row + i]
-    w[S.contact_time + c], w[S.reach + c], w[S.closing_rate + c] = w[floats], w[floats + 3], w[floats + 4]
-    w[S.lever_a + c], w[S.lever_b + c], w[S.size + c] = w[floats + 5], w[floats + 6], w[floats + 7]
-    w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = w[floats + 1], w[floats + 2]
+    w[S.contact_time + c], w[S.reach + c] = w[floats + CONTACT_TIME], w[floats + REACH]
+    w[S.closing_rate + c], w[S.size + c] = w[floats + CLOSING_RATE], w[floats + SIZE]
+    w[S.lever_a + c], w[S.lever_b + c] = w[floats + LEVERS], w[floats + LEVERS + 1]
+    w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = w[floats + DIRECTION], w[floats + DIRECTION + 1]
     k[S.facing + c] = 1
     k[S.touching + c] = 0
     k[S.identity + c] = declared
@@ -62,10 +73,11 @@ def _leave(S: Scalars, w: Floats, k: Integers) -> None:
     """Empty all slots; modes and slip directions go back to the catalogue."""
     for c in range(S.n_contacts):
         declared = k[S.identity + c]
+        floats = S.catalogue_floats + CATALOGUE_FLOATS * declared
         k[S.catalogue + _WIDTH * declared + _MODE] = k[S.mode + c]
         for i in range(2):
-            w[S.catalogue_floats + CATALOGUE_FLOATS * declared + 1 + i] = w[S.direction + 2 * c + i]
-        w[S.catalogue_floats + CATALOGUE_FLOATS * declared + 4] = w[S.closing_rate + c]
+            w[floats + DIRECTION + i] = w[S.direction + 2 * c + i]
+        w[floats + CLOSING_RATE] = w[S.closing_rate + c]
     S.n_contacts = 0
 
 
@@ -132,7 +144,7 @@ def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
         for i in range(3):
             w[S.unit_place + 3 * unit + i] = w[k[S.unit_frame + unit] + i]
         for i in range(9):
-            w[S.unit_axes + 9 * unit + i] = w[k[S.unit_frame + unit] + 3 + i]
+            w[S.unit_axes + 9 * unit + i] = w[k[S.unit_frame + unit] + ROTATION + i]
     S.margin_of_list = min(S.widest_margin, 2.0 * S.margin_of_list)
     status = fill_pools(S, w, k)
     while status == NO_SLOT and S.margin_of_list > _NARROWEST * S.widest_margin:
@@ -171,16 +183,16 @@ def _way(S: Scalars, w: Floats, k: Integers, unit: int) -> float:
     if lever > 0.0:
         square = 0.0
         for i in range(9):
-            square += (w[frame + 3 + i] - w[S.unit_axes + 9 * unit + i]) ** 2
+            square += (w[frame + ROTATION + i] - w[S.unit_axes + 9 * unit + i]) ** 2
         way += lever * math.sqrt(0.5 * square)
     return way
 
 
 @kernel("f8(S, F, I, i8)")
 def _unit_speed(S: Scalars, w: Floats, k: Integers, unit: int) -> float:
-    v = k[S.unit_frame + unit] + 12
+    v, o = k[S.unit_frame + unit] + VELOCITY, k[S.unit_frame + unit] + SPIN
     speed = math.sqrt(w[v] * w[v] + w[v + 1] * w[v + 1] + w[v + 2] * w[v + 2])
-    o, lever = v + 3, w[S.unit_lever + unit]
+    lever = w[S.unit_lever + unit]
     if lever > 0.0:
         speed += lever * math.sqrt(w[o] * w[o] + w[o + 1] * w[o + 1] + w[o + 2] * w[o + 2])
     return speed

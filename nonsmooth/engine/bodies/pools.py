@@ -8,7 +8,8 @@ how far they may come from each other while the list stands.
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.layout import CANDIDATE, CATALOGUE, CATALOGUE_FLOATS
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
 from nonsmooth.engine.memory.modes import NO_SLOT, NOT_FINITE, OPEN, RUNNING
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_pair, kernel
 
@@ -47,7 +48,7 @@ def _keep(S: Scalars, w: Floats, k: Integers, declared: int, found: int, n: int)
     if k[S.catalogue + _WIDTH * declared + _MODE] == OPEN:
         w[candidate] = 0.0
         floats = S.catalogue_floats + CATALOGUE_FLOATS * declared
-        w[floats + 1], w[floats + 2], w[floats + 4] = 1.0, 0.0, 0.0
+        w[floats + DIRECTION], w[floats + DIRECTION + 1], w[floats + CLOSING_RATE] = 1.0, 0.0, 0.0
 
 
 @kernel("i8(S, F, I)")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.bodies.compliance import evaluate_given_force, refresh_states
+from nonsmooth.engine.bodies.compliance import evaluate_compliant_force, refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates
-from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GAP, PAST_END
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 
 
 @room("i8(S, F, I)")
@@ -19,19 +19,20 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
     refresh_states(S, w, k, S.y)
     approaching = 0
     for c in range(S.n_contacts):
-        k[S.touching + c] = 1
+        contact = contact_at(S, w, k, c)
+        contact.touching = 1
         evaluate_geometry(S, w, k, c)
         evaluate_rates(S, w, k, c)
-        rate = w[S.rate + 3 * c]
-        if w[S.geometry + GEOMETRY * c + PAST_END] > S.gap_tolerance and w[S.geometry + GEOMETRY * c] > 0.0:
-            k[S.touching + c] = 0
+        rate = contact.rate[0]
+        if contact.geometry[PAST_END] > S.gap_tolerance and contact.geometry[GAP] > 0.0:
+            contact.touching = 0
             continue
-        if k[S.normal_function + c] != 0:
+        if contact.normal_function != 0:
             _touch_compliant(S, w, k, c)
             continue
         near = max(S.gap_tolerance, S.time_tolerance * abs(rate))
-        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c] > near:
-            k[S.touching + c] = 0
+        if contact.mode == OPEN and contact.geometry[GAP] > near:
+            contact.touching = 0
             continue
         evaluate_contact(S, w, k, c, 3)
         if rate < -S.velocity_tolerance:
@@ -42,18 +43,20 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("void(S, F, I, i8)")
 def _touch_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Find whether the compliant contact ``c`` touches, and evaluate it; it does not collide."""
-    gap, rate = w[S.geometry + GEOMETRY * c], w[S.rate + 3 * c]
-    end = 0.0 if k[S.mode + c] == OPEN else w[S.reach + c]
+    contact = contact_at(S, w, k, c)
+    gap, rate = contact.geometry[GAP], contact.rate[0]
+    end = 0.0 if contact.mode == OPEN else contact.reach
     slow = rate <= S.velocity_tolerance
     if gap > end + S.gap_tolerance or (gap > end - S.gap_tolerance and not slow):
-        k[S.touching + c] = 0
+        contact.touching = 0
         return
     evaluate_contact(S, w, k, c, 3)
-    evaluate_given_force(S, w, k, c)
+    evaluate_compliant_force(S, w, k, c)
 
 
 @kernel("f8(S, F, I, i8)")
 def slip_speed(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the slip speed of contact ``c`` [m/s]."""
-    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    contact = contact_at(S, w, k, c)
+    v1, v2 = contact.rate[1], contact.rate[2]
     return math.sqrt(v1 * v1 + v2 * v2)

@@ -92,11 +92,11 @@ def enumerate_modes(S: Scalars, w: Floats, k: Integers, first: int) -> int:
         slips = _start_slips(S, w, k)
         if slips > 0:
             polish(S, w, k)
-        if verify(S, w, k) == 1:
+        if verify(S, w, k, 0) == 1:
             return number + 1
         if slips > 0:
             _sweep_slips(S, w, k)
             polish(S, w, k)
-            if verify(S, w, k) == 1:
+            if verify(S, w, k, 0) == 1:
                 return number + 1
     return 0

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.contact.components import contact_of
 from nonsmooth.engine.delassus.delassus import add_product, own_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.native.watch import interrupted
@@ -124,7 +125,7 @@ def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     else:
         _least_norm(S, w, n, rank)
     for i in range(n):
-        a = k[S.column + i] // 3
+        a = contact_of(k[S.column + i])
         if null_entry(S, w, i, i) > _COUPLED:
             k[S.redundant + a] = 1
 
@@ -226,7 +227,7 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
         first, end = max(0, own - S.null_half), min(end, own + S.null_half)
     bound = sum1 = sum2 = 0.0
     for i in range(first, end):
-        other = k[S.column + i] // 3
+        other = contact_of(k[S.column + i])
         if k[S.column + i] != 3 * other + 1 or k[S.redundant + other] == 0:
             continue
         coupling = (

@@ -11,7 +11,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.compliance import lay_wrench
 from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
 from nonsmooth.engine.contact.forces import friction_of_slip, solve_doubtful, solve_unknowns
-from nonsmooth.engine.contact.shares import add_share, choose_share
+from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.numerics.band import open_band
@@ -109,7 +109,7 @@ def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) ->
 
 
 @kernel()
-def _push_given(S: Scalars, w: Floats, k: Integers) -> None:
+def _push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
     """Add to ``du`` what the active compliant contacts are known to do, and note the powers."""
     for a in range(S.n_active):
         if k[S.normal_held + a] == 1:
@@ -138,22 +138,24 @@ def _solve_held(S: Scalars, w: Floats, k: Integers) -> int:
             for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
                 _lay_held_row(S, w, k, a, i, n)
         solve_doubtful(S, w, k, n)
-    if S.deficient == 1:
-        if S.choosing == 1 and choose_share(S, w, k) == 0:
-            S.shares_hold = 0
-        add_share(S, w, k)
     return 1
 
 
-@kernel()
-def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel("i8(S, F, I, i8)")
+def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
     """Write the forces ``f`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
 
-    Rows and columns must be laid, and the given forces; the free accelerations stand in ``du``.
+    Rows and columns must be laid, and the given forces; the free accelerations stand in ``du``.  With ``choosing`` (1)
+    the null-space force of those not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
     """
-    _push_given(S, w, k)
+    keeps = 1
+    _push_compliant(S, w, k)
     if _solve_held(S, w, k) == 0:
-        return
+        return keeps
+    if S.deficient == 1:
+        if choosing == 1:
+            keeps = choose_null_space_force(S, w, k)
+        add_null_space_force(S, w, k)
     for a in range(S.n_active):
         c = k[S.active + a]
         sticks = k[S.tangent_held + a]
@@ -167,3 +169,4 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers) -> None:
             friction_of_slip(S, w, a)
         for r in range(3):
             S.driven_power -= w[S.f + 3 * a + r] * w[S.rate + 3 * c + r]
+    return keeps

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.contact.components import contact_of
 from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product
@@ -29,7 +30,7 @@ def _acceleration(S: Scalars, w: Floats, k: Integers, a: int, r: int) -> float:
 def _effect(S: Scalars, w: Floats, k: Integers, g: int, j: int) -> float:
     """Return the effect of unknown ``j``, a force or the turn of a direction, on the row of a block at ``g``."""
     column = k[S.column + j]
-    a = column // 3
+    a = contact_of(column)
     d1, d2 = w[S.d + 2 * a], w[S.d + 2 * a + 1]
     if k[S.turn + j] == 1:
         return d2 * w[g + 1] - d1 * w[g + 2]
@@ -91,7 +92,7 @@ def _starts(S: Scalars, k: Integers, a: int) -> int:
 @kernel("void(S, F, I, i8)")
 def _turn(S: Scalars, w: Floats, k: Integers, i: int) -> None:
     """Turn the direction of unknown ``i`` by its step; one without friction follows its acceleration."""
-    a = k[S.column + i] // 3
+    a = contact_of(k[S.column + i])
     d1, d2 = w[S.d + 2 * a], w[S.d + 2 * a + 1]
     force = w[S.mu + a] * w[S.f + 3 * a]
     if abs(force) > 0.0:

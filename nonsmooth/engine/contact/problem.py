@@ -35,6 +35,23 @@ def friction_coefficient(S: Scalars, w: Floats, k: Integers, c: int, speed: floa
     return call_scalar(k[S.friction_function + c], speed, at(w, k[S.friction_parameters + c]))
 
 
+@kernel("void(S, F, I, i8, i8, f8)")
+def follow_slip(S: Scalars, w: Floats, k: Integers, a: int, slip: int, still: float) -> None:
+    """Write slip direction and coefficient of the active contact ``a``, continued smoothly through a reversal.
+
+    Where its ``slip`` is no faster than ``still`` it has no direction of its own: that at the start of the step holds.
+    """
+    c = k[S.active + a]
+    d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
+    v1, v2 = w[slip], w[slip + 1]
+    speed = math.sqrt(v1 * v1 + v2 * v2)
+    if speed > still:
+        inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+        d1, d2 = inverse * v1, inverse * v2
+    w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
+    w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
+
+
 @kernel("void(S, F, I)")
 def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
     """Write M^-1 h of all bodies to ``du``, and what the joints leave of it."""
@@ -101,7 +118,7 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
         k[S.mode_past + a] = k[S.mode_tried + a]
         if k[S.mode_tried + a] < 0:
             past = 0
-    if past == 1 and verify(S, w, k) == 1:
+    if past == 1 and verify(S, w, k, 0) == 1:
         return 1
     if S.solver != AUTO:
         return find_modes(S, w, k, S.solver)

@@ -113,23 +113,20 @@ def _accept(S: Scalars, w: Floats, k: Integers) -> int:
         k[S.mode_closed + a] = k[S.mode_tried + a]
         for i in range(2):
             w[S.d_closed + 2 * a + i] = w[S.d + 2 * a + i]
-    if verify(S, w, k) == 1:
+    if verify(S, w, k, 0) == 1:
         return 1
     if S.deficient == 0:
         return 0
     while S.effort < _MOST_EFFORT and _open_pulling(S, w, k) > 0:
         polish(S, w, k)
-        if verify(S, w, k) == 1:
+        if verify(S, w, k, 0) == 1:
             return 1
     # without the share of those opened the others may not hold: forces that press, though not of least norm
     for a in range(S.n_active):
         k[S.mode_tried + a] = k[S.mode_closed + a]
         for i in range(2):
             w[S.d + 2 * a + i] = w[S.d_closed + 2 * a + i]
-    S.lenient = 1
-    found = verify(S, w, k)
-    S.lenient = 0
-    return found
+    return int(verify(S, w, k, 1))
 
 
 @kernel("i8(S, F, I)")
@@ -189,7 +186,7 @@ def _accept_raw(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         k[S.redundant + a] = 0
     S.deficient = 0
-    return 1 if judge(S, w, k) == 1 and _rubs(S, w, k) == 1 else 0
+    return 1 if judge(S, w, k, 0) == 1 and _rubs(S, w, k) == 1 else 0
 
 
 @kernel("i8(S, F, I, i8)")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
-from nonsmooth.engine.contact.spread import spread
 from nonsmooth.engine.delassus.delassus import add_product, own_block
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
@@ -68,19 +68,20 @@ def small_force(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     return float(_TOLERANCE * size + _SOLVED * S.small_force)
 
 
-@room("i8(S, F, I)")
-def verify(S: Scalars, w: Floats, k: Integers) -> int:
+@room("i8(S, F, I, i8)")
+def verify(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
     """Find the forces of the modes under trial; return 1 if modes and forces fulfil the laws themselves.
 
     Where the forces are not unique those of least norm are found; where they break Coulomb's bound, others that
-    give the same motion and keep it are looked for, and the modes pass iff there are such.
+    give the same motion and keep it are looked for, and the modes pass iff there are such; a lenient look (1) does so
+    where they pull, too.
     """
     hold_tried(S, w, k)
-    return judge(S, w, k)
+    return judge(S, w, k, lenient)
 
 
-@kernel("i8(S, F, I)")
-def _compare(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(S, F, I, i8)")
+def _compare(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
     """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
     set_scales(S, w, k)
     small = S.small_acceleration
@@ -99,7 +100,7 @@ def _compare(S: Scalars, w: Floats, k: Integers) -> int:
         if mode == SLIDE and k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
             return 0
         if not w[S.f + 3 * a] >= -faint:
-            if S.lenient == 0 or S.deficient == 0:
+            if lenient == 0 or S.deficient == 0:
                 return 0
             result = 2
         a1, a2 = w[S.acceleration + 3 * a + 1], w[S.acceleration + 3 * a + 2]
@@ -119,16 +120,16 @@ def _compare(S: Scalars, w: Floats, k: Integers) -> int:
     return result
 
 
-@kernel("i8(S, F, I)")
-def judge(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, once spread where they are not unique."""
-    result = _compare(S, w, k)
-    if result == 2 and spread(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
+@kernel("i8(S, F, I, i8)")
+def judge(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
+    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, distributed where not unique."""
+    result = _compare(S, w, k, lenient)
+    if result == 2 and distribute(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
         for a in range(S.n_active):
             if k[S.mode_tried + a] == SLIDE:
                 friction_of_slip(S, w, a)
-        result = _compare(S, w, k)
+        result = _compare(S, w, k, lenient)
     return 1 if result == 1 else 0
 
 

@@ -9,6 +9,9 @@ from __future__ import annotations
 from nonsmooth.engine.memory.layout import MOST_BLOCKS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 
+_SIDES = 2
+"""Entries of a contact in the lists of its linkages."""
+
 
 @kernel()
 def _hang(S: Scalars, w: Floats, k: Integers) -> None:
@@ -23,8 +26,8 @@ def _hang(S: Scalars, w: Floats, k: Integers) -> None:
         for side in range(2):
             linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
             if k[S.linkage_nu + linkage] > 0:
-                k[S.link_next + 2 * a + side] = k[S.link_head + linkage]
-                k[S.link_head + linkage] = 2 * a + side
+                k[S.link_next + _SIDES * a + side] = k[S.link_head + linkage]
+                k[S.link_head + linkage] = _SIDES * a + side
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -50,7 +53,7 @@ def _visit(S: Scalars, w: Floats, k: Integers, fill: int) -> None:
             linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
             entry = k[S.link_head + linkage]
             while entry >= 0 and S.crowded == 0:
-                other = entry // 2
+                other = entry // _SIDES
                 if k[S.block_mark + other] != mark:
                     k[S.block_mark + other] = mark
                     _note(S, w, k, other, a, fill)

@@ -5,16 +5,20 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.modes import GUARD, OPEN, SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
+TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
+"""Which float at the head of an event is which."""
 EVENT_HEAD = 5
-"""Floats at the head of an event: time, driven work, restitution loss, friction loss, closing loss.
+"""Floats at the head of an event.
 
 Coordinates follow, velocities before and after, and the impulses of the contacts listed.
 """
+CAUSE, CONTACT, PHASES, TRUNCATED, N_LISTED = range(5)
+"""Which integer at the head of an event is which; truncated is a cascade that was cut short."""
 CODE_HEAD = 5
-"""Integers at the head of an event: cause, contact, phases, whether cut short, number of contacts listed.
+"""Integers at the head of an event.
 
 Contact and code of each of these follow, and their impulses at the end of the floats.
 """
@@ -25,7 +29,8 @@ MOST_EVENTS = 204
 @kernel("i8(S, F, I, i8)")
 def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
-    mode = k[S.mode + c]
+    contact = contact_at(S, w, k, c)
+    mode = contact.mode
     if mode == OPEN:
         return 0
     return 5 if mode == SLIDE else 1
@@ -34,12 +39,13 @@ def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 @kernel("i8(S, F, I, i8)")
 def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits of contact ``c`` at the start of an impact, from its rates."""
-    if k[S.touching + c] == 0:
+    contact = contact_at(S, w, k, c)
+    if contact.touching == 0:
         return 0
     bits = 1
-    if w[S.rate + 3 * c] < -S.velocity_tolerance:
+    if contact.rate[0] < -S.velocity_tolerance:
         bits += 2
-    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+    v1, v2 = contact.rate[1], contact.rate[2]
     if math.sqrt(v1 * v1 + v2 * v2) > S.velocity_tolerance:
         bits += 4
     return bits
@@ -49,10 +55,11 @@ def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 def remember(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep modes and velocities as they are before an event, and clear its account."""
     for c in range(S.n_contacts):
-        k[S.code_before + c] = code(S, w, k, c)
-        k[S.code_during + c] = k[S.code_before + c]
+        contact = contact_at(S, w, k, c)
+        contact.code_before = code(S, w, k, c)
+        contact.code_during = contact.code_before
         for r in range(3):
-            w[S.event_impulse + 3 * c + r] = 0.0
+            contact.event_impulse[r] = 0.0
     for i in range(S.n_u):
         w[S.u_before + i] = w[S.y + S.n_q + i]
     for i in range(1, EVENT_HEAD):
@@ -78,7 +85,7 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
     width = EVENT_HEAD + S.n_q + 2 * S.n_u + 3 * n
     S.last_floats, S.last_integers = S.floats_used, S.integers_used
     row = S.events + S.floats_used
-    w[S.event_head] = S.t
+    w[S.event_head + TIME] = S.t
     for i in range(EVENT_HEAD):
         w[row + i] = w[S.event_head + i]
     row += EVENT_HEAD
@@ -90,11 +97,11 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
         w[row + S.n_u + i] = w[S.y + S.n_q + i]
     row += 2 * S.n_u
     codes = S.event_codes + S.integers_used
-    k[codes], k[codes + 1], k[codes + 2] = cause, contact, phases
+    k[codes + CAUSE], k[codes + CONTACT], k[codes + PHASES] = cause, contact, phases
     if contact >= 0 and cause != GUARD:
-        k[codes + 1] = k[S.identity + contact]
-    k[codes + 3] = S.truncated if phases > 0 else 0
-    k[codes + 4] = n
+        k[codes + CONTACT] = k[S.identity + contact]
+    k[codes + TRUNCATED] = S.truncated if phases > 0 else 0
+    k[codes + N_LISTED] = n
     for i in range(n):
         c = k[S.listed + i]
         for r in range(3):
@@ -120,7 +127,7 @@ def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
     S.n_events -= 1
     S.recorded -= 1
     codes = S.event_codes + S.last_integers
-    record_event(S, w, k, k[codes], S.last_contact, k[codes + 2])
+    record_event(S, w, k, k[codes + CAUSE], S.last_contact, k[codes + PHASES])
 
 
 @kernel("void(S, F, I, f8)")

@@ -8,7 +8,7 @@ are one, and the one that approaches more stands for it.
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import begin_contact
-from nonsmooth.engine.memory.layout import GEOMETRY
+from nonsmooth.engine.memory.blocks import GEOMETRY, NORMAL, POINT_B
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 
@@ -27,8 +27,8 @@ def _is_twin(S: Scalars, w: Floats, k: Integers, c: int, other: int) -> int:
     one, two = S.geometry + GEOMETRY * c, S.geometry + GEOMETRY * other
     normal = place = 0.0
     for i in range(3):
-        normal += (w[one + 1 + i] - w[two + 1 + i]) ** 2
-        place += (w[one + 10 + i] - w[two + 10 + i]) ** 2
+        normal += (w[one + NORMAL + i] - w[two + NORMAL + i]) ** 2
+        place += (w[one + POINT_B + i] - w[two + POINT_B + i]) ** 2
     return 1 if normal <= _SAME**2 and place <= (_SAME * w[S.size + c]) ** 2 else 0
 
 

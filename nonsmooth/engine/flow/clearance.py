@@ -15,14 +15,31 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
+from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.guards import grown, has_fired
-from nonsmooth.engine.memory.layout import FALL, FRAME, GEOMETRY, PAST_END, SECTOR, SECTORS
+from nonsmooth.engine.memory.blocks import (
+    ACCELERATION,
+    FRAME,
+    GAP,
+    GEOMETRY,
+    NORMAL,
+    PAST_END,
+    POINT_A,
+    POINT_B,
+    SPIN,
+    VELOCITY,
+)
+from nonsmooth.engine.memory.layout import FALL, LAST_STAGE, SECTOR, SECTORS
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import dense_part
 
 _CURVED = 4.0
 """By so much a curved surface or an edge may turn the normal faster than its body turns."""
+_THETA, _GAP, _RATE, _PAST, _ARM = 0, 1, 2, 3, 4
+"""Where these stand in what is kept of an end of a part of a step."""
+_NOW, _GROWTH, _TURNING = 0, 1, 2
+"""Where these stand in how fast the rate of a gap can fall."""
 WAY = 0.02
 """Part of the size of the smaller body that features may move unseen where they do not face each other."""
 _RESTS = 10.0
@@ -50,19 +67,19 @@ def _relative_motion(S: Scalars, w: Floats, a: int, b: int) -> None:
     d = S.relative
     for i in range(3):
         w[d + i] = w[b + i] - w[a + i]
-        w[d + 3 + i] = w[b + 12 + i] - w[a + 12 + i]
-        w[d + 6 + i] = w[b + 15 + i] - w[a + 15 + i]
-    _add_cross(w, a + 15, d, -1.0, d + 3)
+        w[d + 3 + i] = w[b + VELOCITY + i] - w[a + VELOCITY + i]
+        w[d + 6 + i] = w[b + SPIN + i] - w[a + SPIN + i]
+    _add_cross(w, a + SPIN, d, -1.0, d + 3)
 
 
 @kernel("f8(F, i8, i8)")
 def _speed_seen(w: Floats, a: int, b: int) -> float:
     """Return the speed of the origin of frame ``b`` as seen from frame ``a`` [m/s]."""
     x, y, z = w[b] - w[a], w[b + 1] - w[a + 1], w[b + 2] - w[a + 2]
-    ox, oy, oz = w[a + 15], w[a + 16], w[a + 17]
-    vx = w[b + 12] - w[a + 12] - oy * z + oz * y
-    vy = w[b + 13] - w[a + 13] - oz * x + ox * z
-    vz = w[b + 14] - w[a + 14] - ox * y + oy * x
+    ox, oy, oz = w[a + SPIN], w[a + SPIN + 1], w[a + SPIN + 2]
+    vx = w[b + VELOCITY] - w[a + VELOCITY] - oy * z + oz * y
+    vy = w[b + VELOCITY + 1] - w[a + VELOCITY + 1] - oz * x + ox * z
+    vz = w[b + VELOCITY + 2] - w[a + VELOCITY + 2] - ox * y + oy * x
     return math.sqrt(vx * vx + vy * vy + vz * vz)
 
 
@@ -75,19 +92,20 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     last_a = last_b = -1
     speed = turning = 0.0
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN:
             continue
-        a, b, lever = k[S.frame_a + c], k[S.frame_b + c], w[S.lever_b + c]
-        if lever > w[S.lever_a + c]:
-            a, b, lever = b, a, w[S.lever_a + c]
+        a, b, lever = contact.frame_a, contact.frame_b, contact.lever_b
+        if lever > contact.lever_a:
+            a, b, lever = b, a, contact.lever_a
         # the contacts of two bodies follow one another
         if a != last_a or b != last_b:
             speed, turning = _speed_seen(w, a, b), -1.0
             last_a, last_b = a, b
         if lever > 0.0 and turning < 0.0:
-            x, y, z = w[b + 15] - w[a + 15], w[b + 16] - w[a + 16], w[b + 17] - w[a + 17]
+            x, y, z = w[b + SPIN] - w[a + SPIN], w[b + SPIN + 1] - w[a + SPIN + 1], w[b + SPIN + 2] - w[a + SPIN + 2]
             turning = math.sqrt(x * x + y * y + z * z)
-        w[S.speed_end + c] = speed + turning * lever if lever > 0.0 else speed
+        contact.speed_end = speed + turning * lever if lever > 0.0 else speed
         if lever > 0.0:
             _write_arm(S, w, k, c, S.arm_end + 3 * c)
 
@@ -95,20 +113,22 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("void(S, F, I, i8, i8)")
 def _write_arm(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
     """Write where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
-    second = w[S.lever_b + c] <= w[S.lever_a + c]
-    frame, point = (k[S.frame_b + c], 10) if second else (k[S.frame_a + c], 7)
+    contact = contact_at(S, w, k, c)
+    second = contact.lever_b <= contact.lever_a
+    frame, point = (contact.frame_b, POINT_B) if second else (contact.frame_a, POINT_A)
     for r in range(3):
-        w[out + r] = w[S.geometry + GEOMETRY * c + point + r] - w[frame + r]
+        w[out + r] = contact.geometry[point + r] - w[frame + r]
 
 
 @kernel("void(S, F, I, i8, i8, i8, i8)")
 def _frame_acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, du: int, out: int) -> None:
     """Write the acceleration of the origin of a frame and its angular acceleration."""
-    frame = k[S.frame_a + c] if side == 0 else k[S.frame_b + c]
+    contact = contact_at(S, w, k, c)
+    frame = contact.frame_a if side == 0 else contact.frame_b
     n_u = k[S.nu_a + c] if side == 0 else k[S.nu_b + c]
-    first = du + k[S.body_u + (k[S.body_a + c] if side == 0 else k[S.body_b + c])]
+    first = du + k[S.body_u + (contact.body_a if side == 0 else contact.body_b)]
     for r in range(6):
-        total = w[frame + 18 + r]
+        total = w[frame + ACCELERATION + r]
         for j in range(n_u):
             total += w[frame + FRAME + r * n_u + j] * w[first + j]
         w[out + r] = total
@@ -122,8 +142,9 @@ def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) ->
     normal fixed to the first body a convex second one is no nearer than along this normal, whatever the normal does;
     the terms of the turning bodies hold for all points of its surface.
     """
-    second = w[S.lever_b + c] <= w[S.lever_a + c]
-    a, b = (k[S.frame_a + c], k[S.frame_b + c]) if second else (k[S.frame_b + c], k[S.frame_a + c])
+    contact = contact_at(S, w, k, c)
+    second = contact.lever_b <= contact.lever_a
+    a, b = (contact.frame_a, contact.frame_b) if second else (contact.frame_b, contact.frame_a)
     _relative_motion(S, w, a, b)
     d = S.relative
     velocity, turning, of_a, of_b, carried = d + 3, d + 6, d + 9, d + 15, d + 21
@@ -135,22 +156,22 @@ def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) ->
     _add_cross(w, of_a + 3, d, -1.0, of_b)
     for i in range(3):
         w[carried + i] = 0.0
-    _add_cross(w, a + 15, d, -1.0, carried)
-    _add_cross(w, a + 15, carried, 1.0, of_b)
-    _add_cross(w, a + 15, velocity, -2.0, of_b)
-    _add_cross(w, a + 15, turning, -1.0, of_b + 3)
-    along = _dot(w, S.geometry + GEOMETRY * c + 1, of_b)
+    _add_cross(w, a + SPIN, d, -1.0, carried)
+    _add_cross(w, a + SPIN, carried, 1.0, of_b)
+    _add_cross(w, a + SPIN, velocity, -2.0, of_b)
+    _add_cross(w, a + SPIN, turning, -1.0, of_b + 3)
+    along = _dot(w, S.geometry + GEOMETRY * c + NORMAL, of_b)
     speed, rate = math.sqrt(_dot(w, velocity, velocity)), math.sqrt(_dot(w, turning, turning))
-    lever = min(w[S.lever_a + c], w[S.lever_b + c])
+    lever = min(contact.lever_a, contact.lever_b)
     fall = max(0.0, -along if second else along)
     fall += (math.sqrt(_dot(w, of_b + 3, of_b + 3)) + rate * rate) * lever
     grows = 0.0
     if lever > 0.0:
         fall += _CURVED * rate * rate * lever
         grows = _CURVED * rate * math.sqrt(_dot(w, of_b, of_b))
-        if max(w[S.lever_a + c], w[S.lever_b + c]) < 1e300:
+        if max(contact.lever_a, contact.lever_b) < 1e300:
             fall += _CURVED * rate * speed
-    w[out], w[out + 1], w[out + 2] = fall, grows, rate
+    w[out + _NOW], w[out + _GROWTH], w[out + _TURNING] = fall, grows, rate
 
 
 @kernel("void(S, F, I, f8)")
@@ -160,8 +181,9 @@ def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     The bodies stand there; later they would have to be put there.
     """
     for c in range(S.n_contacts):
-        faces = k[S.mode + c] == OPEN and w[S.past_first + c] <= 0.0
-        if faces and w[S.guard_end + 2 * c] <= 2.0 * h * w[S.speed_first + c]:
+        contact = contact_at(S, w, k, c)
+        faces = contact.mode == OPEN and contact.past_first <= 0.0
+        if faces and w[S.guard_end + normal_guard(c)] <= 2.0 * h * contact.speed_first:
             write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + FALL * c)
 
 
@@ -185,18 +207,19 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """
     S.n_doubtful = S.n_astray = 0
     for c in range(S.n_contacts):
-        w[S.fall_end + FALL * c] = -1.0
-        if k[S.mode + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        contact.fall_end[_NOW] = -1.0
+        if contact.mode != OPEN:
             continue
-        start = 0.0 if k[S.guard_deflated + 2 * c] == 1 else w[S.guard_first + 2 * c]
-        way = h * (w[S.speed_first + c] + w[S.speed_end + c])
-        if _too_far(start, w[S.past_first + c], w[S.gap_end + c], w[S.past_end + c], way) == 1:
+        start = 0.0 if k[S.guard_deflated + normal_guard(c)] == 1 else w[S.guard_first + normal_guard(c)]
+        way = h * (contact.speed_first + contact.speed_end)
+        if _too_far(start, contact.past_first, contact.gap_end, contact.past_end, way) == 1:
             continue
-        if w[S.past_first + c] > 0.0 or w[S.past_end + c] > 0.0:
+        if contact.past_first > 0.0 or contact.past_end > 0.0:
             k[S.astray + S.n_astray] = c
             S.n_astray += 1
             continue
-        write_fall(S, w, k, c, S.slopes + 6 * S.n_y + S.n_q, S.fall_end + FALL * c)
+        write_fall(S, w, k, c, S.slopes + LAST_STAGE * S.n_y + S.n_q, S.fall_end + FALL * c)
         k[S.doubtful + S.n_doubtful] = c
         S.n_doubtful += 1
 
@@ -204,9 +227,10 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
 @kernel("void(S, F, I, f8, f8, i8)")
 def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
     """Put the two bodies of a contact where they are at a fraction of the step, and evaluate its geometry."""
+    contact = contact_at(S, w, k, c)
     S.looked = 1
     for side in range(2):
-        body = k[S.body_a + c] if side == 0 else k[S.body_b + c]
+        body = contact.body_a if side == 0 else contact.body_b
         if k[S.body_nu + body] == 0:
             evaluate_driven_bodies(S, w, k, S.t + theta * h, S.y)
             continue
@@ -225,25 +249,26 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
 def _largest_fall(S: Scalars, w: Floats, k: Integers, h: float, c: int) -> float:
     """Return how fast the rate of the gap of ``c`` can fall within the step, from how fast it can at its ends."""
     first, last = S.fall_first + FALL * c, S.fall_end + FALL * c
-    if w[first] < 0.0:
+    if w[first + _NOW] < 0.0:
         _put(S, w, k, h, 0.0, c)
         write_fall(S, w, k, c, S.slopes + S.n_q, first)
-    start, end = w[first] + h * w[first + 1], w[last] + h * w[last + 1]
+    start, end = w[first + _NOW] + h * w[first + _GROWTH], w[last + _NOW] + h * w[last + _GROWTH]
     return float(max(start, end) + abs(end - start))
 
 
 @kernel("void(S, F, I, f8, f8, i8, i8)")
 def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
     """Write an end of a part of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
-    gap = w[S.geometry + GEOMETRY * c]
-    w[S.gap_rate + c] = w[S.rate + 3 * c]
-    w[S.guard + 2 * c] = grown(S, w, k, 2 * c, gap, theta * h)
-    if w[S.guard + 2 * c] > 0.0:
-        k[S.guard_armed + 2 * c] = 1
-    w[out], w[out + 2] = theta, w[S.rate + 3 * c]
-    w[out + 1] = gap - w[S.guard_start + 2 * c] if k[S.guard_deflated + 2 * c] == 1 else gap
-    w[out + 3] = w[S.geometry + GEOMETRY * c + PAST_END]
-    _write_arm(S, w, k, c, out + 4)
+    contact = contact_at(S, w, k, c)
+    gap = contact.geometry[GAP]
+    contact.gap_rate = contact.rate[0]
+    w[S.guard + normal_guard(c)] = grown(S, w, k, normal_guard(c), gap, theta * h)
+    if w[S.guard + normal_guard(c)] > 0.0:
+        k[S.guard_armed + normal_guard(c)] = 1
+    w[out + _THETA], w[out + _RATE] = theta, contact.rate[0]
+    w[out + _GAP] = gap - w[S.guard_start + normal_guard(c)] if k[S.guard_deflated + normal_guard(c)] == 1 else gap
+    w[out + _PAST] = contact.geometry[PAST_END]
+    _write_arm(S, w, k, c, out + _ARM)
 
 
 @kernel("void(S, F, I, f8, f8, i8, i8)")
@@ -264,14 +289,15 @@ def stays_open(
     farther on its body than the body turns, as on a rim next to flat, makes the rate fall by up to as much as two
     points so far apart can differ in.
     """
-    span = (w[two] - w[one]) * h
-    g0, r0, g1, r1 = w[one + 1], w[one + 2], w[two + 1], w[two + 2]
-    if _too_far(g0, w[one + 3], g1, w[two + 3], span * speed) == 1:
+    span = (w[two + _THETA] - w[one + _THETA]) * h
+    g0, r0, g1, r1 = w[one + _GAP], w[one + _RATE], w[two + _GAP], w[two + _RATE]
+    if _too_far(g0, w[one + _PAST], g1, w[two + _PAST], span * speed) == 1:
         return 1
-    if w[one + 3] > 0.0 or w[two + 3] > 0.0 or min(g0, g1) < -tolerance:
+    if w[one + _PAST] > 0.0 or w[two + _PAST] > 0.0 or min(g0, g1) < -tolerance:
         return 0
     if turning > 0.0:
-        x, y, z = w[two + 4] - w[one + 4], w[two + 5] - w[one + 5], w[two + 6] - w[one + 6]
+        arm0, arm1 = one + _ARM, two + _ARM
+        x, y, z = w[arm1] - w[arm0], w[arm1 + 1] - w[arm0 + 1], w[arm1 + 2] - w[arm0 + 2]
         fall += 2.0 * turning * max(0.0, math.sqrt(x * x + y * y + z * z) / span - turning * lever)
     closing = fall * span + r1 - r0
     ahead = g0 - g1 + r1 * span + 0.5 * fall * span * span
@@ -291,41 +317,46 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
 
     It has been evaluated at ``high`` if the contact stands there (1).
     """
+    contact = contact_at(S, w, k, c)
     left, n = S.sectors, 1
-    deflated = k[S.guard_deflated + 2 * c] == 1
-    w[left], w[left + 1] = 0.0, 0.0 if deflated else w[S.guard_first + 2 * c]
-    w[left + 2], w[left + 3] = w[S.gap_rate_first + c], w[S.past_first + c]
+    deflated = k[S.guard_deflated + normal_guard(c)] == 1
+    w[left + _THETA], w[left + _GAP] = 0.0, 0.0 if deflated else w[S.guard_first + normal_guard(c)]
+    w[left + _RATE], w[left + _PAST] = contact.gap_rate_first, contact.past_first
     right = left + SECTOR
     for r in range(3):
-        w[left + 4 + r], w[right + 4 + r] = w[S.arm_first + 3 * c + r], w[S.arm_end + 3 * c + r]
+        w[left + _ARM + r], w[right + _ARM + r] = contact.arm_first[r], contact.arm_end[r]
     if high < 1.0:
         if stands == 1:
             _keep(S, w, k, h, high, c, right)
         else:
             _look(S, w, k, h, high, c, right)
     else:
-        w[right], w[right + 2], w[right + 3] = 1.0, w[S.gap_rate_end + c], w[S.past_end + c]
-        w[right + 1] = w[S.gap_end + c] - (w[S.guard_start + 2 * c] if deflated else 0.0)
-    speed = w[S.speed_first + c] + w[S.speed_end + c]
-    if high < 1.0 and _too_far(w[left + 1], w[left + 3], w[right + 1], w[right + 3], high * h * speed) == 1:
+        w[right + _THETA], w[right + _RATE], w[right + _PAST] = 1.0, contact.gap_rate_end, contact.past_end
+        w[right + _GAP] = contact.gap_end - (w[S.guard_start + normal_guard(c)] if deflated else 0.0)
+    speed = contact.speed_first + contact.speed_end
+    if (
+        high < 1.0
+        and _too_far(w[left + _GAP], w[left + _PAST], w[right + _GAP], w[right + _PAST], high * h * speed) == 1
+    ):
         return 0.0
     fall = _largest_fall(S, w, k, h, c)
-    turning = w[S.fall_first + FALL * c + 2] + w[S.fall_end + FALL * c + 2]
-    lever = min(w[S.lever_a + c], w[S.lever_b + c])
+    turning = contact.fall_first[_TURNING] + contact.fall_end[_TURNING]
+    lever = min(contact.lever_a, contact.lever_b)
     while n > 0:
         right = left + SECTOR * n
-        span = w[right] - w[left]
+        span = w[right + _THETA] - w[left + _THETA]
         proved = stays_open(w, left, right, h, speed, fall, turning if lever > 0.0 else 0.0, lever, S.gap_tolerance)
         if proved == 0 and n < SECTORS:
-            gaps, rates = max(abs(w[left + 1]), abs(w[right + 1])), max(abs(w[left + 2]), abs(w[right + 2]))
+            gaps = max(abs(w[left + _GAP]), abs(w[right + _GAP]))
+            rates = max(abs(w[left + _RATE]), abs(w[right + _RATE]))
             rests = gaps <= _RESTS * S.gap_tolerance and rates <= _RESTS * S.velocity_tolerance
-            astray = w[left + 3] > 0.0 or w[right + 3] > 0.0
-            enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * w[S.size + c]))
+            astray = w[left + _PAST] > 0.0 or w[right + _PAST] > 0.0
+            enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * contact.size))
             if span * h > S.time_tolerance and not enough:
                 n += 1
-                _look(S, w, k, h, w[left] + 0.5 * span, c, left + SECTOR * n)
-                if has_fired(S, w, k, 2 * c) == 1:
-                    return w[left + SECTOR * n]
+                _look(S, w, k, h, w[left + _THETA] + 0.5 * span, c, left + SECTOR * n)
+                if has_fired(S, w, k, normal_guard(c)) == 1:
+                    return w[left + SECTOR * n + _THETA]
                 continue
         for i in range(SECTOR):
             w[left + i] = w[right + i]
@@ -333,12 +364,12 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     return 0.0
 
 
-@room("f8(S, F, I, f8, f8)")
-def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
+@room("f8(S, F, I, f8, f8, i8)")
+def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float, asked: int) -> float:
     """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
 
     Contacts are to stand at ``high``, unless some are astray.  If none closes, those that were looked at stand at the
-    end of the step again, if that is ``high``, and that of the guard ``trigger`` in any case; what others report is
+    end of the step again, if that is ``high``, and the contact ``asked`` at ``high`` in any case; what others report is
     not asked for at an event.
     """
     found = 0.0
@@ -350,6 +381,6 @@ def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> 
         if theta > 0.0:
             found = high = theta
             stands = 0
-        elif S.looked == 1 and (high == 1.0 or c == S.trigger // 2):
+        elif S.looked == 1 and (high == 1.0 or c == asked):
             _look(S, w, k, h, high, c, S.sectors)
     return found

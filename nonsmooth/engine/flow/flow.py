@@ -6,62 +6,74 @@ import math
 
 from nonsmooth.engine.bodies.anisotropy import facing_force
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies, evaluate_free_bodies
-from nonsmooth.engine.bodies.compliance import evaluate_given_force, refresh_states, rub_by_traction, write_state_rates
+from nonsmooth.engine.bodies.compliance import (
+    evaluate_compliant_force,
+    refresh_states,
+    rub_by_traction,
+    write_state_rates,
+)
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.contact.held_contacts import hold_contacts, lay_rows
-from nonsmooth.engine.contact.problem import free_acceleration, friction_coefficient
+from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.layout import GEOMETRY, N_ACCOUNTS
+from nonsmooth.engine.memory.blocks import GAP
+from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LAST_STAGE, LOADS, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
 
 _SHARE = tableau.NODES[1] / tableau.NODES[2]
 """Where the second stage lies between the first and the third."""
 
 
-@room("void(S, F, I, f8, i8)")
-def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+@room("i8(S, F, I, f8, i8, i8)")
+def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosing: int) -> int:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
-    The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.
+    The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.  With ``choosing``
+    (1) the null-space force of those not unique is chosen anew; return 0 if somewhere none keeps every bound, else 1.
     """
+    keeps = 1
     S.singular = -1
     evaluate_free_bodies(S, w, k, t, y)
     free_acceleration(S, w, k)
     if S.n_grouped == 0:
-        return
+        return keeps
     evaluate_driven_bodies(S, w, k, t, y)
     refresh_states(S, w, k, y)
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         for a in range(S.n_active):
             c = k[S.active + a]
+            contact = contact_at(S, w, k, c)
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
-            if k[S.normal_function + c] != 0:
-                evaluate_given_force(S, w, k, c)
+            if contact.normal_function != 0:
+                evaluate_compliant_force(S, w, k, c)
             _set_friction(S, w, k, a, y)
             evaluate_bias(S, w, k, c, 1 + 2 * k[S.tangent_held + a])
             lay_rows(S, w, k, a)
-        hold_contacts(S, w, k)
+        keeps = min(keeps, hold_contacts(S, w, k, choosing))
         for a in range(S.n_active):
             c = k[S.active + a]
-            k[S.tied + c] = k[S.redundant + a]
-            k[S.holds + c] = k[S.tangent_held + a]
-            w[S.static_margin + c] = _static_margin(S, w, k, a)
+            contact = contact_at(S, w, k, c)
+            contact.tied = k[S.redundant + a]
+            contact.holds = k[S.tangent_held + a]
+            contact.static_margin = _static_margin(S, w, k, a)
             for r in range(3):
-                w[S.force + 3 * c + r] = w[S.f + 3 * a + r]
+                contact.force[r] = w[S.f + 3 * a + r]
+    return keeps
 
 
 @kernel("f8(S, F, I, i8)")
 def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return how far the friction of an active contact is from its bound [N]; without any, its slip from one [m/s]."""
     c = k[S.active + a]
+    contact = contact_at(S, w, k, c)
     if k[S.tangent_held + a] == 0:
-        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
+        v1, v2 = contact.rate[1], contact.rate[2]
         return float(S.velocity_tolerance - math.sqrt(v1 * v1 + v2 * v2))
     t1, t2 = facing_force(S, w, k, c, w[S.f + 3 * a + 1]), w[S.f + 3 * a + 2]
     slack = w[S.slack + c] * k[S.redundant + a]
@@ -70,62 +82,56 @@ def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
 
 @kernel("void(S, F, I, i8, i8)")
 def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
-    """Set what is held and the slip direction, continued smoothly through a reversal within the step.
-
-    Where the slip is too slow to have a direction of its own, that at the start of the step holds.
-    """
+    """Set what the active contact ``a`` holds, and its slip direction and friction where it slides."""
     c = k[S.active + a]
+    contact = contact_at(S, w, k, c)
     k[S.normal_held + a] = 1
     k[S.tangent_held + a] = 0
     w[S.turned + c] = 0.0
-    if k[S.normal_function + c] != 0:
+    if contact.normal_function != 0:
         k[S.normal_held + a] = 0
-        w[S.f + 3 * a] = w[S.given + c]
-        if k[S.traction_function + c] != 0:
+        w[S.f + 3 * a] = contact.compliant_force
+        if contact.traction_function != 0:
             rub_by_traction(S, w, k, c, S.f + 3 * a, y)
             return
-    if k[S.mode + c] == STICK:
+    if contact.mode == STICK:
         w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
         if w[S.mu_static + a] > 0.0:
             k[S.tangent_held + a] = 1
             return
-    d1, d2 = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
-    v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-    speed = math.sqrt(v1 * v1 + v2 * v2)
-    if speed > S.velocity_tolerance:
-        inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
-        d1, d2 = inverse * v1, inverse * v2
-    w[S.d + 2 * a], w[S.d + 2 * a + 1] = d1, d2
-    w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+    follow_slip(S, w, k, a, S.rate + 3 * c + 1, S.velocity_tolerance)
     if k[S.normal_held + a] == 0:
         # what pulls does not rub
-        w[S.mu + a] *= 1.0 if w[S.given + c] > 0.0 else 0.0
+        w[S.mu + a] *= 1.0 if contact.compliant_force > 0.0 else 0.0
         friction_of_slip(S, w, a)
 
 
 @kernel("f8(S, F, I, i8)")
 def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach."""
-    if k[S.normal_function + c] != 0:
-        return w[S.reach + c] - w[S.geometry + GEOMETRY * c]
-    return w[S.force + 3 * c]
+    contact = contact_at(S, w, k, c)
+    if contact.normal_function != 0:
+        return float(contact.reach - contact.geometry[GAP])
+    return float(contact.force[0])
 
 
 @kernel("f8(S, F, I, i8)")
 def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the slip along its direction at the start of the step, or 1 where nothing depends on its sign."""
-    if k[S.traction_function + c] != 0:
+    contact = contact_at(S, w, k, c)
+    if contact.traction_function != 0:
         return 1.0
-    return w[S.rate + 3 * c + 1] * w[S.direction + 2 * c] + w[S.rate + 3 * c + 2] * w[S.direction + 2 * c + 1]
+    return float(contact.rate[1] * contact.direction[0] + contact.rate[2] * contact.direction[1])
 
 
-@room("void(S, F, I, f8, i8, i8)")
-def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> None:
+@room("void(S, F, I, f8, i8, i8, i8)")
+def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosing: int) -> None:
     """Write dy/dt: coordinate rates, accelerations, and four powers.
 
-    These are of the driven bodies, lost to friction, exchanged in all, and of the loads.
+    These are of the driven bodies, lost to friction, exchanged in all, and of the loads.  For ``choosing`` see
+    :func:`right_hand_side`.
     """
-    right_hand_side(S, w, k, t, y)
+    right_hand_side(S, w, k, t, y, choosing)
     for body in range(S.n_bodies):
         rates = k[S.body_tail + body]
         for i in range(k[S.body_nq + body]):
@@ -139,19 +145,19 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int) -> Non
             own += w[h + i] * w[y + S.n_q + k[S.body_u + body] + i]
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
-        sticks = k[S.mode + c] == STICK
+        contact = contact_at(S, w, k, c)
+        sticks = contact.mode == STICK
         if not sticks:
             for r in range(1, 3):
-                lost -= w[S.force + 3 * c + r] * w[S.rate + 3 * c + r]
+                lost -= contact.force[r] * contact.rate[r]
         lost -= w[S.turned + c]
         hold = hold_guard(S, w, k, c)
-        w[S.least_force + c] = min(w[S.least_force + c], hold)
+        contact.least_force = min(contact.least_force, hold)
         if sticks or hold < 0.0 or slip_guard(S, w, k, c) < 0.0:
             S.suspect = 1
-    w[out + S.n_q + S.n_u] = S.driven_power
-    w[out + S.n_q + S.n_u + 1] = lost
-    w[out + S.n_q + S.n_u + 2] = abs(own) + abs(S.driven_power) + abs(lost)
-    w[out + S.n_q + S.n_u + 3] = S.load_power
+    powers = out + S.n_q + S.n_u
+    w[powers + DRIVEN], w[powers + FRICTION_LOSS], w[powers + LOADS] = S.driven_power, lost, S.load_power
+    w[powers + EXCHANGED] = abs(own) + abs(S.driven_power) + abs(lost)
     write_state_rates(S, w, k, y, out)
 
 
@@ -176,11 +182,12 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     n = S.n_y
     S.suspect = 0
     for c in range(S.n_contacts):
-        w[S.least_force + c] = 1e300
-    for stage in range(1, 7):
-        out = S.y_new if stage == 6 else S.y_stage
+        contact = contact_at(S, w, k, c)
+        contact.least_force = 1e300
+    for stage in range(1, N_STAGES):
+        out = S.y_new if stage == LAST_STAGE else S.y_stage
         stage_state(S, w, S.y, S.slopes, n, stage, h, out)
-        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n)
+        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0)
     step_errors(S, w, S.slopes, n, h, S.y_stage)
     worst = 0.0
     worst = _worst_error(S, w, 0, S.n_q + S.n_u, worst)

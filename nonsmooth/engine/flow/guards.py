@@ -19,9 +19,18 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard
-from nonsmooth.engine.memory.layout import FEATURE, GEOMETRY, PAST_END
+from nonsmooth.engine.flow.guard_numbers import (
+    contact_of,
+    first_end_guard,
+    first_own_guard,
+    friction_guard,
+    is_friction_guard,
+    normal_guard,
+    number_of_guards,
+)
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_guard, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_guard, contact_at, kernel
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
@@ -38,9 +47,10 @@ _LATE = 2.0
 @kernel("f8(S, F, I, i8)")
 def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the way left to the end of the features of a closed contact, negative if it has other ones than before."""
+    contact = contact_at(S, w, k, c)
     block = S.geometry + GEOMETRY * c
     left = _LATE * S.gap_tolerance - w[block + PAST_END] if w[block + PAST_END] != 0.0 else 1.0
-    if left < 0.0 or k[S.feature + c] < 0 or int(w[block + FEATURE]) == k[S.feature + c]:
+    if left < 0.0 or contact.feature < 0 or int(w[block + FEATURE]) == contact.feature:
         return float(left)
     return float(-left)
 
@@ -53,7 +63,8 @@ def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
     """
     looks = S.t - S.feature_t > S.time_tolerance
     for c in range(S.n_contacts):
-        k[S.feature + c] = int(w[S.geometry + GEOMETRY * c + FEATURE]) if looks and k[S.mode + c] != OPEN else -1
+        contact = contact_at(S, w, k, c)
+        contact.feature = int(contact.geometry[FEATURE]) if looks and contact.mode != OPEN else -1
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
@@ -64,27 +75,30 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
     elif forces == 1:
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
-            w[S.guard + 2 * c] = hold_guard(S, w, k, c)
-            w[S.gap_rate + c] = w[S.rate + 3 * c]
-            if k[S.mode + c] == STICK:
-                w[S.guard + 2 * c + 1] = w[S.static_margin + c]
+            contact = contact_at(S, w, k, c)
+            w[S.guard + normal_guard(c)] = hold_guard(S, w, k, c)
+            contact.gap_rate = contact.rate[0]
+            if contact.mode == STICK:
+                w[S.guard + friction_guard(c)] = contact.static_margin
             else:
-                w[S.guard + 2 * c + 1] = slip_guard(S, w, k, c)
+                w[S.guard + friction_guard(c)] = slip_guard(S, w, k, c)
     for c in range(S.n_contacts):
-        if k[S.mode + c] == OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.mode == OPEN:
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
-            w[S.guard + 2 * c] = w[S.geometry + GEOMETRY * c]
-            w[S.guard + 2 * c + 1] = 1.0
-            w[S.gap_rate + c] = w[S.rate + 3 * c]
+            w[S.guard + normal_guard(c)] = contact.geometry[GAP]
+            w[S.guard + friction_guard(c)] = 1.0
+            contact.gap_rate = contact.rate[0]
     for g in range(S.n_own_guards):
-        w[S.guard + 2 * S.n_contacts + g] = call_guard(
+        w[S.guard + first_own_guard(S) + g] = call_guard(
             k[S.own_guard_function + g], t, at(w, y), at(w, y + S.n_q), at(w, k[S.own_guard_parameters + g])
         )
-    ends = 2 * S.n_contacts + S.n_own_guards
+    ends = first_end_guard(S)
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
         w[S.guard + ends + c] = 1.0
-        if k[S.mode + c] != OPEN and forces == 1 and S.n_grouped > 0:
+        if contact.mode != OPEN and forces == 1 and S.n_grouped > 0:
             w[S.guard + ends + c] = _feature_guard(S, w, k, c)
 
 
@@ -92,7 +106,7 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
 def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapsed: float, forces: int) -> None:
     """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step."""
     if forces == 1:
-        right_hand_side(S, w, k, t, y)
+        right_hand_side(S, w, k, t, y, 0)
     else:
         evaluate_bodies(S, w, k, t, y)
     write_guards(S, w, k, t, y, forces)
@@ -105,7 +119,7 @@ def grown(S: Scalars, w: Floats, k: Integers, i: int, value: float, elapsed: flo
     if k[S.guard_deflated + i] == 0:
         return value
     rate = w[S.guard_first + i]
-    separates = i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and rate > S.velocity_tolerance
+    separates = i < first_own_guard(S) and k[S.mode + contact_of(i)] == OPEN and rate > S.velocity_tolerance
     if separates and rate * elapsed <= _ROUND_OFF * S.gap_tolerance:
         return rate
     return float((value - w[S.guard_start + i]) / elapsed)
@@ -117,7 +131,7 @@ def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
 
     As long as a gap has not grown beyond round-off its rate at the start stands.
     """
-    for i in range(2 * S.n_contacts + S.n_own_guards):
+    for i in range(first_end_guard(S)):
         w[S.guard + i] = grown(S, w, k, i, w[S.guard + i], elapsed)
 
 
@@ -125,14 +139,15 @@ def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
 def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep guards and rates of the end of a step, where the next one starts."""
     for c in range(S.n_contacts):
-        w[S.gap_rate_end + c] = w[S.gap_rate + c]
-        w[S.gap_end + c] = w[S.geometry + GEOMETRY * c]
-        w[S.past_end + c] = w[S.geometry + GEOMETRY * c + PAST_END]
-        for i in range(2):
-            w[S.guard_end + 2 * c + i] = w[S.guard + 2 * c + i]
+        contact = contact_at(S, w, k, c)
+        contact.gap_rate_end = contact.gap_rate
+        contact.gap_end = contact.geometry[GAP]
+        contact.past_end = contact.geometry[PAST_END]
+        for i in range(normal_guard(c), friction_guard(c) + 1):
+            w[S.guard_end + i] = w[S.guard + i]
         for r in range(3):
-            w[S.rate_end + 3 * c + r] = w[S.rate + 3 * c + r]
-    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
+            contact.rate_end[r] = contact.rate[r]
+    for i in range(first_own_guard(S), number_of_guards(S)):
         w[S.guard_end + i] = w[S.guard + i]
 
 
@@ -140,30 +155,31 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
 def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the kept guards as those of the start: arm the positive ones, deflate those that start from zero."""
     for c in range(S.n_contacts):
-        first = 2 * c
-        for i in range(2):
-            k[S.guard_deflated + first + i] = 0
-            w[S.guard_start + first + i] = w[S.guard_first + first + i] = w[S.guard_end + first + i]
-        if k[S.mode + c] == OPEN:
-            if w[S.guard_first + first] <= S.gap_tolerance:
-                k[S.guard_deflated + first] = 1
-                w[S.guard_start + first] = min(0.0, w[S.guard_start + first])
-                if w[S.gap_rate_end + c] <= S.velocity_tolerance:
-                    w[S.guard_start + first] -= _ROUND_OFF * S.gap_tolerance
-                w[S.guard_first + first] = w[S.gap_rate_end + c]
-        elif k[S.normal_function + c] != 0 and w[S.guard_first + first] <= S.gap_tolerance:
+        contact = contact_at(S, w, k, c)
+        normal, friction = normal_guard(c), friction_guard(c)
+        for i in range(normal, friction + 1):
+            k[S.guard_deflated + i] = 0
+            w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
+        if contact.mode == OPEN:
+            if w[S.guard_first + normal] <= S.gap_tolerance:
+                k[S.guard_deflated + normal] = 1
+                w[S.guard_start + normal] = min(0.0, w[S.guard_start + normal])
+                if contact.gap_rate_end <= S.velocity_tolerance:
+                    w[S.guard_start + normal] -= _ROUND_OFF * S.gap_tolerance
+                w[S.guard_first + normal] = contact.gap_rate_end
+        elif contact.normal_function != 0 and w[S.guard_first + normal] <= S.gap_tolerance:
             # it has just touched down, and lets go when it comes back to here
-            k[S.guard_deflated + first] = 1
-            w[S.guard_start + first] = min(0.0, w[S.guard_start + first]) - _ROUND_OFF * S.gap_tolerance
-            w[S.guard_first + first] = -w[S.gap_rate_end + c]
-        if k[S.mode + c] == SLIDE and w[S.guard_first + first + 1] <= S.velocity_tolerance:
-            k[S.guard_deflated + first + 1] = 1
-            w[S.guard_start + first + 1] = min(0.0, w[S.guard_start + first + 1]) - _ROUND_OFF * S.velocity_tolerance
-            w[S.guard_first + first + 1] = 0.0
-        for i in range(2):
-            k[S.guard_armed + first + i] = 1 if w[S.guard_first + first + i] > 0.0 else 0
+            k[S.guard_deflated + normal] = 1
+            w[S.guard_start + normal] = min(0.0, w[S.guard_start + normal]) - _ROUND_OFF * S.gap_tolerance
+            w[S.guard_first + normal] = -contact.gap_rate_end
+        if contact.mode == SLIDE and w[S.guard_first + friction] <= S.velocity_tolerance:
+            k[S.guard_deflated + friction] = 1
+            w[S.guard_start + friction] = min(0.0, w[S.guard_start + friction]) - _ROUND_OFF * S.velocity_tolerance
+            w[S.guard_first + friction] = 0.0
+        for i in range(normal, friction + 1):
+            k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
     for g in range(S.n_own_guards):
-        i = 2 * S.n_contacts + g
+        i = first_own_guard(S) + g
         w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
         # one that has just fired starts from zero
         k[S.guard_deflated + i] = k[S.own_guard_spent + g]
@@ -171,7 +187,7 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.guard_first + i] = 0.0
         k[S.own_guard_spent + g] = 0
         k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
-    for i in range(2 * S.n_contacts + S.n_own_guards, 3 * S.n_contacts + S.n_own_guards):
+    for i in range(first_end_guard(S), number_of_guards(S)):
         w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
         k[S.guard_deflated + i] = 0
         k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
@@ -180,10 +196,10 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("void(S, F, I, i8)")
 def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
     """Arm the guards that have become positive within the step."""
-    for i in range(2 * S.n_contacts):
-        if w[S.guard + i] > 0.0 and (forces == 1 or k[S.mode + i // 2] == OPEN):
+    for i in range(first_own_guard(S)):
+        if w[S.guard + i] > 0.0 and (forces == 1 or k[S.mode + contact_of(i)] == OPEN):
             k[S.guard_armed + i] = 1
-    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
+    for i in range(first_own_guard(S), number_of_guards(S)):
         if w[S.guard + i] > 0.0:
             k[S.guard_armed + i] = 1
 
@@ -191,23 +207,26 @@ def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
 @kernel("i8(S, F, I, i8)")
 def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap that came over the end of a feature to where it rests; it does not close."""
-    c = i // 2
-    if k[S.mode + c] != OPEN or i != 2 * c or k[S.guard_deflated + i] == 1:
+    c = contact_of(i)
+    contact = contact_at(S, w, k, c)
+    if contact.mode != OPEN or is_friction_guard(i) == 1 or k[S.guard_deflated + i] == 1:
         return 0
-    rests = w[S.guard + i] > -S.gap_tolerance and w[S.gap_rate + c] > -S.velocity_tolerance
-    return 1 if w[S.geometry + GEOMETRY * c + PAST_END] != 0.0 and rests else 0
+    rests = w[S.guard + i] > -S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance
+    return 1 if contact.geometry[PAST_END] != 0.0 and rests else 0
 
 
 @kernel("f8(S, F, I, i8)")
 def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
     """Return below what guard ``i`` of a contact fires though it is not armed."""
-    c = i // 2
+    c = contact_of(i)
+    contact = contact_at(S, w, k, c)
     if k[S.guard_deflated + i] == 1:
         return float(_WRONG_SLIP * S.velocity_tolerance)
-    if i == 2 * c and (k[S.mode + c] == OPEN or k[S.normal_function + c] != 0):
+    normal = is_friction_guard(i) == 0
+    if normal and (contact.mode == OPEN or contact.normal_function != 0):
         return float(_WRONG_GAP * S.gap_tolerance)
-    if i == 2 * c or (k[S.mode + c] == STICK and k[S.holds + c] == 1):
-        return _WRONG_FORCE * w[S.small_force_of + c]
+    if normal or (contact.mode == STICK and contact.holds == 1):
+        return float(_WRONG_FORCE * contact.small_force_of)
     return float(_WRONG_SLIP * S.velocity_tolerance)
 
 
@@ -223,16 +242,16 @@ def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
 @kernel("i8(S, F, I, i8)")
 def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap whose rate is known."""
-    if i >= 2 * S.n_contacts or k[S.mode + i // 2] != OPEN:
+    if i >= first_own_guard(S) or k[S.mode + contact_of(i)] != OPEN:
         return 0
-    return 1 if w[S.geometry + GEOMETRY * (i // 2) + PAST_END] <= 0.0 else 0
+    return 1 if w[S.geometry + GEOMETRY * contact_of(i) + PAST_END] <= 0.0 else 0
 
 
 @kernel("i8(S, F, I, i8)")
 def _closes_now(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap that has closed no longer ago than instants are told apart."""
-    late = max(S.gap_tolerance, S.time_tolerance * abs(w[S.gap_rate + i // 2]))
-    return 1 if is_gap(S, w, k, i) == 1 and w[S.geometry + GEOMETRY * (i // 2)] >= -late else 0
+    late = max(S.gap_tolerance, S.time_tolerance * abs(w[S.gap_rate + contact_of(i)]))
+    return 1 if is_gap(S, w, k, i) == 1 and w[S.geometry + GEOMETRY * contact_of(i)] >= -late else 0
 
 
 @kernel("i8(S, F, I, i8, i8)")
@@ -243,16 +262,16 @@ def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> in
     where it was none of them has a root to look for.
     """
     jumps = -1
-    for i in range(2 * S.n_contacts):
-        if forces == 0 and k[S.mode + i // 2] != OPEN:
+    for i in range(first_own_guard(S)):
+        if forces == 0 and k[S.mode + contact_of(i)] != OPEN:
             continue
         if i != but and has_fired(S, w, k, i) == 1 and (but < 0 or _closes_now(S, w, k, i) == 0):
-            if k[S.mode + i // 2] != OPEN or is_gap(S, w, k, i) == 1:
+            if k[S.mode + contact_of(i)] != OPEN or is_gap(S, w, k, i) == 1:
                 return i
             jumps = i if jumps < 0 else jumps
     if jumps >= 0:
         return jumps
-    for i in range(2 * S.n_contacts, 3 * S.n_contacts + S.n_own_guards):
+    for i in range(first_own_guard(S), number_of_guards(S)):
         if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
             return i
     return -1

@@ -12,6 +12,13 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing
 from nonsmooth.engine.flow.flow import try_step
+from nonsmooth.engine.flow.guard_numbers import (
+    contact_of,
+    first_own_guard,
+    friction_guard,
+    normal_guard,
+    number_of_guards,
+)
 from nonsmooth.engine.flow.guards import (
     arm_further,
     deflate,
@@ -21,9 +28,11 @@ from nonsmooth.engine.flow.guards import (
     keep_end,
     write_guards,
 )
-from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
 _MIDDLE = 0.5
@@ -66,7 +75,8 @@ _SHORT = 1e-7
 @kernel("i8(S, F, I)")
 def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN:
             return 1
     return 0
 
@@ -116,8 +126,10 @@ def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
 def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Look for a dip of a normal force or a static margin between the samples."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            for i in range(2 * c, 2 * c + (2 if k[S.mode + c] == STICK else 1)):
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN:
+            last = friction_guard(c) if contact.mode == STICK else normal_guard(c)
+            for i in range(normal_guard(c), last + 1):
                 if k[S.guard_armed + i] == 1:
                     theta = _lowest(S, w, k, h, i)
                     if theta > 0.0:
@@ -130,8 +142,9 @@ def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
     """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
     soonest = 1e300
     for c in range(S.n_contacts):
-        gap, rate = w[S.geometry + GEOMETRY * c], w[S.gap_rate + c]
-        if k[S.mode + c] == OPEN and w[S.geometry + GEOMETRY * c + PAST_END] <= 0.0 and gap > 0.0 and rate < 0.0:
+        contact = contact_at(S, w, k, c)
+        gap, rate = contact.geometry[GAP], contact.gap_rate
+        if contact.mode == OPEN and contact.geometry[PAST_END] <= 0.0 and gap > 0.0 and rate < 0.0:
             soonest = min(soonest, -gap / rate)
     return soonest
 
@@ -146,8 +159,9 @@ def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     least = longest
     for i in range(S.n_astray):
         c = k[S.astray + i]
-        speed = w[S.speed_first + c] + w[S.speed_end + c]
-        way = min(_FARTHEST * w[S.size + c], max(w[S.geometry + GEOMETRY * c], WAY * w[S.size + c]))
+        contact = contact_at(S, w, k, c)
+        speed = contact.speed_first + contact.speed_end
+        way = min(_FARTHEST * contact.size, max(contact.geometry[GAP], WAY * contact.size))
         if way < least * speed:
             least = way / speed
     return float(max(least, _SHORTEST * h))
@@ -174,15 +188,18 @@ def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float
     return 0.0
 
 
-@kernel("f8(S, F, I, f8, f8)")
-def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float) -> float:
-    """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0."""
+@kernel("f8(S, F, I, f8, f8, i8)")
+def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, asked: int) -> float:
+    """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0.
+
+    If none has, the contact ``asked`` stands at ``theta``.
+    """
     if S.n_astray > 0:
         found = _sampled(S, w, k, h, theta)
         if found > 0.0:
             return found
     if S.n_doubtful > 0:
-        found = first_closing(S, w, k, h, theta)
+        found = first_closing(S, w, k, h, theta, asked)
         if found > 0.0:
             guards_within(S, w, k, h, found, _any_closed(S, w, k))
             return found
@@ -203,10 +220,13 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     deflate(S, w, k, h)
     fired = first_fired(S, w, k, 1, -1)
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
+    suspect = S.suspect == 1
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN and w[S.least_force + c] < min(w[S.guard_first + 2 * c], w[S.guard_end + 2 * c]):
-            S.suspect = 1
-    forces = closed if S.suspect == 1 else 0
+        contact = contact_at(S, w, k, c)
+        i = normal_guard(c)
+        if contact.mode != OPEN and contact.least_force < min(w[S.guard_first + i], w[S.guard_end + i]):
+            suspect = True
+    forces = closed if suspect else 0
     looks = forces + S.n_own_guards
     if looks > 0:
         guards_within(S, w, k, h, _MIDDLE, forces)
@@ -215,7 +235,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
                 guards_within(S, w, k, h, _MIDDLE, closed)
             return _MIDDLE
         arm_further(S, w, k, forces)
-        for i in range(3 * S.n_contacts + S.n_own_guards):
+        for i in range(number_of_guards(S)):
             w[S.guard_middle + i] = w[S.guard + i]
         if forces == 1 and fired < 0:
             theta = _force_dip(S, w, k, h)
@@ -224,16 +244,17 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     # what has fired at the end is located first, and what closes before it searched then
     if fired < 0 and S.n_astray + S.n_doubtful > 0:
         looks += S.n_astray
-        theta = _closed_before(S, w, k, h, 1.0)
+        theta = _closed_before(S, w, k, h, 1.0, -1)
         if theta > 0.0:
             return theta
     if looks > 0:
         evaluate_bodies(S, w, k, S.t + h, S.y_new)
-        for i in range(3 * S.n_contacts + S.n_own_guards):
+        for i in range(number_of_guards(S)):
             w[S.guard + i] = w[S.guard_end + i]
         for c in range(S.n_contacts):
-            w[S.gap_rate + c] = w[S.gap_rate_end + c]
-            w[S.geometry + GEOMETRY * c + PAST_END] = w[S.past_end + c]
+            contact = contact_at(S, w, k, c)
+            contact.gap_rate = contact.gap_rate_end
+            contact.geometry[PAST_END] = contact.past_end
         deflate(S, w, k, h)
     elif fired >= 0 or S.n_doubtful == 0:
         return 1.0 if fired >= 0 else 0.0
@@ -275,7 +296,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
         if is_gap(S, w, k, i) == 1:
-            S.guard_slope = w[S.gap_rate + i // 2]
+            S.guard_slope = w[S.gap_rate + contact_of(i)]
             if k[S.guard_deflated + i] == 1:
                 S.guard_slope = (S.guard_slope - g) / (theta * h)
         if g == 0.0 or (high - low) * h <= fine or abs(g) <= -fine * S.guard_slope:
@@ -288,12 +309,10 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             guards_within(S, w, k, h, high, forces)
             return high
         if g < 0.0:
-            ratio = 1.0 - g / g_high
-            g_low *= ratio if ratio > 0.0 else 0.5
+            g_low = weakened(g_low, g, g_high)
             high, g_high = theta, g
         else:
-            ratio = 1.0 - g / g_low
-            g_high *= ratio if ratio > 0.0 else 0.5
+            g_high = weakened(g_high, g, g_low)
             low, g_low = theta, g
             left = g
         following = high - g_high * (high - low) / (g_high - g_low)
@@ -305,29 +324,28 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     return theta
 
 
-@kernel("f8(S, F, I, f8)")
-def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float) -> float:
-    """Step to right behind the jump of the guard ``trigger`` that the interpolant has at ``step``; return the step."""
+@kernel("f8(S, F, I, f8, i8)")
+def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> float:
+    """Step to right behind the jump of guard ``i`` that the interpolant has at ``step``; return the step."""
     S.h = step
     if not try_step(S, w, k, step) <= _TRUSTED:
         return -1.0
     way = _FINE * S.time_tolerance
     for _doubling in range(_WAYS):
         evaluate_guards(S, w, k, S.t + step, S.y_new, step, 1)
-        if w[S.guard + S.trigger] < 0.0:
+        if w[S.guard + i] < 0.0:
             return step
         # so short a way is straight
         for j in range(S.n_y):
-            w[S.y_new + j] += way * w[S.slopes + 6 * S.n_y + j]
+            w[S.y_new + j] += way * w[S.slopes + LAST_STAGE * S.n_y + j]
         step += way
         way *= 2.0
     return -1.0
 
 
-@kernel("f8(S, F, I, f8)")
-def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
-    """Step to where the guard ``trigger`` vanishes, on the interpolant after the time ``root``; return the step."""
-    i = S.trigger
+@kernel("f8(S, F, I, f8, i8)")
+def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float:
+    """Step to where guard ``i`` vanishes, on the interpolant after the time ``root``; return the step."""
     h, step = S.h, root
     # the guard is positive before the first and not after the second of these steps
     early, late = 0.0, 1e300
@@ -341,7 +359,7 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
         if k[S.guard_deflated + i] == 1:
             value -= w[S.guard_start + i]
         if is_gap(S, w, k, i) == 1:
-            slope = w[S.gap_rate + i // 2]
+            slope = w[S.gap_rate + contact_of(i)]
         elif k[S.guard_deflated + i] == 1:
             value /= step
         # a gap that closes slower than what counts as rest does not tell where
@@ -351,7 +369,7 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
         if abs(correction) <= _SHORT * h:
             # so short a way is straight
             for j in range(S.n_y):
-                w[S.y_new + j] += correction * w[S.slopes + 6 * S.n_y + j]
+                w[S.y_new + j] += correction * w[S.slopes + LAST_STAGE * S.n_y + j]
             return float(step + correction)
         if value > 0.0:
             early = step
@@ -365,14 +383,15 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float) -> float:
     return -1.0
 
 
-@kernel("i8(S, F, I)")
-def _overtaken(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if a correction went past the closing of another contact than that of the guard ``trigger``."""
+@kernel("i8(S, F, I, i8)")
+def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
         block = S.geometry + GEOMETRY * c
-        if k[S.mode + c] == OPEN and c != S.trigger // 2 and w[block + PAST_END] <= 0.0:
-            start = min(0.0, w[S.guard_start + 2 * c])
-            if w[block] < start - _FAR_BEHIND * S.gap_tolerance and w[S.gap_rate + c] < 0.0:
+        if contact.mode == OPEN and c != contact_of(i) and w[block + PAST_END] <= 0.0:
+            start = min(0.0, w[S.guard_start + normal_guard(c)])
+            if w[block + GAP] < start - _FAR_BEHIND * S.gap_tolerance and contact.gap_rate < 0.0:
                 return 1
     return 0
 
@@ -388,9 +407,9 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     closed = _any_closed(S, w, k)
     first = first_fired(S, w, k, 1, -1)
     theta = high
-    S.trigger = max(0, first)
+    fired = max(0, first)
     roots = 0
-    while first >= 0 and roots < 3 * S.n_contacts + S.n_own_guards:
+    while first >= 0 and roots < number_of_guards(S):
         if closed == 1 and roots == _MOST_ROOTS:
             return -1.0
         if closed == 1 and roots > _FEW_ROOTS and w[S.guard_first + first] < 0.0:
@@ -402,10 +421,10 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             # it jumps where the one before does
             first = -1
         else:
-            S.trigger = first
-            first = first_fired(S, w, k, closed, S.trigger)
+            fired = first
+            first = first_fired(S, w, k, closed, fired)
         if first < 0 and S.n_astray + S.n_doubtful > 0:
-            earlier = _closed_before(S, w, k, h, theta)
+            earlier = _closed_before(S, w, k, h, theta, contact_of(fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
             elif S.n_astray > 0:
@@ -413,14 +432,16 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     if first >= 0:
         # guards that go on firing one before the other hide what closed before them
         return -1.0
-    i = S.trigger
+    S.trigger = fired
     step = theta * h
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
-    jumps = 1 if i < 2 * S.n_contacts and k[S.mode + i // 2] == OPEN and is_gap(S, w, k, i) == 0 else 0
+    jumps = (
+        1 if fired < first_own_guard(S) and k[S.mode + contact_of(fired)] == OPEN and is_gap(S, w, k, fired) == 0 else 0
+    )
     if S.step_error <= _NEGLIGIBLE or jumps == 1:
         dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
         return step
     if S.guard_slope == -math.inf:
-        return _behind_jump(S, w, k, step)
-    step = _corrected(S, w, k, step)
-    return -1.0 if step > 0.0 and _overtaken(S, w, k) == 1 else step
+        return _behind_jump(S, w, k, step, fired)
+    step = _corrected(S, w, k, step, fired)
+    return -1.0 if step > 0.0 and _overtaken(S, w, k, fired) == 1 else step

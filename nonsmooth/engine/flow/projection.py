@@ -10,9 +10,9 @@ from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, own_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
-from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import PAST_END
 from nonsmooth.engine.memory.modes import JOINTS_APART, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED, RUNNING, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 
 _DAMPING = 1e-8
 """Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
@@ -40,14 +40,15 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
-        k[S.normal_held + a] = 1 if k[S.normal_function + c] == 0 else 0
+        contact = contact_at(S, w, k, c)
+        k[S.normal_held + a] = 1 if contact.normal_function == 0 else 0
         w[S.f + 3 * a] = 0.0
-        slow = max(abs(w[S.rate + 3 * c + 1]), abs(w[S.rate + 3 * c + 2])) <= S.velocity_tolerance
-        rubs = k[S.traction_function + c] != 0
-        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or (at_event == 1 and slow and not rubs) else 0
+        slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= S.velocity_tolerance
+        rubs = contact.traction_function != 0
+        k[S.tangent_held + a] = 1 if contact.mode == STICK or (at_event == 1 and slow and not rubs) else 0
         w[S.mu + a] = 0.0
         for r in range(3):
-            w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
+            w[S.b + 3 * a + r] = contact.rate[r]
     part = _DAMPING if m > 1 else 0.0
     _damp(S, w, k, part)
     resolve(S, w, k)
@@ -55,11 +56,12 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     loss = 0.0
     for a in range(m):
         c = k[S.active + a]
+        contact = contact_at(S, w, k, c)
         for r in range(3):
             impulse = w[S.f + 3 * a + r]
             damping = w[own_block(S, k, a) + 4 * r] * part / (1.0 + part)
-            loss -= 0.5 * impulse * (w[S.rate + 3 * c + r] - damping * impulse)
-            S.driven_work -= impulse * w[S.prescribed_rate + 3 * c + r]
+            loss -= 0.5 * impulse * (contact.rate[r] - damping * impulse)
+            S.driven_work -= impulse * contact.prescribed_rate[r]
     return loss
 
 
@@ -82,7 +84,8 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
     worst = share = 0.0
     for a in range(m):
         c = k[S.active + a]
-        gap = abs(held_gap(S, w, c)) if k[S.normal_function + c] == 0 else 0.0
+        contact = contact_at(S, w, k, c)
+        gap = abs(held_gap(S, w, c)) if contact.normal_function == 0 else 0.0
         worst = max(worst, gap)
         share = max(share, gap / explained_gap(S, w, k, c))
     if worst <= 1e-16 or share > 1.0:
@@ -90,7 +93,8 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
     assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
-        k[S.normal_held + a] = 1 if k[S.normal_function + c] == 0 else 0
+        contact = contact_at(S, w, k, c)
+        k[S.normal_held + a] = 1 if contact.normal_function == 0 else 0
         k[S.tangent_held + a] = 0
         w[S.f + 3 * a] = w[S.mu + a] = 0.0
         w[S.b + 3 * a] = held_gap(S, w, c)
@@ -162,8 +166,9 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
         past = 0.0
         for a in range(S.n_active):
             c = k[S.active + a]
+            contact = contact_at(S, w, k, c)
             evaluate_contact(S, w, k, c, 1)
-            past = max(past, w[S.geometry + GEOMETRY * c + PAST_END])
+            past = max(past, contact.geometry[PAST_END])
         if past > S.gap_tolerance:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact
             continue

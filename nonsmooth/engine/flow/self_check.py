@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.memory.layout import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END, POINT_A, POINT_B
+from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, RUNNING
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 
 EXPLAINED = 1e3
 """What steps and events within their tolerances leave adds up to no more than so many of them."""
@@ -25,7 +26,7 @@ def blame(S: Scalars, status: int, number: int, found: float, allowed: float) ->
 def held_gap(S: Scalars, w: Floats, c: int) -> float:
     """Return the gap that a closed contact is to lose; past the end of its features it only tells how far."""
     block = S.geometry + GEOMETRY * c
-    return w[block] if w[block + PAST_END] <= 0.0 else 0.0
+    return w[block + GAP] if w[block + PAST_END] <= 0.0 else 0.0
 
 
 @kernel("f8(S, F, I, i8)")
@@ -34,15 +35,16 @@ def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 
     Those are of gaps, of steps, relative to where the witness points are, and of event times.
     """
+    contact = contact_at(S, w, k, c)
     length = 0.0
     for side in range(2):
-        frame = k[S.frame_a + c] if side == 0 else k[S.frame_b + c]
-        point = S.geometry + GEOMETRY * c + 7 + 3 * side
+        frame = contact.frame_a if side == 0 else contact.frame_b
+        point = S.geometry + GEOMETRY * c + (POINT_A if side == 0 else POINT_B)
         far = 0.0
         for i in range(3):
             far += abs(w[point + i]) + abs(w[point + i] - w[frame + i])
         length = max(length, far)
-    late = S.time_tolerance * abs(w[S.gap_rate_first + c])
+    late = S.time_tolerance * abs(contact.gap_rate_first)
     return float(EXPLAINED * (S.gap_tolerance + S.rtol * length + late))
 
 
@@ -50,10 +52,11 @@ def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
     """Look at the gaps where a step begins: open contacts must be apart, closed rigid ones closed."""
     for c in range(S.n_contacts):
-        gap = w[S.gap_end + c]
-        if k[S.mode + c] == OPEN:
+        contact = contact_at(S, w, k, c)
+        gap = contact.gap_end
+        if contact.mode == OPEN:
             gap = min(0.0, gap)
-        elif k[S.normal_function + c] != 0 or w[S.geometry + GEOMETRY * c + PAST_END] > 0.0:
+        elif contact.normal_function != 0 or contact.geometry[PAST_END] > 0.0:
             continue
         # looked at closely only where it is not plainly explained
         if abs(gap) > EXPLAINED * S.gap_tolerance and abs(gap) > explained_gap(S, w, k, c):
@@ -98,7 +101,7 @@ def close_account(S: Scalars, w: Floats, k: Integers) -> None:
     kinetic, potential = energy_of_bodies(S, w, k, 0), energy_of_bodies(S, w, k, 1)
     booked = _booked(S) - S.booked_before
     change = kinetic - S.kinetic_before + (potential - S.potential_before)
-    exchanged = abs(w[S.y + S.n_q + S.n_u + 2])
+    exchanged = abs(w[S.y + S.n_q + S.n_u + EXCHANGED])
     explained = EXPLAINED * S.impact_rtol * (S.kinetic_before + kinetic + abs(booked))
     explained += _ROUND_OFF * (exchanged + abs(potential) + abs(S.potential_before))
     share = abs(change - booked) / explained if explained > 0.0 else 0.0
@@ -111,7 +114,8 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
     """Look at the state in which the run ends as at one in which a step begins."""
     evaluate_bodies(S, w, k, S.t, S.y)
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
         evaluate_geometry(S, w, k, c)
-        w[S.gap_end + c] = w[S.geometry + GEOMETRY * c]
+        contact.gap_end = contact.geometry[GAP]
     close_account(S, w, k)
     check_gaps(S, w, k)

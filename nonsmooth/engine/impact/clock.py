@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.impact.guards import prepare_guards
-from nonsmooth.engine.impact.rates import EXPANSION, HELD, IDLE, STRIDE
+from nonsmooth.engine.impact.rates import ENERGY, EXPANSION, HELD, IDLE, LOST, STRIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 
 
@@ -24,7 +24,7 @@ def change_clock(S: Scalars, w: Floats, k: Integers) -> int:
         if acting != 1 or k[S.phase + last] == HELD or S.may_be_lone == 0:
             return 0
         state = S.impact_y + STRIDE * last
-        if k[S.phase + last] == EXPANSION and not w[state + 6] > w[state + 7]:
+        if k[S.phase + last] == EXPANSION and not w[state + ENERGY] > w[state + LOST]:
             # its own clock runs until the energy is used up, of which the integration's error has left none: a steep
             # force has given all of it back long before the deformation, which ends the phase on the common clock
             return 0
@@ -48,24 +48,18 @@ def change_clock(S: Scalars, w: Floats, k: Integers) -> int:
 def _keep_phases(S: Scalars, w: Floats, k: Integers) -> None:
     S.phases_kept = S.phases
     for a in range(S.n_active):
-        c = k[S.active + a]
+        c, books = k[S.active + a], S.books_kept + 5 * a
         k[S.kept + 2 * a], k[S.kept + 2 * a + 1] = k[S.phase + a], k[S.tangent_held + a]
-        w[S.books_kept + 5 * a] = w[S.stored + a]
-        w[S.books_kept + 5 * a + 1] = w[S.returned + a]
-        w[S.books_kept + 5 * a + 2] = w[S.impact_mark + a]
-        w[S.books_kept + 5 * a + 3] = w[S.direction + 2 * c]
-        w[S.books_kept + 5 * a + 4] = w[S.direction + 2 * c + 1]
+        w[books], w[books + 1], w[books + 2] = w[S.stored + a], w[S.returned + a], w[S.impact_mark + a]
+        w[books + 3], w[books + 4] = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
 
 
 @kernel("void(S, F, I)")
 def _restore_phases(S: Scalars, w: Floats, k: Integers) -> None:
     S.phases = S.phases_kept
     for a in range(S.n_active):
-        c = k[S.active + a]
+        c, books = k[S.active + a], S.books_kept + 5 * a
         k[S.phase + a], k[S.tangent_held + a] = k[S.kept + 2 * a], k[S.kept + 2 * a + 1]
-        w[S.stored + a] = w[S.books_kept + 5 * a]
-        w[S.returned + a] = w[S.books_kept + 5 * a + 1]
-        w[S.impact_mark + a] = w[S.books_kept + 5 * a + 2]
-        w[S.direction + 2 * c] = w[S.books_kept + 5 * a + 3]
-        w[S.direction + 2 * c + 1] = w[S.books_kept + 5 * a + 4]
+        w[S.stored + a], w[S.returned + a], w[S.impact_mark + a] = w[books], w[books + 1], w[books + 2]
+        w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = w[books + 3], w[books + 4]
     prepare_guards(S, w, k)

@@ -6,7 +6,19 @@ import math
 
 from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.delassus.delassus import own_block
-from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, STRIDE, evaluate_impact_rates
+from nonsmooth.engine.impact.rates import (
+    COMPRESSION,
+    DEFORMATION,
+    ENERGY,
+    EXPANSION,
+    IDLE,
+    IMPULSE,
+    LOST,
+    RUBBED,
+    STRIDE,
+    WORK,
+    evaluate_impact_rates,
+)
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.numerics.linear import SINGULAR
@@ -15,7 +27,7 @@ from nonsmooth.engine.numerics.linear import SINGULAR
 @kernel("void(S, F, I, i8)")
 def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Book the work of the phase that ends at the active contact ``a``, or of the part of it so far."""
-    work = w[S.impact_y + STRIDE * a + 4]
+    work = w[S.impact_y + STRIDE * a + WORK]
     done = work - w[S.impact_mark + a]
     if k[S.phase + a] == COMPRESSION:
         w[S.stored + a] -= done
@@ -28,7 +40,7 @@ def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 def empty(S: Scalars, w: Floats, a: int) -> None:
     """Take the energy that is left of the active contact ``a``."""
     state = S.impact_y + STRIDE * a
-    w[state + 3] = w[state + 6] = w[state + 7] = 0.0
+    w[state + DEFORMATION] = w[state + ENERGY] = w[state + LOST] = 0.0
 
 
 @kernel("i8(S, F, I)")
@@ -88,7 +100,7 @@ def faded(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if what is left of the impact, stored or about to be, is below the tolerance."""
     small = max(S.impact_rtol, 1e-11)
     for a in range(S.n_active):
-        stored = w[S.impact_y + STRIDE * a + 6]
+        stored = w[S.impact_y + STRIDE * a + ENERGY]
         if k[S.phase + a] == IDLE:
             stored = 0.0
         if w[S.impact_z + 3 * a] < -small * S.speed_scale or stored > small * small * w[S.impact_energy_scale + a]:
@@ -110,7 +122,7 @@ def cut_short(S: Scalars, w: Floats, k: Integers) -> None:
         k[S.phase + a] = IDLE
     resolve(S, w, k)
     for a in range(S.n_active):
-        w[S.impact_y + STRIDE * a] += w[S.f + 3 * a]
+        w[S.impact_y + STRIDE * a + IMPULSE] += w[S.f + 3 * a]
     S.truncated = 1
 
 
@@ -119,7 +131,7 @@ def finish(S: Scalars, w: Floats, k: Integers) -> None:
     """Hand over the impulses and the energies."""
     for a in range(S.n_active):
         for r in range(3):
-            w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + r]
+            w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + IMPULSE + r]
         account(S, w, k, a)
-        w[S.rubbed + a] = w[S.impact_y + STRIDE * a + 5]
+        w[S.rubbed + a] = w[S.impact_y + STRIDE * a + RUBBED]
     evaluate_impact_rates(S, w, k, S.impact_y)

@@ -10,8 +10,10 @@ from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, own_block
 from nonsmooth.engine.impact.rates import (
     COMPRESSION,
+    DEFORMATION,
     EXPANSION,
     HELD,
+    IMPULSE,
     STRIDE,
     evaluate_impact_rates,
     normal_force,
@@ -37,7 +39,7 @@ def _stop_slips(S: Scalars, w: Floats, k: Integers) -> None:
     resolve(S, w, k)
     for a in range(S.n_active):
         for r in range(1, 3):
-            w[S.impact_y + STRIDE * a + r] += w[S.f + 3 * a + r]
+            w[S.impact_y + STRIDE * a + IMPULSE + r] += w[S.f + 3 * a + r]
     evaluate_impact_rates(S, w, k, S.impact_y)
 
 
@@ -84,7 +86,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
             k[S.at_rest + a] = 1
         k[S.normal_held + a] = 1 if k[S.phase + a] == HELD else 0
         k[S.tangent_held + a] = 0
-        x = w[S.impact_y + STRIDE * a + 3]
+        x = w[S.impact_y + STRIDE * a + DEFORMATION]
         w[S.f + 3 * a] = 0.0
         if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
             x = max(x, -probe * w[S.impact_z + 3 * a])

@@ -13,21 +13,30 @@ from nonsmooth.engine.contact.forces import evaluate_margins
 from nonsmooth.engine.delassus.delassus import own_block
 from nonsmooth.engine.impact.rates import (
     COMPRESSION,
+    DEFORMATION,
+    ENERGY,
     EXPANSION,
     HELD,
     IDLE,
+    LOST,
     NOISE,
     STRIDE,
     efficiency,
     evaluate_impact_forces,
 )
 from nonsmooth.engine.impact.step import try_impact_step
+from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
 _SLACK = 1e-9
 """A compression that comes to nothing, of round-off, ends at this deformation below zero, relative to a full one."""
+RATE_GUARD, ENERGY_GUARD, FRICTION_GUARD = 0, 1, 2
+"""Which of its guards is which; every active contact has"""
+GUARDS = 3
+"""so many."""
 TOGETHER = 1e-13
 """Guards within this of zero fire together."""
 _WRONG = -1e-7
@@ -56,35 +65,35 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     evaluate_margins(S, w, k)
     for a in range(S.n_active):
         c = k[S.active + a]
-        guard = S.impact_guard + 3 * a
+        guard = S.impact_guard + GUARDS * a
         rate = w[S.impact_z + 3 * a] / S.speed_scale
         phase = k[S.phase + a]
         force_scale = 1.0 if a == S.lone else w[S.impact_f_scale + a]
-        w[guard + 1] = 1.0
+        w[guard + ENERGY_GUARD] = 1.0
         if phase == COMPRESSION:
-            w[guard] = NOISE - rate
+            w[guard + RATE_GUARD] = NOISE - rate
             if a != S.lone:
-                w[guard + 1] = _SLACK + w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
+                w[guard + ENERGY_GUARD] = _SLACK + w[y + STRIDE * a + DEFORMATION] / w[S.impact_x_scale + a]
         elif phase == HELD:
-            w[guard] = NOISE + w[S.f + 3 * a] / force_scale
+            w[guard + RATE_GUARD] = NOISE + w[S.f + 3 * a] / force_scale
         else:
             behind = phase == IDLE and S.faint > 0.0 and k[S.waves + c] > 0
-            w[guard] = (S.faint if behind else NOISE) + rate
+            w[guard + RATE_GUARD] = (S.faint if behind else NOISE) + rate
         if phase == EXPANSION:
-            lost = w[y + STRIDE * a + 7]
-            w[guard + 1] = w[y + STRIDE * a + 3] / w[S.impact_x_scale + a]
+            lost = w[y + STRIDE * a + LOST]
+            w[guard + ENERGY_GUARD] = w[y + STRIDE * a + DEFORMATION] / w[S.impact_x_scale + a]
             if a == S.lone or lost > 0.0:
-                w[guard + 1] = (w[y + STRIDE * a + 6] - lost) / w[S.impact_energy_scale + a]
+                w[guard + ENERGY_GUARD] = (w[y + STRIDE * a + ENERGY] - lost) / w[S.impact_energy_scale + a]
         if phase == IDLE or (k[S.tangent_held + a] == 0 and w[S.mu + a] == 0.0):
-            w[guard + 2] = 1.0
+            w[guard + FRICTION_GUARD] = 1.0
         elif k[S.tangent_held + a] == 1:
-            w[guard + 2] = NOISE + w[S.margin + a] / force_scale
+            w[guard + FRICTION_GUARD] = NOISE + w[S.margin + a] / force_scale
         else:
             slip = (
                 w[S.impact_z + 3 * a + 1] * w[S.direction + 2 * c]
                 + w[S.impact_z + 3 * a + 2] * w[S.direction + 2 * c + 1]
             )
-            w[guard + 2] = NOISE + slip / S.speed_scale
+            w[guard + FRICTION_GUARD] = NOISE + slip / S.speed_scale
 
 
 @kernel("i8(S, F, I, i8)")
@@ -93,7 +102,7 @@ def fired_guard(S: Scalars, w: Floats, k: Integers, but: int) -> int:
 
     A guard left slightly negative by a switch is not armed until it has been positive.
     """
-    for i in range(3 * S.n_active):
+    for i in range(GUARDS * S.n_active):
         value = w[S.impact_guard + i]
         if i != but and ((value < 0.0 and k[S.armed + i] == 1) or value < _WRONG):
             return i
@@ -103,7 +112,7 @@ def fired_guard(S: Scalars, w: Floats, k: Integers, but: int) -> int:
 @kernel()
 def arm_impact_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Arm the guards that are positive now, where the next step starts."""
-    for i in range(3 * S.n_active):
+    for i in range(GUARDS * S.n_active):
         w[S.impact_guard_first + i] = w[S.impact_guard + i]
         if w[S.impact_guard + i] > 0.0:
             k[S.armed + i] = 1
@@ -112,7 +121,7 @@ def arm_impact_guards(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("void(S, F, I)")
 def prepare_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Evaluate the guards where a phase begins and arm those that are positive."""
-    for i in range(3 * S.n_active):
+    for i in range(GUARDS * S.n_active):
         k[S.armed + i] = 0
     evaluate_impact_guards(S, w, k, S.impact_y)
     arm_impact_guards(S, w, k)
@@ -155,12 +164,10 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
         if abs(g) <= min(_ROUGH, _SMALL * largest) or high - low <= 1e-14:
             return theta
         if g < 0.0:
-            ratio = 1.0 - g / g_high
-            g_low *= ratio if ratio > 0.0 else 0.5
+            g_low = weakened(g_low, g, g_high)
             high, g_high = theta, g
         else:
-            ratio = 1.0 - g / g_low
-            g_high *= ratio if ratio > 0.0 else 0.5
+            g_high = weakened(g_high, g, g_low)
             low, g_low = theta, g
     return theta
 
@@ -174,7 +181,7 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """
     theta = 1.0
     first = fired_guard(S, w, k, -1)
-    for _other in range(3 * S.n_active):
+    for _other in range(GUARDS * S.n_active):
         if first < 0:
             break
         S.trigger = first
@@ -197,7 +204,7 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if abs(correction) <= _SHORT * h:
             # so short a way is straight
             for j in range(n):
-                w[S.impact_new + j] += correction * w[S.impact_slopes + 6 * n + j]
+                w[S.impact_new + j] += correction * w[S.impact_slopes + LAST_STAGE * n + j]
             break
         step += correction
     evaluate_impact_guards(S, w, k, S.impact_new)
@@ -225,17 +232,17 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     if k[S.phase + a] == COMPRESSION and growth > 0.0:
         root = -w[rates] / growth
         if 0.0 < root < shortest:
-            shortest, S.aimed = root, 3 * a
+            shortest, S.aimed = root, GUARDS * a + RATE_GUARD
     if k[S.phase + a] == EXPANSION and growth > 0.0:
         # E + E' s + E'' s^2 / 2 = 0, with E' = -rate / efficiency
         state = S.impact_y + STRIDE * a
-        energy, first = w[state + 6] - w[state + 7], w[S.impact_slopes + STRIDE * a + 6]
+        energy, first = w[state + ENERGY] - w[state + LOST], w[S.impact_slopes + STRIDE * a + ENERGY]
         square = first * first + 2.0 * growth / efficiency(S, w, k, a, max(w[rates], 1e-300)) * energy
         speed = math.sqrt(max(0.0, square)) - first
         if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:
-            shortest, S.aimed = 2.0 * energy / speed, 3 * a + 1
+            shortest, S.aimed = 2.0 * energy / speed, GUARDS * a + ENERGY_GUARD
     if k[S.tangent_held + a] == 0 and w[S.mu + a] > 0.0 and slip > 0.0 and slip_growth < 0.0:
         root = -slip / slip_growth
         if root < shortest:
-            shortest, S.aimed = root, 3 * a + 2
+            shortest, S.aimed = root, GUARDS * a + FRICTION_GUARD
     return shortest

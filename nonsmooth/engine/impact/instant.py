@@ -7,7 +7,7 @@ import math
 from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, own_block, write_dense
-from nonsmooth.engine.memory.layout import GUARD, UNTOUCHED
+from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
 from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_map, kernel
 

@@ -14,6 +14,10 @@ from nonsmooth.engine.impact.clock import change_clock
 from nonsmooth.engine.impact.end import account, cut_short, empty, end_trapped, faded, finish, finished
 from nonsmooth.engine.impact.friction import break_away, choose_friction
 from nonsmooth.engine.impact.guards import (
+    ENERGY_GUARD,
+    FRICTION_GUARD,
+    GUARDS,
+    RATE_GUARD,
     TOGETHER,
     aim,
     arm_impact_guards,
@@ -24,9 +28,12 @@ from nonsmooth.engine.impact.guards import (
 )
 from nonsmooth.engine.impact.rates import (
     COMPRESSION,
+    DEFORMATION,
+    ENERGY,
     EXPANSION,
     HELD,
     IDLE,
+    LOST,
     NOISE,
     STRIDE,
     efficiency,
@@ -35,6 +42,7 @@ from nonsmooth.engine.impact.rates import (
 )
 from nonsmooth.engine.impact.scales import scale_impact
 from nonsmooth.engine.impact.step import try_impact_step, try_linear_step
+from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.runge_kutta import step_factor
@@ -51,6 +59,10 @@ _LONG = 6
 _UNUSED = 1e300
 _TRUSTED = 2.0
 """The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
+PROBE = 1e-2
+"""Where no force has built up yet, forces are compared after this part of the shortest compression."""
+_SHORTEST = 1e-12
+"""A law that still has no finite value in a step of this part of the shortest compression has none."""
 _FIRST = 0.25
 """The first step of an impact is the tolerance to this power, in units of the shortest compression."""
 _SHARE = 0.7
@@ -69,30 +81,30 @@ _NO_RETURN = 2e-16
 """Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
 
 
-@kernel("void(S, F, I, f8)")
-def _switch(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
-    """Change the phases whose guards have come to zero; they are evaluated."""
+@kernel("void(S, F, I, f8, i8)")
+def _switch(S: Scalars, w: Floats, k: Integers, probe: float, trigger: int) -> None:
+    """Change the phases whose guards have come to zero, ``trigger`` among them; they are evaluated."""
     friction = 0
     for a in range(S.n_active):
-        guard = S.impact_guard + 3 * a
+        guard = GUARDS * a
         phase = k[S.phase + a]
         loaded = phase == EXPANSION or phase == COMPRESSION
-        if loaded and (S.trigger == 3 * a + 1 or w[guard + 1] < TOGETHER):
+        if loaded and (trigger == guard + ENERGY_GUARD or w[S.impact_guard + guard + ENERGY_GUARD] < TOGETHER):
             account(S, w, k, a)
             k[S.waves + k[S.active + a]] += 1
             k[S.phase + a] = IDLE
             # a contact that opens under load leaves the others with forces that they did not have
-            friction += 1 if w[S.impact_y + STRIDE * a + 7] > 0.0 else 0
+            friction += 1 if w[S.impact_y + STRIDE * a + LOST] > 0.0 else 0
             empty(S, w, a)
             k[S.tangent_held + a] = 0
             S.phases += 1
             continue
-        if S.trigger == 3 * a or w[guard] < TOGETHER:
+        if trigger == guard + RATE_GUARD or w[S.impact_guard + guard + RATE_GUARD] < TOGETHER:
             friction += _turn(S, w, k, a)
             S.phases += 1
             # where joints leave a line to move on, slip and approach come to rest together
             friction += _rests(S, w, k, a)
-        elif S.trigger == 3 * a + 2 or w[guard + 2] < TOGETHER:
+        elif trigger == guard + FRICTION_GUARD or w[S.impact_guard + guard + FRICTION_GUARD] < TOGETHER:
             S.phases += 1
             if k[S.tangent_held + a] == 1:
                 break_away(S, w, k, a)
@@ -128,7 +140,7 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
         share = efficiency(S, w, k, a, 0.0)
         if min(share, efficiency(S, w, k, a, 1e-300)) > _NO_RETURN:
             k[S.phase + a] = EXPANSION
-            w[S.impact_y + STRIDE * a + 7] = (1.0 - share) * w[S.impact_y + STRIDE * a + 6]
+            w[S.impact_y + STRIDE * a + LOST] = (1.0 - share) * w[S.impact_y + STRIDE * a + ENERGY]
             return 0
         # without restitution the stored energy is lost at once and the contact stays closed
         empty(S, w, a)
@@ -148,8 +160,8 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     return 1 if phase == IDLE else 0
 
 
-@kernel("void(S, F, I, f8)")
-def start_impact(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
+@kernel("void(S, F, I, f8, f8)")
+def start_impact(S: Scalars, w: Floats, k: Integers, probe: float, seed: float) -> None:
     """Set the phases in which the active contacts start, and their friction."""
     for i in range(STRIDE * S.n_active):
         w[S.impact_y + i] = 0.0
@@ -158,10 +170,10 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         w[S.stored + a] = w[S.returned + a] = w[S.impact_mark + a] = 0.0
         k[S.tangent_held + a] = 0
         pushed = w[S.impact_z0 + 3 * a] < -NOISE * S.speed_scale
-        if S.painleve == 1 and k[S.impacting + k[S.active + a]] == 1:
+        if seed > 0.0 and k[S.impacting + k[S.active + a]] == 1:
             # an impact without collision starts from a seed of deformation instead of a speed
             pushed = True
-            w[S.impact_y + STRIDE * a + 3] = 1e-3 * w[S.impact_x_scale + a]
+            w[S.impact_y + STRIDE * a + DEFORMATION] = 1e-3 * w[S.impact_x_scale + a]
         k[S.phase + a] = COMPRESSION if pushed else IDLE
         S.phases += 1 if pushed else 0
     choose_friction(S, w, k, probe)
@@ -205,7 +217,7 @@ def _fade(S: Scalars, w: Floats, k: Integers) -> None:
     They start again at twice the rate, so that the two do not chase each other.
     """
     for a in range(S.n_active):
-        x = S.impact_y + STRIDE * a + 3
+        x = S.impact_y + STRIDE * a + DEFORMATION
         passed = k[S.phase + a] == EXPANSION or (k[S.phase + a] == COMPRESSION and k[S.waves + k[S.active + a]] > 0)
         # the energy is known to the tolerance only, the deformation better
         weak = w[S.f + 3 * a] * w[x] <= S.faint * S.faint * w[S.impact_energy_scale + a]
@@ -231,23 +243,23 @@ def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
     return 1 if acting > 0 and _CROWDED * acting < S.n_active else 0
 
 
-@room("i8(S, F, I)")
-def energetic_impact(S: Scalars, w: Floats, k: Integers) -> int:
+@room("i8(S, F, I, f8)")
+def energetic_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> int:
     """Carry the active contacts from the rates ``impact_z0`` through the impact; return how it ended.
 
     Leaves the impulses in ``impulse`` and, per active contact, the energies ``stored`` in compression,
-    ``returned`` in expansion and ``rubbed`` away by friction.
+    ``returned`` in expansion and ``rubbed`` away by friction.  An impact without collision needs a speed for its
+    ``seed`` [m/s], others have none.
     """
-    S.windowed = 0
     S.lone = 0 if S.n_active == 1 else -1
     S.may_be_lone = 1
     S.truncated = 0
     S.slow_steps = 0
-    shortest = scale_impact(S, w, k)
+    shortest = scale_impact(S, w, k, seed)
     if not shortest > 0.0:
         return INVALID
-    start_impact(S, w, k, 1e-2 * shortest)
-    return run_impact(S, w, k, first_step(S, shortest), shortest)
+    start_impact(S, w, k, PROBE * shortest, seed)
+    return run_impact(S, w, k, first_step(S, shortest), shortest, 0)
 
 
 @kernel("f8(S, f8)")
@@ -256,87 +268,105 @@ def first_step(S: Scalars, shortest: float) -> float:
     return shortest * (_FAR if S.n_active == 1 else float(S.impact_rtol) ** _FIRST)
 
 
-@room("i8(S, F, I, f8, f8)")
-def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float) -> int:
-    """Integrate from the phases and the state at hand, with a first step of ``h``; return how it ended."""
-    m = S.n_active
-    n = STRIDE * m
+@room("i8(S, F, I, f8, f8, i8)")
+def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, windowed: int) -> int:
+    """Integrate from the phases and the state at hand, with a first step of ``h``; return how it ended.
+
+    The active contacts are all of the impact, or those of a window of it (1).
+    """
     S.aimed = -1
     prepare_guards(S, w, k)
     write_impact_slope(S, w, k, S.impact_slopes)
     for _step in range(_MOST_STEPS):
-        if interrupted(S, 8 * m) == 1:
+        if interrupted(S, 8 * S.n_active) == 1:
             return ENDLESS
         if finished(S, w, k) == 1:
             finish(S, w, k)
             return FINISHED
         S.aimed = -1
         h = aim(S, w, k, h) if S.lone >= 0 else _graded(S, w, k, h)
-        linear = 0
-        error = 0.0
-        if S.aimed >= 0:
-            linear = try_linear_step(S, w, k, h)
-        if linear == 0:
-            error = try_impact_step(S, w, k, h)
+        linear = try_linear_step(S, w, k, h) if S.aimed >= 0 else 0
+        error = try_impact_step(S, w, k, h) if linear == 0 else 0.0
         S.impact_steps += 1
         if not error <= 1.0:
-            if not error < _UNUSED and h < 1e-12 * shortest:
+            if not error < _UNUSED and h < _SHORTEST * shortest:
                 return INVALID
             h *= step_factor(error) if error < _UNUSED else 0.1
             continue
-        # the last stage has left the forces at the end of the step
-        write_impact_guards(S, w, k, S.impact_new)
-        S.trigger = fired_guard(S, w, k, -1)
-        aimed = S.aimed >= 0 and abs(w[S.impact_guard + max(0, S.aimed)]) <= _at_event(S, w, k)
-        fired = 1 if S.trigger >= 0 or aimed else 0
-        if aimed and (S.trigger < 0 or S.trigger == S.aimed):
-            S.trigger = S.aimed
-        elif fired == 1:
-            if linear == 1:
-                # locating takes the interpolant of the full step
-                try_impact_step(S, w, k, h)
-                write_impact_guards(S, w, k, S.impact_new)
-            error = locate_switch(S, w, k, h)
-            if not error <= _TRUSTED:
-                if not error < _UNUSED and h < 1e-12 * shortest:
-                    return INVALID
-                h *= 0.25
-                continue
-        if fired == 0:
-            grown = h * step_factor(error)
-        elif S.lone >= 0:
-            grown = _FAR * w[S.impulse_scale + S.lone]
-        else:
-            grown = max(h, shortest * S.impact_rtol**_FIRST)
-        for i in range(n):
+        located = _step_to_switch(S, w, k, h, linear)
+        if not located <= _TRUSTED:
+            if not located < _UNUSED and h < _SHORTEST * shortest:
+                return INVALID
+            h *= 0.25
+            continue
+        for i in range(STRIDE * S.n_active):
             w[S.impact_y + i] = w[S.impact_new + i]
-        if fired == 0 and _stopping(S, w, k) == 1:
-            # close to rest the direction of the slip is stiff, and what is left of it below the tolerance
-            choose_friction(S, w, k, 1e-2 * shortest)
-            prepare_guards(S, w, k)
-            end_trapped(S, w, k)
-            write_impact_slope(S, w, k, S.impact_slopes)
-            S.phases += 1
-        elif fired == 1:
-            _switch(S, w, k, 1e-2 * shortest)
-            if m > 1 and change_clock(S, w, k) == 1:
-                grown = shortest if S.lone < 0 else _FAR * w[S.impulse_scale + S.lone]
-            if S.phases > _LONG * (S.n_colliding if S.windowed == 1 else m) and faded(S, w, k) == 1:
-                cut_short(S, w, k)
-            end_trapped(S, w, k)
-            if S.windowed == 1:
-                _fade(S, w, k)
-            if S.windowed == 1 and S.lone < 0 and _leaves(S, w, k) == 1:
-                S.impact_h = min(grown, _LARGEST * shortest)
-                return MOVED
-            write_impact_slope(S, w, k, S.impact_slopes)
-        else:
-            _orient(S, w, k)
-            arm_impact_guards(S, w, k)
-            for i in range(n):
-                w[S.impact_slopes + i] = w[S.impact_slopes + 6 * n + i]
-        h = min(grown, _LARGEST * shortest)
+        if S.trigger < 0:
+            h = min(h * step_factor(error), _LARGEST * shortest)
+            _go_on(S, w, k, shortest)
+            continue
+        h = min(_pass_switch(S, w, k, h, shortest, windowed), _LARGEST * shortest)
+        if windowed == 1 and S.lone < 0 and _leaves(S, w, k) == 1:
+            S.impact_h = h
+            return MOVED
+        write_impact_slope(S, w, k, S.impact_slopes)
     return ENDLESS
+
+
+@kernel("f8(S, F, I, f8, i8)")
+def _step_to_switch(S: Scalars, w: Floats, k: Integers, h: float, linear: int) -> float:
+    """Shorten the accepted step to the first guard that fires in it, kept in ``trigger``; return the error of that.
+
+    It is 0 where none fires, and ``trigger`` -1, or where the step was aimed at the guard.
+    """
+    # the last stage has left the forces at the end of the step
+    write_impact_guards(S, w, k, S.impact_new)
+    S.trigger = fired_guard(S, w, k, -1)
+    met = S.aimed >= 0 and abs(w[S.impact_guard + max(0, S.aimed)]) <= _at_event(S, w, k)
+    if met and (S.trigger < 0 or S.trigger == S.aimed):
+        S.trigger = S.aimed
+    elif S.trigger >= 0:
+        if linear == 1:
+            # locating takes the interpolant of the full step
+            try_impact_step(S, w, k, h)
+            write_impact_guards(S, w, k, S.impact_new)
+        return float(locate_switch(S, w, k, h))
+    return 0.0
+
+
+@kernel("void(S, F, I, f8)")
+def _go_on(S: Scalars, w: Floats, k: Integers, shortest: float) -> None:
+    """Prepare the next step where no guard has fired in the last."""
+    if _stopping(S, w, k) == 1:
+        # close to rest the direction of the slip is stiff, and what is left of it below the tolerance
+        choose_friction(S, w, k, PROBE * shortest)
+        prepare_guards(S, w, k)
+        end_trapped(S, w, k)
+        write_impact_slope(S, w, k, S.impact_slopes)
+        S.phases += 1
+        return
+    _orient(S, w, k)
+    arm_impact_guards(S, w, k)
+    n = STRIDE * S.n_active
+    for i in range(n):
+        w[S.impact_slopes + i] = w[S.impact_slopes + LAST_STAGE * n + i]
+
+
+@kernel("f8(S, F, I, f8, f8, i8)")
+def _pass_switch(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, windowed: int) -> float:
+    """Change the phases at the guard that fired, and the clock, and end what is over; return the next step."""
+    following = max(h, shortest * S.impact_rtol**_FIRST)
+    if S.lone >= 0:
+        following = _FAR * w[S.impulse_scale + S.lone]
+    _switch(S, w, k, PROBE * shortest, S.trigger)
+    if S.n_active > 1 and change_clock(S, w, k) == 1:
+        following = shortest if S.lone < 0 else _FAR * w[S.impulse_scale + S.lone]
+    if S.phases > _LONG * (S.n_colliding if windowed == 1 else S.n_active) and faded(S, w, k) == 1:
+        cut_short(S, w, k)
+    end_trapped(S, w, k)
+    if windowed == 1:
+        _fade(S, w, k)
+    return float(following)
 
 
 @kernel("f8(S, F, I)")
@@ -346,8 +376,8 @@ def _at_event(S: Scalars, w: Floats, k: Integers) -> float:
     Of a contact that opens under load the energy guard is what is still to come back, a part of all that may be small.
     """
     a = S.lone
-    lost = w[S.impact_y + STRIDE * a + 7]
-    if S.aimed != 3 * a + 1 or lost == 0.0:
+    lost = w[S.impact_y + STRIDE * a + LOST]
+    if S.aimed != GUARDS * a + ENERGY_GUARD or lost == 0.0:
         return _AT_EVENT
     share = efficiency(S, w, k, a, 0.0)
     returned = lost * share / ((1.0 - share) * w[S.impact_energy_scale + a])
@@ -363,7 +393,7 @@ def _orient(S: Scalars, w: Floats, k: Integers) -> None:
         if k[S.phase + a] != IDLE and k[S.tangent_held + a] == 0 and speed > w[S.rest_slip + a]:
             c = k[S.active + a]
             w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
-            w[S.impact_guard + 3 * a + 2] = NOISE + speed / S.speed_scale
+            w[S.impact_guard + GUARDS * a + FRICTION_GUARD] = NOISE + speed / S.speed_scale
 
 
 @kernel("f8(S, F, I, f8)")
@@ -371,7 +401,7 @@ def _graded(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Shorten the step towards the end of an expansion, where the force law is not smooth, geometrically."""
     small = _LAST * S.impact_rtol**0.4
     for a in range(S.n_active):
-        x, rate = w[S.impact_y + STRIDE * a + 3], w[S.impact_slopes + STRIDE * a + 3]
+        x, rate = w[S.impact_y + STRIDE * a + DEFORMATION], w[S.impact_slopes + STRIDE * a + DEFORMATION]
         if k[S.phase + a] == EXPANSION and x > small * w[S.impact_x_scale + a] and h * rate < -_SHARE * x:
             h = -_SHARE * x / rate
     return h

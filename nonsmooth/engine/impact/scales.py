@@ -16,18 +16,19 @@ _MET = 1e-6
 _UNUSED = 1e300
 
 
-@kernel("f8(S, F, I)")
-def scale_impact(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(S, F, I, f8)")
+def scale_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> float:
     """Set the scales of speed, energy, impulse, deformation, force and rest; return the shortest time of a compression.
 
     A contact takes up no more energy than the fastest approach would bring to it, and no more than the approaches of
-    all bring: next to one with a small coefficient of its own, others would else count as light.
+    all bring: next to one with a small coefficient of its own, others would else count as light.  No speed is slower
+    than the ``seed``.
     """
     m = S.n_active
-    S.speed_scale = S.impact_seed
+    S.speed_scale = seed
     brought = 0.0
     for a in range(m):
-        speed = max(S.impact_seed, -w[S.impact_z0 + 3 * a])
+        speed = max(seed, -w[S.impact_z0 + 3 * a])
         S.speed_scale = max(S.speed_scale, speed)
         if speed > 0.0:
             brought = max(brought, speed * speed / w[own_block(S, k, a)])

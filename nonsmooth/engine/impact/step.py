@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.delassus.delassus import own_block
-from nonsmooth.engine.impact.rates import STRIDE, evaluate_impact_rates, impact_slope
+from nonsmooth.engine.impact.rates import DEFORMATION, IMPULSE, STRIDE, evaluate_impact_rates, impact_slope
 from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.layout import STIFF
+from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES, STIFF
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 from nonsmooth.engine.numerics.linear import eliminate
 from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
@@ -33,8 +33,8 @@ _STRAIGHT = 1e-13
 def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance."""
     n = STRIDE * S.n_active
-    for stage in range(1, 7):
-        out = S.impact_new if stage == 6 else S.impact_stage
+    for stage in range(1, N_STAGES):
+        out = S.impact_new if stage == LAST_STAGE else S.impact_stage
         stage_state(S, w, S.impact_y, S.impact_slopes, n, stage, h, out)
         impact_slope(S, w, k, out, S.impact_slopes + stage * n)
     step_errors(S, w, S.impact_slopes, n, h, S.impact_stage)
@@ -54,8 +54,8 @@ def _relative_error(S: Scalars, w: Floats, k: Integers) -> float:
     for a in range(S.n_active):
         inverse = 1.0 / w[S.impulse_scale + a]
         for r in range(STRIDE):
-            if r >= 3:
-                inverse = 1.0 / (w[S.impact_x_scale + a] if r == 3 else w[S.impact_energy_scale + a])
+            if r >= DEFORMATION:
+                inverse = 1.0 / (w[S.impact_x_scale + a] if r == DEFORMATION else w[S.impact_energy_scale + a])
             error = inverse * abs(w[S.impact_stage + STRIDE * a + r])
             if error > worst or error != error:
                 worst = error
@@ -72,7 +72,7 @@ def _find_stiff(S: Scalars, w: Floats, k: Integers, h: float) -> int:
         speed = math.sqrt(v1 * v1 + v2 * v2)
         if k[S.tangent_held + a] == 1 or not speed > w[S.rest_slip + a] or stiff == STIFF:
             continue
-        t, g = S.impact_slopes + STRIDE * a + 1, own_block(S, k, a)
+        t, g = S.impact_slopes + STRIDE * a + IMPULSE + 1, own_block(S, k, a)
         if h * math.sqrt(w[t] * w[t] + w[t + 1] * w[t + 1]) * max(w[g + 4], w[g + 8]) > _STIFF * speed:
             k[S.stiff + stiff] = a
             stiff += 1
@@ -122,13 +122,25 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int)
     return error
 
 
+@kernel("i8(S, I, i8)")
+def _stiff_contact(S: Scalars, k: Integers, j: int) -> int:
+    """Return the active contact that slip component ``j`` is of, two to each of the stiff ones."""
+    return k[S.stiff + j // 2]
+
+
+@kernel("i8(i8)")
+def _tangent(j: int) -> int:
+    """Return the direction of slip component ``j``, 1 or 2."""
+    return 1 + j % 2
+
+
 @kernel("void(S, F, I, i8)")
 def _differentiate(S: Scalars, w: Floats, k: Integers, stiff: int) -> None:
     """Write the derivatives of the slope by the slips of the ``stiff`` contacts, and the slips that those make."""
     n = STRIDE * S.n_active
     for j in range(2 * stiff):
-        a = k[S.stiff + j // 2]
-        column, component = S.stiff_slopes + j * n, S.impact_z0 + 3 * a + 1 + j % 2
+        a = _stiff_contact(S, k, j)
+        column, component = S.stiff_slopes + j * n, S.impact_z0 + 3 * a + _tangent(j)
         evaluate_impact_rates(S, w, k, S.impact_y)
         v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
         kept, change = w[component], _NEAR * math.sqrt(v1 * v1 + v2 * v2)
@@ -145,11 +157,11 @@ def _differentiate(S: Scalars, w: Floats, k: Integers, stiff: int) -> None:
 @kernel("f8(S, F, I, i8, i8)")
 def _slip_of(S: Scalars, w: Floats, k: Integers, i: int, impulses: int) -> float:
     """Return the component ``i`` of the slips of the stiff contacts that the impulses make, which lie in a state."""
-    r = 3 * (1 + i % 2)
-    row = S.block_start + S.first_grouped + k[S.stiff + i // 2]
+    r = 3 * _tangent(i)
+    row = S.block_start + S.first_grouped + _stiff_contact(S, k, i)
     total = 0.0
     for block in range(k[row], k[row + 1]):
-        g, p = S.delassus + 9 * block + r, impulses + STRIDE * k[S.block_column + block]
+        g, p = S.delassus + 9 * block + r, impulses + STRIDE * k[S.block_column + block] + IMPULSE
         total += w[g] * w[p] + w[g + 1] * w[p + 1] + w[g + 2] * w[p + 2]
     return total
 
@@ -185,7 +197,7 @@ def try_linear_step(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
     """
     n = STRIDE * S.n_active
-    middle, end = S.impact_slopes + n, S.impact_slopes + 6 * n
+    middle, end = S.impact_slopes + n, S.impact_slopes + LAST_STAGE * n
     for i in range(n):
         w[S.impact_stage + i] = w[S.impact_y + i] + 0.5 * h * w[S.impact_slopes + i]
     impact_slope(S, w, k, S.impact_stage, middle)
@@ -198,7 +210,7 @@ def try_linear_step(S: Scalars, w: Floats, k: Integers, h: float) -> int:
         for i in range(STRIDE * a, STRIDE * (a + 1)):
             first, half, last = w[S.impact_slopes + i], w[middle + i], w[end + i]
             size = abs(first) + abs(last) + abs(half)
-            if i < STRIDE * a + 3:
+            if i < STRIDE * a + DEFORMATION:
                 size = max(size, force)
             if not abs(first + last - 2.0 * half) <= _STRAIGHT * size:
                 return 0

@@ -15,11 +15,12 @@ from nonsmooth.engine.impact.problem import (
     ENDLESS,
     INVALID,
     MOVED,
+    PROBE,
     first_step,
     run_impact,
     start_impact,
 )
-from nonsmooth.engine.impact.rates import IDLE, NOISE, STRIDE
+from nonsmooth.engine.impact.rates import DEFORMATION, ENERGY, IDLE, IMPULSE, LOST, NOISE, RUBBED, STRIDE
 from nonsmooth.engine.impact.scales import scale_impact
 from nonsmooth.engine.memory.layout import TOTALS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
@@ -31,6 +32,10 @@ _LAYERS = 4
 _FAINT = 30.0
 """Rates and deformations of the error of so many steps are not told from rest behind the wave."""
 _MOST_WINDOWS = 1000000
+_SIDES = 2
+"""Entries of a contact in the chains of its linkages."""
+_IMPULSE, _STORED, _RETURNED, _RUBBED, _DEFORMATION, _ENERGY, _LOST = 0, 3, 4, 5, 6, 7, 8
+"""Where these stand among what a contact takes from one window to the next."""
 
 
 @kernel("void(S, F, I)")
@@ -51,19 +56,19 @@ def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.impact_total + TOTALS * c + j] = 0.0
         for side in range(2):
             linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-            k[S.chain + 2 * c + side] = k[S.linkage_head + linkage]
-            k[S.linkage_head + linkage] = 2 * c + side
+            k[S.chain + _SIDES * c + side] = k[S.linkage_head + linkage]
+            k[S.linkage_head + linkage] = _SIDES * c + side
 
 
-@kernel("void(S, F, I, i8)")
-def _draw(S: Scalars, w: Floats, k: Integers, first: int) -> None:
-    """Make the contacts that act, at first those that approach, and their neighbours the active ones."""
+@kernel("void(S, F, I, f8)")
+def _draw(S: Scalars, w: Floats, k: Integers, fastest: float) -> None:
+    """Make the contacts that act and their neighbours the active ones; at first, given the fastest, who approaches."""
     m = 0
     for i in range(S.n_colliding):
         c = k[S.colliding + i]
         acts = k[S.phase_kept + c] != IDLE
-        if first == 1:
-            acts = w[S.rate + 3 * c] < -NOISE * S.impact_seed
+        if fastest > 0.0:
+            acts = w[S.rate + 3 * c] < -NOISE * fastest
         k[S.depth + c] = 0 if acts else -1
         k[S.rim + c] = 0
         if acts:
@@ -78,7 +83,7 @@ def _draw(S: Scalars, w: Floats, k: Integers, first: int) -> None:
                 linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
                 entry = k[S.linkage_head + linkage] if k[S.linkage_nu + linkage] > 0 else -1
                 while entry >= 0:
-                    other = entry // 2
+                    other = entry // _SIDES
                     if k[S.depth + other] < 0:
                         k[S.depth + other] = layer
                         k[S.rim + other] = 1 if layer == _LAYERS else 0
@@ -100,9 +105,9 @@ def _load(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.impact_z0 + 3 * a + r] = w[S.prescribed_rate + 3 * c + r] + row(S, w, k, c, r, S.u_impact)
         for i in range(STRIDE):
             w[S.impact_y + STRIDE * a + i] = 0.0
-        w[S.impact_y + STRIDE * a + 3] = w[S.impact_total + TOTALS * c + 6]
-        w[S.impact_y + STRIDE * a + 6] = w[S.impact_total + TOTALS * c + 7]
-        w[S.impact_y + STRIDE * a + 7] = w[S.impact_total + TOTALS * c + 8]
+        w[S.impact_y + STRIDE * a + DEFORMATION] = w[S.impact_total + TOTALS * c + _DEFORMATION]
+        w[S.impact_y + STRIDE * a + ENERGY] = w[S.impact_total + TOTALS * c + _ENERGY]
+        w[S.impact_y + STRIDE * a + LOST] = w[S.impact_total + TOTALS * c + _LOST]
         w[S.stored + a] = w[S.returned + a] = w[S.impact_mark + a] = 0.0
         k[S.phase + a] = k[S.phase_kept + c]
         k[S.tangent_held + a] = k[S.held_kept + c]
@@ -116,13 +121,14 @@ def _store(S: Scalars, w: Floats, k: Integers) -> None:
         account(S, w, k, a)
         total = S.impact_total + TOTALS * c
         for r in range(3):
-            w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + r]
-            w[total + r] += w[S.impulse + 3 * a + r]
-        w[total + 3] += w[S.stored + a]
-        w[total + 4] += w[S.returned + a]
-        w[total + 5] += w[S.impact_y + STRIDE * a + 5]
-        w[total + 6], w[total + 7] = w[S.impact_y + STRIDE * a + 3], w[S.impact_y + STRIDE * a + 6]
-        w[total + 8] = w[S.impact_y + STRIDE * a + 7]
+            w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + IMPULSE + r]
+            w[total + _IMPULSE + r] += w[S.impulse + 3 * a + r]
+        w[total + _STORED] += w[S.stored + a]
+        w[total + _RETURNED] += w[S.returned + a]
+        w[total + _RUBBED] += w[S.impact_y + STRIDE * a + RUBBED]
+        w[total + _DEFORMATION] = w[S.impact_y + STRIDE * a + DEFORMATION]
+        w[total + _ENERGY] = w[S.impact_y + STRIDE * a + ENERGY]
+        w[total + _LOST] = w[S.impact_y + STRIDE * a + LOST]
         k[S.phase_kept + c], k[S.held_kept + c] = k[S.phase + a], k[S.tangent_held + a]
     add_response(S, w, k, S.impulse, S.u_impact)
 
@@ -130,10 +136,9 @@ def _store(S: Scalars, w: Floats, k: Integers) -> None:
 @room("i8(S, F, I)")
 def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     """Do what ``energetic_impact`` does, for many contacts; the Delassus matrix of all of them is not needed."""
-    S.impact_seed = 0.0
+    fastest = 0.0
     for a in range(S.n_active):
-        S.impact_seed = max(S.impact_seed, -w[S.rate + 3 * k[S.active + a]])
-    S.windowed = 1
+        fastest = max(fastest, -w[S.rate + 3 * k[S.active + a]])
     S.faint = _FAINT * S.impact_rtol
     S.may_be_lone = 1
     S.truncated = 0
@@ -141,22 +146,20 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     _gather_colliding(S, w, k)
     outcome = MOVED
     for window in range(_MOST_WINDOWS):
-        _draw(S, w, k, 1 if window == 0 else 0)
+        _draw(S, w, k, fastest if window == 0 else 0.0)
         _load(S, w, k)
         S.lone = -1
-        shortest = scale_impact(S, w, k)
+        shortest = scale_impact(S, w, k, fastest)
         if not shortest > 0.0:
             outcome = INVALID
             break
         if window == 0:
-            start_impact(S, w, k, 1e-2 * shortest)
+            start_impact(S, w, k, PROBE * shortest, 0.0)
             S.impact_h = first_step(S, shortest)
-        outcome = run_impact(S, w, k, S.impact_h, shortest)
+        outcome = run_impact(S, w, k, S.impact_h, shortest, 1)
         _store(S, w, k)
         if outcome != MOVED:
             break
-    S.impact_seed = 0.0
-    S.windowed = 0
     S.faint = 0.0
     S.n_active = S.n_colliding
     for a in range(S.n_active):
@@ -164,6 +167,7 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
         k[S.active + a] = c
         total = S.impact_total + TOTALS * c
         for r in range(3):
-            w[S.impulse + 3 * a + r] = w[total + r]
-        w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = w[total + 3], w[total + 4], w[total + 5]
+            w[S.impulse + 3 * a + r] = w[total + _IMPULSE + r]
+        w[S.stored + a], w[S.returned + a] = w[total + _STORED], w[total + _RETURNED]
+        w[S.rubbed + a] = w[total + _RUBBED]
     return ENDLESS if outcome == MOVED else outcome

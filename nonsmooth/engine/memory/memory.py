@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.layout import GEOMETRY, GUARD, N_STAGES, PAIR, UNTOUCHED
+from nonsmooth.engine.memory.blocks import GEOMETRY, GUARD, PAIR, UNTOUCHED
+from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNER, SCALARS
 from nonsmooth.parameters import Table
 

@@ -42,6 +42,8 @@ room_addresses: Callable[[], tuple[int, ...]] = _half.room_addresses
 call_room: Callable[..., Any] = _half.call_room
 """``call_room(name, memory, *numbers)``: call a room from Python."""
 
+contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.contact_at
+"""A contact with its fields by name (:mod:`nonsmooth.engine.memory.contact_fields`)."""
 at: Callable[[Floats, int], Floats] = _half.at
 """The heap from an offset on."""
 call_scalar: Callable[[int, float, Floats], float] = _half.call_scalar
@@ -100,6 +102,7 @@ __all__ = [
     "call_scalar",
     "call_support",
     "call_watch",
+    "contact_at",
     "forget_watch",
     "jit",
     "kernel",

@@ -23,6 +23,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
 from nonsmooth.engine.native.build import CFunction, EnginePasses, numbered, raw, raw_inside, typed_once, uncollected
 from nonsmooth.engine.native.cache import Store, folders
+from nonsmooth.engine.native.contact_view import contact_at as contact_at
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE
 from nonsmooth.notices import say
 
@@ -99,7 +100,7 @@ def _room_caller(signature: Any) -> Any:
 @functools.cache
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
-    importlib.import_module("nonsmooth.engine.events.hybrid")
+    importlib.import_module("nonsmooth.engine.events.event_loop")
     if not all(_store(name).is_filled() for name in ROOMS):
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
         _fill_cache()
@@ -126,7 +127,7 @@ def _helper(start: int) -> subprocess.Popen[bytes] | None:
         return None
     task = (
         f"import sys; sys.path[:] = {sys.path!r}; from nonsmooth.engine.native import native; "
-        f"import nonsmooth.engine.events.hybrid; native.compile_rooms({start}, {len(ROOMS)})"
+        f"import nonsmooth.engine.events.event_loop; native.compile_rooms({start}, {len(ROOMS)})"
     )
     try:
         quiet = subprocess.DEVNULL

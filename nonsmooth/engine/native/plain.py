@@ -7,9 +7,10 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
+from nonsmooth.engine.memory.contact_fields import NUMBERS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
-from nonsmooth.engine.memory.tables import SCALARS
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, SCALARS
 
 _functions: list[Callable[..., Any]] = []
 _watches: dict[int, Callable[[float], float]] = {}
@@ -33,7 +34,7 @@ def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any
 
 def room_addresses() -> tuple[int, ...]:
     """Return as many numbers as there are rooms; nothing reads them."""
-    importlib.import_module("nonsmooth.engine.events.hybrid")
+    importlib.import_module("nonsmooth.engine.events.event_loop")
     return (0,) * len(ROOMS)
 
 
@@ -46,6 +47,34 @@ def call_room(name: str, memory: Memory, *arguments: float) -> Any:
     finally:
         for field, value in vars(scalars).items():
             memory.scalars[field] = value
+
+
+class _Contact:
+    """A contact with named fields."""
+
+    __slots__ = ("_heaps", "_number", "_scalars")
+
+    def __init__(self, scalars: Any, w: Any, k: Any, number: int) -> None:
+        object.__setattr__(self, "_scalars", scalars)
+        object.__setattr__(self, "_heaps", (w, k))
+        object.__setattr__(self, "_number", number)
+
+    def _field(self, name: str) -> Any:
+        heap, numbers = self._heaps[0 if name in FLOAT_ARRAYS else 1], NUMBERS[name]
+        start = getattr(self._scalars, name) + numbers * self._number
+        return heap[start : start + numbers]
+
+    def __getattr__(self, name: str) -> Any:
+        field = self._field(name)
+        return field[0] if NUMBERS[name] == 1 else field
+
+    def __setattr__(self, name: str, value: float) -> None:
+        self._field(name)[0] = value
+
+
+def contact_at(scalars: Any, w: Any, k: Any, c: int) -> Any:
+    """Return contact ``c`` with its fields by name."""
+    return _Contact(scalars, w, k, c)
 
 
 def at(heap: memoryview, offset: int) -> memoryview:

@@ -56,7 +56,7 @@ class _TableModel(models.PrimitiveModel):  # type: ignore[misc]
         super().__init__(manager, table, ir.IntType(64).as_pointer())
 
 
-def _tag(access: Any, name: str) -> None:
+def tag(access: Any, name: str) -> None:
     """Mark a load or store as one of the memory called ``name``."""
     module = access.function.module
     zero = ir.Constant(ir.IntType(64), 0)
@@ -86,7 +86,7 @@ def _type_setitem(context: Any) -> Any:
 @lower_builtin(operator.getitem, Heap, types.Integer)  # type: ignore[untyped-decorator]
 def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     load = builder.load(builder.gep(args[0], [args[1]]))
-    _tag(load, signature.args[0].name)
+    tag(load, signature.args[0].name)
     return load
 
 
@@ -94,7 +94,7 @@ def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
 def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     heap, _index, value = signature.args
     store = builder.store(context.cast(builder, args[2], value, heap.dtype), builder.gep(args[0], [args[1]]))
-    _tag(store, heap.name)
+    tag(store, heap.name)
     return context.get_dummy_value()
 
 
@@ -116,9 +116,10 @@ class _TableFields(AttributeTemplate):  # type: ignore[misc]
 
 
 @lower_getattr_generic(Table)  # type: ignore[untyped-decorator]
-def _get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
+def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
+    """Load a scalar of the record."""
     load = builder.load(_field(context, builder, value, name))
-    _tag(load, name)
+    tag(load, name)
     if name in CONSTANT_SCALARS:
         load.set_metadata("invariant.load", builder.module.add_metadata([]))
     return load
@@ -127,4 +128,4 @@ def _get_field(context: Any, builder: Any, table: Table, value: Any, name: str) 
 @lower_setattr_generic(Table)  # type: ignore[untyped-decorator]
 def _set_field(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
     value = context.cast(builder, args[1], signature.args[1], _field_type(name))
-    _tag(builder.store(value, _field(context, builder, args[0], name)), name)
+    tag(builder.store(value, _field(context, builder, args[0], name)), name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.native.kernel import Floats, Scalars, kernel
 
 SAFETY, SHRINK, GROW = 0.92, 0.2, 8.0
@@ -33,7 +34,7 @@ def dense_part(
     S: Scalars, w: Floats, start: int, slopes: int, n: int, stride: int, h: float, theta: float, out: int
 ) -> None:
     """Write ``n`` components of the interpolated state, the slopes of two stages lying ``stride`` apart."""
-    for j in range(7):
+    for j in range(N_STAGES):
         d, slope = S.dense + 4 * j, slopes + j * stride
         weight = h * theta * (w[d] + theta * (w[d + 1] + theta * (w[d + 2] + theta * w[d + 3])))
         if j == 0:
@@ -50,7 +51,7 @@ def step_errors(S: Scalars, w: Floats, slopes: int, n: int, h: float, out: int) 
     weight = h * w[S.error_weights]
     for i in range(n):
         w[out + i] = weight * w[slopes + i]
-    for j in range(1, 7):
+    for j in range(1, N_STAGES):
         weight = h * w[S.error_weights + j]
         for i in range(n):
             w[out + i] += weight * w[slopes + j * n + i]

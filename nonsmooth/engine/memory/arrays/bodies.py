@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, blocks, ends, fixed, per
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, GEOMETRY
+from nonsmooth.engine.memory.blocks import GEOMETRY
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS
 from nonsmooth.engine.memory.rooms import ROOMS
 
 ARRAYS = Arrays(
@@ -19,7 +20,7 @@ ARRAYS = Arrays(
         "tangents": fixed(6),
         "motion": fixed(5),
         "wrench": fixed(6),
-        "given": per(1, "n_slots"),
+        "compliant_force": per(1, "n_slots"),
         "reach": per(1, "n_slots"),
         "closing_rate": per(1, "n_slots"),
         "turned": per(1, "n_slots"),

@@ -18,7 +18,7 @@ ARRAYS = Arrays(
         "f_kept": per(3, "n_slots"),
         "margin": per(1, "n_slots"),
         "acceleration": per(3, "n_slots"),
-        "share": per(3, "n_slots"),
+        "null_space_force": per(3, "n_slots"),
         "slack": per(1, "n_slots"),
         "right": per(3, "n_slots"),
         "x": per(3, "n_slots"),

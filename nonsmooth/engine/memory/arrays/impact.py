@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per
-from nonsmooth.engine.memory.layout import GUARD, N_STAGES, STIFF, TOTALS
+from nonsmooth.engine.memory.blocks import GUARD
+from nonsmooth.engine.memory.layout import N_STAGES, STIFF, TOTALS
 
 ARRAYS = Arrays(
     floats={

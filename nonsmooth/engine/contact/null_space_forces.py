@@ -1,9 +1,9 @@
 """The part of the forces that the motion does not determine, held fixed as long as it keeps every bound.
 
 Of closed contacts whose forces are not unique the flow finds those of least norm.  These may pull, or leave Coulomb's
-cone, though others that do neither give the same motion.  So a share from the null space is added to them, chosen to
+cone, though others that do neither give the same motion.  So a force from the null space is added to them, chosen to
 leave every bound as much room as can be, within a factor, and kept while time goes on.  That such forces keep the
-bounds shows that the contacts hold; where they come to a bound a new share is chosen, and only where there is none
+bounds shows that the contacts hold; where they come to a bound a new one is chosen, and only where there is none
 the contacts let go.
 """
 
@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.spread import spread
+from nonsmooth.engine.contact.components import contact_of, direction_of
+from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.numerics.null_band import project_on_null
 
@@ -30,7 +31,7 @@ def _least_room(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     least = 1e300
     for i in range(n):
         line = k[S.column + i]
-        a = line // 3
+        a = contact_of(line)
         if line == 3 * a + 1 and k[S.normal_held + a] == 0 and k[S.redundant + a] == 1:
             t1, t2 = w[S.f + line], w[S.f + line + 1]
             least = min(least, w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2))
@@ -45,22 +46,22 @@ def _least_room(S: Scalars, w: Floats, k: Integers, n: int) -> float:
 
 
 @kernel("void(S, F, I, i8)")
-def _keep_share(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+def _keep_null_space_force(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Keep by how much the forces ``f`` differ from ``x``, those of least norm."""
     for i in range(n):
-        a, r = k[S.column + i] // 3, k[S.column + i] % 3
-        w[S.share + 3 * k[S.active + a] + r] = w[S.f + k[S.column + i]] - w[S.f_raw + i]
+        a, r = contact_of(k[S.column + i]), direction_of(k[S.column + i])
+        w[S.null_space_force + 3 * k[S.active + a] + r] = w[S.f + k[S.column + i]] - w[S.f_raw + i]
 
 
 @room("i8(S, F, I)")
-def choose_share(S: Scalars, w: Floats, k: Integers) -> int:
-    """Choose the share of the active contacts, ``x`` being their forces of least norm; return 1 if it leaves room."""
+def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
+    """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it leaves every bound room."""
     n = S.n_unknown
     largest = 0.0
     for a in range(S.n_active):
         w[S.slack + k[S.active + a]] = 0.0
         for r in range(3):
-            w[S.share + 3 * k[S.active + a] + r] = 0.0
+            w[S.null_space_force + 3 * k[S.active + a] + r] = 0.0
     for i in range(n):
         w[S.f_raw + i] = w[S.x + i]
         w[S.f + k[S.column + i]] = w[S.x + i]
@@ -71,27 +72,27 @@ def choose_share(S: Scalars, w: Floats, k: Integers) -> int:
     while found == 0 and inset >= _LEAST * largest:
         for i in range(n):
             w[S.f + k[S.column + i]] = w[S.f_raw + i]
-        found = spread(S, w, k, inset, _ARRIVED * largest)
+        found = distribute(S, w, k, inset, _ARRIVED * largest)
         inset *= 0.25
     if found == 0:
         for i in range(n):
             w[S.f + k[S.column + i]] = w[S.f_raw + i]
-        spread(S, w, k, 0.0, _ARRIVED * largest)
+        distribute(S, w, k, 0.0, _ARRIVED * largest)
         for a in range(S.n_active):
             w[S.slack + k[S.active + a]] = _SLACK * largest
-    _keep_share(S, w, k, n)
+    _keep_null_space_force(S, w, k, n)
     for i in range(n):
         w[S.x + i] = w[S.f_raw + i]
     return found
 
 
 @kernel("void(S, F, I)")
-def add_share(S: Scalars, w: Floats, k: Integers) -> None:
-    """Add what of the share lies in the present null space to the unknowns ``x``."""
+def add_null_space_force(S: Scalars, w: Floats, k: Integers) -> None:
+    """Add what of the null-space force lies in the present null space to the unknowns ``x``."""
     n = S.n_unknown
     for i in range(n):
-        a, r = k[S.column + i] // 3, k[S.column + i] % 3
-        w[S.sigma + i] = w[S.share + 3 * k[S.active + a] + r]
+        a, r = contact_of(k[S.column + i]), direction_of(k[S.column + i])
+        w[S.sigma + i] = w[S.null_space_force + 3 * k[S.active + a] + r]
     if S.null_banded == 1:
         project_on_null(S, w, n, S.sigma)
         for i in range(n):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.anisotropy import turn_facing, unstretch_force
 from nonsmooth.engine.bodies.compliance import (
     begin_contact,
-    push_given,
+    push_compliant,
     rubs_unasked,
 )
 from nonsmooth.engine.bodies.touching import slip_speed, touch
@@ -14,15 +14,27 @@ from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_
 from nonsmooth.engine.contact.trial import small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
-from nonsmooth.engine.events.closing import close_contacts, hand_over
-from nonsmooth.engine.events.record import MOST_EVENTS, amend_last, code, impact_code, record_event, remember
+from nonsmooth.engine.events.accumulation import close_contacts, hand_over
+from nonsmooth.engine.events.record import (
+    DRIVEN_WORK,
+    FRICTION_LOSS,
+    MOST_EVENTS,
+    RESTITUTION_LOSS,
+    amend_last,
+    code,
+    impact_code,
+    record_event,
+    remember,
+)
 from nonsmooth.engine.events.twins import has_replaced
+from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.flow.self_check import open_account
 from nonsmooth.engine.impact.instant import jam_slips, map_impact
 from nonsmooth.engine.impact.problem import ENDLESS, FINISHED, energetic_impact
 from nonsmooth.engine.impact.window import LARGE, windowed_impact
 from nonsmooth.engine.memory.modes import (
+    COMPLIANT,
     FEATURE_CHANGE,
     IMPACT,
     IMPACT_ENDLESS,
@@ -42,7 +54,7 @@ from nonsmooth.engine.memory.modes import (
     STICK,
     STICK_TO_SLIP,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 from nonsmooth.engine.native.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
@@ -65,6 +77,13 @@ def _fastest_approach(S: Scalars, w: Floats, k: Integers) -> int:
     return contact
 
 
+@kernel("i8(S, F, I)")
+def _approaches(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a touching contact approaches, after an impact."""
+    contact = _fastest_approach(S, w, k)
+    return 1 if contact >= 0 and w[S.rate + 3 * contact] < -S.velocity_tolerance else 0
+
+
 @kernel("i8(S, F, I, i8, i8)")
 def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     """Return 1 if the active contacts collide: one of them approaches, or it is the one that jams or has no force."""
@@ -75,10 +94,13 @@ def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) ->
     return 0
 
 
-@room("i8(S, F, I, i8, i8)")
-def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
-    """Run the impact law on the touching contacts, island by island, book and record it; return the status."""
-    S.painleve = 1 if cause == PAINLEVE else 0
+@room("i8(S, F, I, i8, i8, f8)")
+def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, seed: float) -> int:
+    """Run the impact law on the touching contacts, island by island, book and record it; return the status.
+
+    An impact without collision needs a speed for its ``seed`` [m/s].
+    """
+    S.lossless = 1 if cause == PAINLEVE and S.policy == COMPLIANT else 0
     remember(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
@@ -86,7 +108,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
         activate_group(S, w, k, group)
         if _takes_part(S, w, k, cause, contact) == 0:
             continue
-        status = _collide_island(S, w, k, cause)
+        status = _collide_island(S, w, k, cause, seed)
         if status != RUNNING:
             # what the islands before have done is in no account yet
             for i in range(S.n_u):
@@ -96,11 +118,11 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
         truncated = max(truncated, S.truncated)
     S.impacts += 1
     S.phases, S.truncated = phases, truncated
-    S.driven_work += w[S.event_head + 1]
-    S.restitution_loss += w[S.event_head + 2]
-    S.friction_loss += w[S.event_head + 3]
+    S.driven_work += w[S.event_head + DRIVEN_WORK]
+    S.restitution_loss += w[S.event_head + RESTITUTION_LOSS]
+    S.friction_loss += w[S.event_head + FRICTION_LOSS]
     # until the instant is settled: apart is open, the rest goes by its slip
-    S.approaching = touch(S, w, k)
+    touch(S, w, k)
     for c in range(S.n_contacts):
         if k[S.code_during + c] != k[S.code_before + c] or k[S.mode + c] != OPEN:
             _provisional_mode(S, w, k, c)
@@ -108,18 +130,19 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int
     return RUNNING
 
 
-@kernel("i8(S, F, I, i8)")
-def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
+@kernel("i8(S, F, I, i8, f8)")
+def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float) -> int:
     """Run the impact law on the active contacts and give the bodies its impulses; return the status."""
     m = S.n_active
-    large = m > LARGE and S.painleve == 0 and S.impact_map == 0 and cause != JAM
+    large = m > LARGE and S.impact_map == 0 and cause == IMPACT
     if not large:
         assemble_delassus(S, w, k)
     for a in range(m):
         c = k[S.active + a]
-        k[S.code_during + c] = impact_code(S, w, k, c)
+        contact = contact_at(S, w, k, c)
+        contact.code_during = impact_code(S, w, k, c)
         for r in range(3):
-            w[S.impact_z0 + 3 * a + r] = w[S.rate + 3 * c + r]
+            w[S.impact_z0 + 3 * a + r] = contact.rate[r]
     S.phases, S.truncated = 1, 0
     if cause == JAM:
         if jam_slips(S, w, k) == 0:
@@ -127,7 +150,7 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     elif S.impact_map != 0:
         map_impact(S, w, k)
     else:
-        outcome = windowed_impact(S, w, k) if large else energetic_impact(S, w, k)
+        outcome = windowed_impact(S, w, k) if large else energetic_impact(S, w, k, seed)
         if outcome != FINISHED:
             return IMPACT_ENDLESS if outcome == ENDLESS else NOT_FINITE
     for i in range(3 * m):
@@ -136,12 +159,13 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
     add_response(S, w, k, S.impulse, S.y + S.n_q)
     for a in range(m):
         c = k[S.active + a]
-        w[S.event_head + 2] += w[S.stored + a] - w[S.returned + a]
-        w[S.event_head + 3] += w[S.rubbed + a]
+        contact = contact_at(S, w, k, c)
+        w[S.event_head + RESTITUTION_LOSS] += w[S.stored + a] - w[S.returned + a]
+        w[S.event_head + FRICTION_LOSS] += w[S.rubbed + a]
         for r in range(3):
             impulse = w[S.impulse + 3 * a + r]
-            w[S.event_impulse + 3 * c + r] = impulse
-            w[S.event_head + 1] -= impulse * w[S.prescribed_rate + 3 * c + r]
+            contact.event_impulse[r] = impulse
+            w[S.event_head + DRIVEN_WORK] -= impulse * contact.prescribed_rate[r]
         if k[S.oriented + c] == 1:
             unstretch_force(S, w, k, c, S.event_impulse + 3 * c)
     return RUNNING
@@ -149,28 +173,30 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int) -> int:
 
 @kernel("void(S, F, I, i8)")
 def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
-    rigid = k[S.normal_function + c] == 0
-    if k[S.touching + c] == 0 or (rigid and w[S.rate + 3 * c] > S.velocity_tolerance):
-        k[S.mode + c] = OPEN
+    contact = contact_at(S, w, k, c)
+    rigid = contact.normal_function == 0
+    if contact.touching == 0 or (rigid and contact.rate[0] > S.velocity_tolerance):
+        contact.mode = OPEN
         return
-    if k[S.mode + c] == OPEN:
+    if contact.mode == OPEN:
         begin_contact(S, w, k, c)
     speed = slip_speed(S, w, k, c)
-    k[S.mode + c] = SLIDE if speed > S.velocity_tolerance else STICK
+    contact.mode = SLIDE if speed > S.velocity_tolerance else STICK
     if speed > S.velocity_tolerance:
         for i in range(2):
-            w[S.direction + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
+            contact.direction[i] = contact.rate[1 + i] / speed
 
 
 @kernel("i8(S, F, I, i8)")
 def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return 1 if the normal force of a closed contact has gone together with that which fired."""
+    contact = contact_at(S, w, k, c)
     largest = 0.0
     for other in range(S.n_contacts):
         if k[S.mode + other] != OPEN and k[S.normal_function + other] == 0:
-            largest = max(largest, w[S.guard_first + 2 * other])
-    rigid = k[S.normal_function + c] == 0
-    return 1 if rigid and k[S.mode + c] != OPEN and w[S.guard + 2 * c] <= 1e-9 * largest else 0
+            largest = max(largest, w[S.guard_first + normal_guard(other)])
+    rigid = contact.normal_function == 0
+    return 1 if rigid and contact.mode != OPEN and w[S.guard + normal_guard(c)] <= 1e-9 * largest else 0
 
 
 @kernel("void(S, F, I, i8, i8)")
@@ -222,7 +248,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
     Return 2 where all is to be done again, some friction having another bound than it seemed.
     """
     free_acceleration(S, w, k)
-    push_given(S, w, k)
+    push_compliant(S, w, k)
     turned = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
@@ -234,10 +260,11 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
         accelerate(S, w, k)
         for a in range(S.n_active):
             c = k[S.active + a]
-            w[S.small_force_of + c] = small_force(S, w, k, a)
-            k[S.mode_agreed + c] = k[S.mode_tried + a]
+            contact = contact_at(S, w, k, c)
+            contact.small_force_of = small_force(S, w, k, a)
+            contact.mode_agreed = k[S.mode_tried + a]
             for i in range(2):
-                w[S.direction_agreed + 2 * c + i] = w[S.d + 2 * a + i]
+                contact.direction_agreed[i] = w[S.d + 2 * a + i]
             if k[S.at_rest + a] == 1 and k[S.mode_tried + a] != OPEN:
                 turned += turn_facing(S, w, k, c, w[S.f + 3 * a + 1])
     # friction that turned out to oppose the other way has another bound
@@ -249,19 +276,17 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
     """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
     for c in range(S.n_contacts):
         k[S.impacting + c] = 0
-    contact = -1
+    contact, seed = -1, 0.0
     for a in range(S.n_active):
         if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
             contact = k[S.active + a]
             k[S.impacting + contact] = 1
-            S.impact_seed = max(S.impact_seed, slip_speed(S, w, k, contact))
+            seed = max(seed, slip_speed(S, w, k, contact))
     if contact < 0:
         return NO_CONTACT_SOLUTION
     if S.policy == REFUSE:
         return PARADOX_REFUSED
-    status = collide(S, w, k, PAINLEVE, contact)
-    S.impact_seed = 0.0
-    return status
+    return int(collide(S, w, k, PAINLEVE, contact, seed))
 
 
 @kernel("i8(S, F, I)")
@@ -269,7 +294,8 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if one of several closed contacts slips so slowly that projecting the others may turn its slip."""
     closed = creeping = 0
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN and k[S.normal_function + c] == 0:
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN and contact.normal_function == 0:
             closed += 1
             if S.velocity_tolerance < slip_speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
                 creeping += 1
@@ -277,7 +303,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @room("i8(S, F, I, i8, i8)")
-def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     """Carry the system through an instant that ``contact`` makes one by ``cause``; return the status."""
     S.recorded = 0
     resting = projected = 0
@@ -286,10 +312,10 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     if cause == JAM:
         if S.policy == REFUSE:
             return PARADOX_REFUSED
-        status = collide(S, w, k, JAM, contact)
+        status = collide(S, w, k, JAM, contact, 0.0)
         if status != RUNNING:
             return status
-        approaching = S.approaching
+        approaching = _approaches(S, w, k)
     for _attempt in range(_ATTEMPTS):
         if interrupted(S, S.n_contacts) == 1:
             return SETTLE_ENDLESS
@@ -297,10 +323,10 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
             approaching = touch(S, w, k)
             continue
         if approaching == 1:
-            status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k))
+            status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k), 0.0)
             if status != RUNNING:
                 return status
-            approaching = S.approaching
+            approaching = _approaches(S, w, k)
             continue
         if S.recorded == 0 and projected == 0:
             remember(S, w, k)
@@ -321,7 +347,7 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
             status = _impact_without_collision(S, w, k)
             if status != RUNNING:
                 return status
-            approaching = S.approaching
+            approaching = _approaches(S, w, k)
             continue
         _adopt(S, w, k)
         if close_contacts(S, w, k) == 0:
@@ -339,12 +365,13 @@ def settle(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
 def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
     """Take over the modes and slip directions that the contact problem found."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] == OPEN and k[S.mode_agreed + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.mode == OPEN and contact.mode_agreed != OPEN:
             begin_contact(S, w, k, c)
-        k[S.mode + c] = k[S.mode_agreed + c]
-        if k[S.mode + c] == SLIDE:
+        contact.mode = contact.mode_agreed
+        if contact.mode == SLIDE:
             for i in range(2):
-                w[S.direction + 2 * c + i] = w[S.direction_agreed + 2 * c + i]
+                contact.direction[i] = contact.direction_agreed[i]
 
 
 @kernel("void(S, F, I, i8, i8)")

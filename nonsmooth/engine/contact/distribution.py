@@ -1,9 +1,10 @@
-"""Forces that are not unique, spread so that every contact keeps Coulomb's bound, the motion left as it is."""
+"""Forces that are not unique, distributed so that every contact keeps Coulomb's bound, the motion left as it is."""
 
 from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.contact.components import contact_of
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
@@ -50,7 +51,7 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
     square = 0.0
     for i in range(n):
         line = k[S.column + i]
-        a = line // 3
+        a = contact_of(line)
         if line == 3 * a + 1 and k[S.normal_held + a] == 0:
             square += _disc_excess(S, w, i, a)
         if line != 3 * a:
@@ -79,7 +80,7 @@ def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: in
     """Add the Hessian of the half square, block by block and times a factor, to the band at ``matrix``."""
     for i in range(n):
         line = k[S.column + i]
-        a = line // 3
+        a = contact_of(line)
         if line == 3 * a + 1 and k[S.normal_held + a] == 0:
             _add_disc_curve(S, w, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
         if line != 3 * a:
@@ -163,7 +164,7 @@ def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> i
 
 
 @room("i8(S, F, I, f8, f8)")
-def spread(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
+def distribute(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 
     ``f`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the

@@ -6,11 +6,11 @@ from nonsmooth.engine.bodies.compliance import begin_contact
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.delassus.islands import activate_group, group_members
-from nonsmooth.engine.events.record import record_event, remember
+from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 
 
 @kernel("i8(S, F, I)")
@@ -19,17 +19,18 @@ def _choose(S: Scalars, w: Floats, k: Integers) -> int:
     closing = 0
     S.h_first = 1e300
     for c in range(S.n_contacts):
-        k[S.closes + c] = 0
-        rate = w[S.rate + 3 * c]
-        if k[S.touching + c] == 0 or k[S.normal_function + c] != 0 or rate <= S.velocity_tolerance:
+        contact = contact_at(S, w, k, c)
+        contact.closes = 0
+        rate = contact.rate[0]
+        if contact.touching == 0 or contact.normal_function != 0 or rate <= S.velocity_tolerance:
             continue
-        approach = -(w[S.bias + 3 * c] + row(S, w, k, c, 0, S.du))
+        approach = -(contact.bias[0] + row(S, w, k, c, 0, S.du))
         if approach > 0.0:
             # the next step shall not fly over the touch-down that is due after 2 rate / approach
             S.h_first = min(S.h_first, 3.0 * rate / approach)
-        if approach > 0.0 and rate <= approach * w[S.contact_time + c] and closed_twin(S, w, k, c) < 0:
+        if approach > 0.0 and rate <= approach * contact.contact_time and closed_twin(S, w, k, c) < 0:
             closing += 1
-            k[S.closes + c] = 1
+            contact.closes = 1
     return closing
 
 
@@ -39,13 +40,14 @@ def _join(S: Scalars, w: Floats, k: Integers) -> int:
     touch(S, w, k)
     joining = 0
     for c in range(S.n_contacts):
-        rigid = k[S.normal_function + c] == 0
-        if rigid and k[S.touching + c] == 1 and k[S.member + c] == 0 and w[S.rate + 3 * c] < -S.velocity_tolerance:
+        contact = contact_at(S, w, k, c)
+        rigid = contact.normal_function == 0
+        if rigid and contact.touching == 1 and contact.member == 0 and contact.rate[0] < -S.velocity_tolerance:
             joining += 1
-            k[S.member + c] = 1
+            contact.member = 1
             if take_over(S, w, k, c) == 0:
                 begin_contact(S, w, k, c)
-                k[S.mode + c] = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
+                contact.mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
     return joining
 
 
@@ -53,8 +55,9 @@ def _join(S: Scalars, w: Floats, k: Integers) -> int:
 def _begin_modes(S: Scalars, w: Floats, k: Integers) -> None:
     """Give the marked contacts modes, by their slips."""
     for c in range(S.n_contacts):
-        if k[S.closes + c] == 1:
-            k[S.mode + c] = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
+        contact = contact_at(S, w, k, c)
+        if contact.closes == 1:
+            contact.mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
 
 
 @kernel("f8(S, F, I)")
@@ -65,7 +68,8 @@ def _shut(S: Scalars, w: Floats, k: Integers) -> float:
     """
     loss = 0.0
     for c in range(S.n_contacts):
-        k[S.member + c] = 1 if k[S.touching + c] == 1 and k[S.mode + c] != OPEN else 0
+        contact = contact_at(S, w, k, c)
+        contact.member = 1 if contact.touching == 1 and contact.mode != OPEN else 0
     for _round in range(S.n_contacts):
         group_members(S, w, k)
         for group in range(S.n_groups):
@@ -125,9 +129,9 @@ def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
 def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
     """Shut the marked contacts, book what it takes, and record it."""
     before = S.driven_work
-    w[S.event_head + 4] = _shut(S, w, k)
-    w[S.event_head + 1] = S.driven_work - before
-    S.closing_loss += w[S.event_head + 4]
+    w[S.event_head + CLOSING_LOSS] = _shut(S, w, k)
+    w[S.event_head + DRIVEN_WORK] = S.driven_work - before
+    S.closing_loss += w[S.event_head + CLOSING_LOSS]
     contact = -1
     for c in range(S.n_contacts):
         if k[S.closes + c] == 1:
@@ -139,15 +143,17 @@ def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
 def hand_over(S: Scalars, w: Floats, k: Integers) -> int:
     """Let contacts that approach take the place of closed ones where they are; return 1, or 0 where others collide."""
     for c in range(S.n_contacts):
-        rigid = k[S.normal_function + c] == 0
-        approaches = rigid and k[S.touching + c] == 1 and w[S.rate + 3 * c] < -S.velocity_tolerance
-        k[S.closes + c] = 1 if approaches else 0
+        contact = contact_at(S, w, k, c)
+        rigid = contact.normal_function == 0
+        approaches = rigid and contact.touching == 1 and contact.rate[0] < -S.velocity_tolerance
+        contact.closes = 1 if approaches else 0
         if approaches and closed_twin(S, w, k, c) < 0:
             return 0
     remember(S, w, k)
     for c in range(S.n_contacts):
-        if k[S.closes + c] == 1 and take_over(S, w, k, c) == 0:
+        contact = contact_at(S, w, k, c)
+        if contact.closes == 1 and take_over(S, w, k, c) == 0:
             # another one that approaches more has taken its twin's place
-            k[S.closes + c] = 0
+            contact.closes = 0
     _close(S, w, k, FEATURE_CHANGE)
     return 1

@@ -5,15 +5,24 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.anisotropy import turn_facing
-from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
+from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
-from nonsmooth.engine.bodies.listing import list_contacts, longest_step, overran_list
+from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, MOST_EVENTS, record_event, record_samples, remember
-from nonsmooth.engine.events.settle import settle
-from nonsmooth.engine.flow.clearance import bound_speeds, foresee
+from nonsmooth.engine.events.step_length import accepted_step, wanted_step
+from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.flow import right_hand_side, slope, try_step
+from nonsmooth.engine.flow.guard_numbers import (
+    contact_of,
+    first_end_guard,
+    first_own_guard,
+    friction_guard,
+    is_friction_guard,
+    normal_guard,
+)
 from nonsmooth.engine.flow.guards import arm_guards, keep_end, watch_features, write_guards
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (
@@ -23,7 +32,8 @@ from nonsmooth.engine.flow.projection import (
 )
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.impact.instant import is_jammed
-from nonsmooth.engine.memory.layout import FALL, GEOMETRY, PAST_END
+from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
+from nonsmooth.engine.memory.layout import FALL, LAST_STAGE
 from nonsmooth.engine.memory.modes import (
     DONE,
     EVENTS_ENDLESS,
@@ -47,13 +57,8 @@ from nonsmooth.engine.memory.modes import (
     STOPPED,
     TOUCH,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
-from nonsmooth.engine.numerics.runge_kutta import step_factor
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 
-_BEGINS = 10.0
-"""A compliant contact begins so many gap tolerances from its reach at most."""
-_FIRST_WAY = 1e-3
-"""Way that surfaces go in the first step of one, in units of the smaller body."""
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
 _DRIFT = 0.3
@@ -67,105 +72,26 @@ _NO_STEP = 1e-3
 def _orient_slips(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the present slip directions as those of the step that begins."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] == SLIDE:
-            v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE:
+            v1, v2 = contact.rate_end[1], contact.rate_end[2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
             if speed > S.velocity_tolerance:
-                w[S.direction + 2 * c] = v1 / speed
-                w[S.direction + 2 * c + 1] = v2 / speed
-
-
-@kernel("f8(S, F, I, i8)")
-def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
-    """Return how long the first step of a closed contact may be: a compliant one that begins has no force as yet.
-
-    Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
-    """
-    if k[S.normal_function + c] == 0 or w[S.guard_end + 2 * c] > _BEGINS * S.gap_tolerance:
-        return 1e300
-    rate = S.rate_end + 3 * c
-    speed = math.sqrt(w[rate] * w[rate] + w[rate + 1] * w[rate + 1] + w[rate + 2] * w[rate + 2])
-    return float(_FIRST_WAY * w[S.size + c] / max(speed, S.velocity_tolerance))
-
-
-@kernel("f8(S, I)")
-def _wanted_step(S: Scalars, k: Integers) -> float:
-    """Return how long the next step is if nothing cuts it short; it is never longer."""
-    for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            return float(min(S.h_closed, S.h_max))
-    return float(min(S.h_free, S.h_max))
-
-
-@kernel("i8(S, F, I)")
-def _accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
-    """Find a step that meets the tolerance, in ``h``; return the status."""
-    closed = 0
-    for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            closed = 1
-            if S.fresh == 0:
-                S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
-    wanted = _wanted_step(S, k)
-    h = min(wanted, S.h_listed, S.h_sampled, S.h_valid)
-    if S.fresh == 0:
-        h = min(h, S.h_first)
-        foresee(S, w, k, h)
-    for _attempt in range(200):
-        if S.stopped == 1:
-            return NOT_FINITE
-        error = try_step(S, w, k, h)
-        if error <= 1.0 and S.singular >= 0:
-            # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
-            h *= 0.5
-            wanted = 0.0
-            if h < S.time_tolerance:
-                return STEP_TOO_SMALL
-            continue
-        if error <= 1.0 and S.n_units > 0:
-            evaluate_driven_bodies(S, w, k, S.t + h, S.y_new)
-            if overran_list(S, w, k, h) == 1:
-                h *= 0.5
-                if h < S.time_tolerance:
-                    return STEP_TOO_SMALL
-                continue
-        if error <= 1.0:
-            S.h = h
-            S.step_error = error
-            # the touch-down that was due is behind it, or is an event of it
-            S.h_first = 1e300
-            # what cut a step short says nothing of the next one
-            following = h * step_factor(error)
-            if h < wanted:
-                following = max(following, wanted)
-            if closed == 1:
-                S.h_closed = following
-            else:
-                S.h_free = following
-            return RUNNING
-        S.rejected += 1
-        wanted = 0.0
-        if not error < 1e300:
-            if h < S.time_tolerance:
-                return NOT_FINITE
-            h *= 0.1
-        else:
-            h *= step_factor(error)
-        if h < S.time_tolerance:
-            return STEP_TOO_SMALL
-    return STEP_TOO_SMALL
+                contact.direction[0] = v1 / speed
+                contact.direction[1] = v2 / speed
 
 
 @kernel("i8(S, F, I)")
 def _drifted(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
-            rate, gap = abs(w[S.rate_end + 3 * c]), abs(w[S.gap_end + c])
-            if k[S.normal_function + c] != 0:
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN:
+            rate, gap = abs(contact.rate_end[0]), abs(contact.gap_end)
+            if contact.normal_function != 0:
                 rate = gap = 0.0
-            if k[S.mode + c] == STICK:
-                rate += abs(w[S.rate_end + 3 * c + 1]) + abs(w[S.rate_end + 3 * c + 2])
+            if contact.mode == STICK:
+                rate += abs(contact.rate_end[1]) + abs(contact.rate_end[2])
             if rate > _DRIFT * S.velocity_tolerance or gap > _DRIFT * S.gap_tolerance:
                 return 1
     return 0
@@ -230,28 +156,30 @@ def _closing_cause(S: Scalars, k: Integers, c: int) -> int:
     return IMPACT if k[S.normal_function + c] == 0 else TOUCH
 
 
-@kernel("i8(S, F, I)")
-def _cause(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return what the guard that fired means."""
-    c = S.trigger // 2
-    if S.trigger % 2 == 0:
-        return _closing_cause(S, k, c) if k[S.mode + c] == OPEN else LIFT_OFF
-    if k[S.mode + c] != STICK:
+@kernel("i8(S, F, I, i8)")
+def _cause(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
+    """Return what it means that a guard of a contact has fired."""
+    c = contact_of(guard)
+    contact = contact_at(S, w, k, c)
+    if is_friction_guard(guard) == 0:
+        return _closing_cause(S, k, c) if contact.mode == OPEN else LIFT_OFF
+    if contact.mode != STICK:
         return SLIP_TO_STICK
     # the static bound vanishes with the normal force
-    return LIFT_OFF if w[S.guard + 2 * c] <= 1e-9 * w[S.guard_first + 2 * c] else STICK_TO_SLIP
+    return LIFT_OFF if w[S.guard + normal_guard(c)] <= 1e-9 * w[S.guard_first + normal_guard(c)] else STICK_TO_SLIP
 
 
 @kernel("i8(S, F, I, i8, i8)")
-def _settle_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
-    """Settle the instant of an event; return the status."""
+def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+    """Carry out an event: count it, and update modes and velocities at its instant; return the status."""
+    S.fresh = 0
     if S.t - S.last_event_t > S.time_tolerance:
         S.repeated = 0
     S.repeated += 1
     S.last_event_t = S.t
     if S.repeated > _EVENTS_AT_ONCE + S.n_contacts:
         return EVENTS_ENDLESS
-    return settle(S, w, k, cause, contact)
+    return update_at_event(S, w, k, cause, contact)
 
 
 @kernel("i8(S, F, I)")
@@ -261,10 +189,11 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
     So close to rest the direction of the slip is stiff, and what is left of it below the tolerance.
     """
     for c in range(S.n_contacts):
-        if k[S.mode + c] == SLIDE and k[S.traction_function + c] == 0:
-            v1, v2 = w[S.rate_end + 3 * c + 1], w[S.rate_end + 3 * c + 2]
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE and contact.traction_function == 0:
+            v1, v2 = contact.rate_end[1], contact.rate_end[2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
-            if speed <= S.velocity_tolerance and speed < w[S.guard_first + 2 * c + 1]:
+            if speed <= S.velocity_tolerance and speed < w[S.guard_first + friction_guard(c)]:
                 return c
     return -1
 
@@ -287,121 +216,159 @@ def _singular(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I)")
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
-    if S.fresh == 0:
-        group_closed(S, w, k)
-        S.choosing = 1
-        slope(S, w, k, S.t, S.y, S.slopes)
-        S.choosing = 0
-        close_account(S, w, k)
-        watch_features(S, w, k)
-        write_guards(S, w, k, S.t, S.y, 1)
-        keep_end(S, w, k)
-        bound_speeds(S, w, k)
-    else:
-        watch_features(S, w, k)
-        for i in range(S.n_y):
-            w[S.slopes + i] = w[S.slopes + 6 * S.n_y + i]
-    S.h_listed = 1e300
-    if S.n_units > 0:
-        S.h_listed = longest_step(S, w, k)
-        if S.h_listed == 0.0:
-            return int(list_contacts(S, w, k))
+    _evaluate_start(S, w, k)
+    S.h_listed = longest_step(S, w, k) if S.n_units > 0 else 1e300
+    if S.h_listed == 0.0:
+        return int(list_contacts(S, w, k))
     check_gaps(S, w, k)
     if S.failed != RUNNING:
         return int(S.failed)
-    for c in range(S.n_contacts):
-        w[S.gap_rate_first + c] = w[S.gap_rate_end + c]
-        w[S.past_first + c], w[S.speed_first + c] = w[S.past_end + c], w[S.speed_end + c]
-        for r in range(FALL):
-            w[S.fall_first + FALL * c + r] = w[S.fall_end + FALL * c + r] if S.fresh == 1 else -1.0
-        for r in range(3):
-            w[S.arm_first + 3 * c + r] = w[S.arm_end + 3 * c + r]
-    # a gap that closes exactly where the last step ended is an event of that step
-    for c in range(S.n_contacts):
-        arrived = w[S.guard_end + 2 * c] <= S.gap_tolerance and w[S.gap_rate_end + c] < -S.velocity_tolerance
-        if k[S.mode + c] == OPEN and arrived:
-            S.fresh = 0
-            return _settle_event(S, w, k, _closing_cause(S, k, c), c)
-        # what put the contacts on their constraints may have put one past its end
-        if k[S.mode + c] != OPEN and w[S.guard_end + 2 * S.n_contacts + S.n_own_guards + c] < 0.0:
-            S.fresh = 0
-            return _settle_event(S, w, k, FEATURE_END, c)
+    _keep_start(S, w, k)
+    contact = _due_at_start(S, w, k)
+    if contact >= 0:
+        cause = _closing_cause(S, k, contact) if k[S.mode + contact] == OPEN else FEATURE_END
+        return _carry_out(S, w, k, cause, contact)
     _orient_slips(S, w, k)
     arm_guards(S, w, k)
-    status = _accepted_step(S, w, k)
-    if status == STEP_TOO_SMALL:
-        contact = _singular(S, w, k)
-        if contact >= 0:
-            S.fresh = 0
-            return _settle_event(S, w, k, JAM, contact)
+    status = accepted_step(S, w, k)
     if status != RUNNING:
-        return _up_to_end(S, status)
+        return _without_step(S, w, k, status)
     S.steps += 1
-    h = S.h
-    high = first_crossing(S, w, k, h)
-    for i in range(2 * S.n_contacts, 2 * S.n_contacts + S.n_own_guards):
+    high = first_crossing(S, w, k, S.h)
+    for i in range(first_own_guard(S), first_end_guard(S)):
         if not abs(w[S.guard_end + i]) < 1e300:
             return _up_to_end(S, NOT_FINITE)
-    if high == 0.0:
-        if h > S.t_end - S.t:
-            return _end_within(S, w, k)
-        _commit(S, w, k, h)
-        contact = _stopping(S, w, k)
-        if contact < 0:
-            S.fresh = 1
-            return RUNNING
-        S.fresh = 0
-        return _settle_event(S, w, k, SLIP_TO_STICK, contact)
+    if high > 0.0:
+        return _step_to_event(S, w, k, high)
+    return _whole_step(S, w, k)
+
+
+@kernel("void(S, F, I)")
+def _evaluate_start(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write slope and guards where the step begins; behind a step without an event they are at hand."""
+    if S.fresh == 1:
+        watch_features(S, w, k)
+        for i in range(S.n_y):
+            w[S.slopes + i] = w[S.slopes + LAST_STAGE * S.n_y + i]
+        return
+    group_closed(S, w, k)
+    slope(S, w, k, S.t, S.y, S.slopes, 1)
+    close_account(S, w, k)
+    watch_features(S, w, k)
+    write_guards(S, w, k, S.t, S.y, 1)
+    keep_end(S, w, k)
+    bound_speeds(S, w, k)
+
+
+@kernel("void(S, F, I)")
+def _keep_start(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take what is known of the gaps at the end of the step before as what they start from."""
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        contact.gap_rate_first = contact.gap_rate_end
+        contact.past_first, contact.speed_first = contact.past_end, contact.speed_end
+        for r in range(FALL):
+            contact.fall_first[r] = contact.fall_end[r] if S.fresh == 1 else -1.0
+        for r in range(3):
+            contact.arm_first[r] = contact.arm_end[r]
+
+
+@kernel("i8(S, F, I)")
+def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return a contact of which an event is due before any step, or -1."""
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        # a gap that closes exactly where the last step ended is an event of that step
+        arrived = w[S.guard_end + normal_guard(c)] <= S.gap_tolerance and contact.gap_rate_end < -S.velocity_tolerance
+        if contact.mode == OPEN and arrived:
+            return c
+        # what put the contacts on their constraints may have put one past its end
+        if contact.mode != OPEN and w[S.guard_end + first_end_guard(S) + c] < 0.0:
+            return c
+    return -1
+
+
+@kernel("i8(S, F, I, i8)")
+def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
+    """Say what follows where no step was accepted, for the reason ``status``; return the status."""
+    contact = _singular(S, w, k) if status == STEP_TOO_SMALL else -1
+    return _carry_out(S, w, k, JAM, contact) if contact >= 0 else _up_to_end(S, status)
+
+
+@kernel("i8(S, F, I)")
+def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
+    """Take over a step without an event, unless a slip has come to rest in it; return the status."""
+    if S.h > S.t_end - S.t:
+        return _end_within(S, w, k)
+    _commit(S, w, k, S.h)
+    contact = _stopping(S, w, k)
+    if contact >= 0:
+        return _carry_out(S, w, k, SLIP_TO_STICK, contact)
+    S.fresh = 1
+    return RUNNING
+
+
+@kernel("i8(S, F, I, f8)")
+def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
+    """Locate the first event before the fraction ``high`` of the step and carry it out; return the status."""
     S.fresh = 0
-    h = locate(S, w, k, h, high)
+    h = locate(S, w, k, S.h, high)
     if h < 0.0:
-        if S.h < _NO_STEP * S.time_tolerance:
-            return STEP_TOO_SMALL
-        if S.n_grouped > 0:
-            S.h_closed = 0.25 * S.h
-        else:
-            S.h_free = 0.25 * S.h
-        return RUNNING
+        return _shorten(S)
     if h > S.t_end - S.t:
         return _end_within(S, w, k)
-    ends = 2 * S.n_contacts + S.n_own_guards
-    if S.trigger >= ends:
-        contact = S.trigger - ends
+    return _event(S, w, k, h, S.trigger)
+
+
+@kernel("i8(S)")
+def _shorten(S: Scalars) -> int:
+    """Ask for a quarter of the step, in which no event could be located; return the status."""
+    if S.h < _NO_STEP * S.time_tolerance:
+        return STEP_TOO_SMALL
+    if S.n_grouped > 0:
+        S.h_closed = 0.25 * S.h
+    else:
+        S.h_free = 0.25 * S.h
+    return RUNNING
+
+
+@kernel("i8(S, F, I, f8, i8)")
+def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
+    """Take over the step of ``h`` at whose end a guard fires, and carry out its event; return the status."""
+    if guard >= first_end_guard(S):
+        contact = guard - first_end_guard(S)
         changed = w[S.geometry + GEOMETRY * contact + PAST_END] <= S.gap_tolerance
         _commit(S, w, k, h)
         if changed:
             S.feature_t = S.t
-        return _settle_event(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, contact)
-    if S.trigger >= 2 * S.n_contacts:
+        return _carry_out(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, contact)
+    if guard >= first_own_guard(S):
         _commit(S, w, k, h)
-        return _own_event(S, w, k, S.trigger - 2 * S.n_contacts)
-    cause = _cause(S, w, k)
-    contact = S.trigger // 2
+        return _own_event(S, w, k, guard - first_own_guard(S))
+    cause, contact = _cause(S, w, k, guard), contact_of(guard)
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, contact)
     _commit(S, w, k, h)
-    if k[S.tied + contact] == 1 and _shares_hold(S, w, k, contact) == 1:
+    if k[S.tied + contact] == 1 and _null_space_forces_hold(S, w, k, guard) == 1:
         return RUNNING
-    return _settle_event(S, w, k, cause, contact)
+    return _carry_out(S, w, k, cause, contact)
 
 
 @kernel("i8(S, F, I, i8)")
-def _shares_hold(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
+def _null_space_forces_hold(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
     """Choose the forces that are not unique anew; return 1 if all closed contacts can keep their bounds.
 
-    The guard that fired must be that of a force.  A second time within the time tolerance there is no choice: then all
-    forces vanish.
+    The ``guard`` that fired must be that of a force.  A second time within the time tolerance there is no choice: then
+    all forces vanish.
     """
-    if k[S.mode + contact] == OPEN or (S.trigger % 2 == 1 and k[S.holds + contact] == 0):
+    contact = contact_of(guard)
+    if k[S.mode + contact] == OPEN or (is_friction_guard(guard) == 1 and k[S.holds + contact] == 0):
         return 0
     if S.t - S.chosen_t <= S.time_tolerance:
         return 0
     S.chosen_t = S.t
     group_closed(S, w, k)
-    S.shares_hold, S.choosing = 1, 1
-    right_hand_side(S, w, k, S.t, S.y)
-    S.choosing = 0
-    return 1 if S.shares_hold == 1 else 0
+    return int(right_hand_side(S, w, k, S.t, S.y, 1))
 
 
 @kernel("i8(S, F, I, i8)")
@@ -416,8 +383,8 @@ def _own_event(S: Scalars, w: Floats, k: Integers, number: int) -> int:
 @kernel("void(S, F, I, i8)")
 def _break_direction(S: Scalars, w: Floats, k: Integers, contact: int) -> None:
     """Let a contact that breaks away slip against the friction that held it, that of least norm if it is not unique."""
-    t1 = w[S.force + 3 * contact + 1] - w[S.share + 3 * contact + 1] * k[S.tied + contact]
-    t2 = w[S.force + 3 * contact + 2] - w[S.share + 3 * contact + 2] * k[S.tied + contact]
+    t1 = w[S.force + 3 * contact + 1] - w[S.null_space_force + 3 * contact + 1] * k[S.tied + contact]
+    t2 = w[S.force + 3 * contact + 2] - w[S.null_space_force + 3 * contact + 2] * k[S.tied + contact]
     norm = math.sqrt(t1 * t1 + t2 * t2)
     if norm > 0.0:
         turn_facing(S, w, k, contact, t1)
@@ -435,7 +402,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
         S.started = 1
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
         evaluate_bodies(S, w, k, S.t, S.y)
-        status = settle(S, w, k, START, -1)
+        status = update_at_event(S, w, k, START, -1)
         if S.crowded == 1:
             return NO_SLOT
         if status != RUNNING:
@@ -448,7 +415,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
-        if wary == 1 and _wanted_step(S, k) > S.t_end - S.t:
+        if wary == 1 and wanted_step(S, k) > S.t_end - S.t:
             return PAUSED
         if S.t_end - S.t <= S.time_tolerance:
             return _arrived(S, w, k)

@@ -1,0 +1,118 @@
+"""How long a step is: as the tolerance allows, and no longer than what was looked at holds."""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
+from nonsmooth.engine.bodies.listing import overran_list
+from nonsmooth.engine.flow.clearance import foresee
+from nonsmooth.engine.flow.flow import try_step
+from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.numerics.runge_kutta import step_factor
+
+_BEGINS = 10.0
+"""A compliant contact begins so many gap tolerances from its reach at most."""
+_FIRST_WAY = 1e-3
+"""Way that surfaces go in the first step of one, in units of the smaller body."""
+_ATTEMPTS = 200
+"""Lengths that are tried of one step."""
+
+
+@kernel("f8(S, F, I, i8)")
+def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return how long the first step of a closed contact may be: a compliant one that begins has no force as yet.
+
+    Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
+    """
+    contact = contact_at(S, w, k, c)
+    if contact.normal_function == 0 or w[S.guard_end + normal_guard(c)] > _BEGINS * S.gap_tolerance:
+        return 1e300
+    rate = S.rate_end + 3 * c
+    speed = math.sqrt(w[rate] * w[rate] + w[rate + 1] * w[rate + 1] + w[rate + 2] * w[rate + 2])
+    return float(_FIRST_WAY * contact.size / max(speed, S.velocity_tolerance))
+
+
+@kernel("i8(S, I)")
+def _is_held(S: Scalars, k: Integers) -> int:
+    """Return 1 if some contact is closed."""
+    for c in range(S.n_contacts):
+        if k[S.mode + c] != OPEN:
+            return 1
+    return 0
+
+
+@kernel("f8(S, I)")
+def wanted_step(S: Scalars, k: Integers) -> float:
+    """Return how long the next step is if nothing cuts it short; it is never longer."""
+    return float(min(S.h_closed if _is_held(S, k) == 1 else S.h_free, S.h_max))
+
+
+@kernel("f8(S, F, I, f8)")
+def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
+    """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
+    h = min(wanted, S.h_listed, S.h_sampled, S.h_valid)
+    if S.fresh == 0:
+        for c in range(S.n_contacts):
+            contact = contact_at(S, w, k, c)
+            if contact.mode != OPEN:
+                S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
+        h = min(h, S.h_first)
+        foresee(S, w, k, h)
+    return float(h)
+
+
+@kernel("i8(S, F, I, f8)")
+def _overran(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Return 1 if the step of ``h`` leads farther than the list of contacts holds."""
+    if S.n_units == 0:
+        return 0
+    evaluate_driven_bodies(S, w, k, S.t + h, S.y_new)
+    return overran_list(S, w, k, h)
+
+
+@kernel("void(S, I, f8, f8, f8)")
+def _remember_step(S: Scalars, k: Integers, h: float, error: float, wanted: float) -> None:
+    """Keep the accepted step of ``h`` and how long the next one may be."""
+    S.h, S.step_error = h, error
+    # the touch-down that was due is behind it, or is an event of it
+    S.h_first = 1e300
+    # what cut a step short says nothing of the next one
+    following = h * step_factor(error)
+    if h < wanted:
+        following = max(following, wanted)
+    if _is_held(S, k) == 1:
+        S.h_closed = following
+    else:
+        S.h_free = following
+
+
+@kernel("i8(S, F, I)")
+def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
+    """Find a step that meets the tolerance, in ``h``; return the status."""
+    wanted = wanted_step(S, k)
+    h = _first_attempt(S, w, k, wanted)
+    for _attempt in range(_ATTEMPTS):
+        if S.stopped == 1:
+            return NOT_FINITE
+        error = try_step(S, w, k, h)
+        if error <= 1.0 and S.singular >= 0:
+            # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
+            h *= 0.5
+            wanted = 0.0
+        elif error <= 1.0 and _overran(S, w, k, h) == 1:
+            h *= 0.5
+        elif error <= 1.0:
+            _remember_step(S, k, h, error, wanted)
+            return RUNNING
+        else:
+            S.rejected += 1
+            wanted = 0.0
+            if not error < 1e300 and h < S.time_tolerance:
+                return NOT_FINITE
+            h *= step_factor(error) if error < 1e300 else 0.1
+        if h < S.time_tolerance:
+            return STEP_TOO_SMALL
+    return STEP_TOO_SMALL
