@@ -140,6 +140,7 @@ def _function(equations: Equations, name: str, lines: list[str]) -> Callable[...
     parts = equations.parts()
     names = sorted({own for part in parts for own in own_names(part.function, part.role)})
     scope: dict[str, Any] = {
+        "__name__": __name__,
         "at": at,
         "clear": clear,
         "multiply": multiply,

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.binding.compile import bind, vector_place
-from nonsmooth.engine.native.kernel import PLAIN, call_body, call_pair
+from nonsmooth.binding.compile import bind, caller, vector_place
 from nonsmooth.parameters import Value
 
 Vector = NDArray[np.float64]
@@ -29,15 +26,7 @@ def body_caller(
         If the function asks for a parameter that nobody gives.
     """
     address, heap = bind(function, "body", values, owner)
-    numbers = np.array([*heap, 0.0])
-    if PLAIN:
-        return lambda t, q, u, out: call_body(address, t, q, u, numbers, out)
-    native: Any = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.c_void_p] * 4)(address)
-
-    def call(t: float, q: Vector, u: Vector, out: Vector) -> None:
-        native(t, q.ctypes.data, u.ctypes.data, numbers.ctypes.data, out.ctypes.data)
-
-    return call
+    return caller("body", address, np.array([*heap, 0.0]))
 
 
 def pair_caller(
@@ -78,12 +67,4 @@ def _pair_caller(
     """Return the call, and the numbers of its parameters."""
     address, heap = bind(function, "pair", values, owner)
     numbers = np.array([*heap, 0.0])
-    if PLAIN:
-        return lambda a, b, out: call_pair(address, a, b, numbers, out), numbers
-    native: Any = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address)
-    heap_address = numbers.ctypes.data
-
-    def call(a: Vector, b: Vector, out: Vector, _kept: Vector = numbers) -> None:
-        native(a.ctypes.data, b.ctypes.data, heap_address, out.ctypes.data)
-
-    return call, numbers
+    return caller("pair", address, numbers), numbers

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import dis
 import functools
 import inspect
@@ -12,58 +11,17 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.binding import interpreted
 from nonsmooth.binding.fingerprint import fingerprint
 from nonsmooth.binding.refusal import Refusal, refusal
 from nonsmooth.binding.source import described, name_of, place_of
-from nonsmooth.engine.native.kernel import PLAIN, address_of, at, call_scalar, jit
+from nonsmooth.engine.native.forms import FORMS, Form
+from nonsmooth.engine.native.kernel import PLAIN, address_of, at, calls, jit
 from nonsmooth.errors import RunsInPython, UnknownName
 from nonsmooth.parameters import Table, Value
 
-ROLES = {
-    "scalar": ("x",),
-    "compliance": ("indentation", "rate", "closing_rate"),
-    "traction": ("normal_force", "motion", "state", "out"),
-    "rates": ("speed", "state", "out"),
-    "guard": ("t", "q", "u"),
-    "body": ("t", "q", "u", "out"),
-    "load": ("t", "a", "b", "out"),
-    "pair": ("a", "b", "out"),
-    "map": ("n", "delassus", "rates", "out"),
-    "support": ("direction", "out"),
-}
-"""What the engine passes to a function of each form, before the function's own parameters."""
-
-_CALLS = {
-    "scalar": ("x, p", "v = float(law(x{unpacked}))", "v = nan"),
-    "compliance": ("x, y, z, p", "v = float(law(x, y, z{unpacked}))", "v = nan"),
-    "traction": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
-    "rates": ("t, a, b, p, out", "law(t, b, out{unpacked})", "out[0] = nan"),
-    "guard": ("t, q, u, p", "return float(law(t, q, u{unpacked}))", "return nan"),
-    "body": ("t, q, u, p, out", "law(t, q, u, out{unpacked})", "out[0] = nan"),
-    "load": ("t, a, b, p, out", "law(t, a, b, out{unpacked})", "out[0] = nan"),
-    "pair": ("a, b, p, out", "law(a, b, out{unpacked})", "out[0] = nan"),
-    "map": ("n, delassus, rates, p, out", "law(n, delassus, rates, out{unpacked})", "out[0] = nan"),
-    "support": ("a, p, out", "law(a, out{unpacked})", "out[0] = nan"),
-}
-"""What the engine calls with, the call of the function, and what stands for an exception."""
-_ENDINGS = {
-    "scalar": " if v - v != 0.0 and x - x == 0.0: p[0] = x\n return v\n",
-    "compliance": (" if v - v != 0.0 and x - x + y - y + z - z == 0.0: p[0], p[1], p[2] = x, y, z\n return v\n"),
-    "traction": (
-        " v = out[0] + out[1] + out[2] + out[3] + out[4]\n"
-        " if v - v != 0.0:\n"
-        "  s = t + a[0] + a[1] + a[2] + a[3] + a[4]\n"
-        "  if s - s == 0.0:\n"
-        "   p[0] = t\n"
-        "   for i in range(5): p[1 + i] = a[i]\n"
-    ),
-    "rates": " if out[0] - out[0] != 0.0 and t - t == 0.0: p[0] = t\n",
-}
-"""What follows the call of a law: the numbers for which it has no value, before its parameters, for messages."""
-RECORDED = {"scalar": 1, "compliance": 3, "traction": 6, "rates": 1}
-"""How many numbers that are; none for other forms."""
 _SHIM = "def shim({arguments}):\n {call}\n{ending}"
 _GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
 """A compiled function cannot raise into the engine: an exception becomes a number that is not finite.
@@ -75,12 +33,12 @@ _PYTHON_SHIM = """def shim({arguments}):
  except (Exception, SystemExit) as error:
   note(error)
   {failure}
-"""
-_CALLED_SHIM = """ except KeyboardInterrupt:
+{interruption}{ending}"""
+_INTERRUPTION = """ except KeyboardInterrupt:
   if not hold(): return shim({arguments})
   {failure}
 """
-"""Behind the lines above, where the engine is compiled and an interruption cannot pass it."""
+"""Where the engine is compiled an interruption cannot pass it."""
 
 
 class _Entry(NamedTuple):
@@ -94,7 +52,7 @@ class _Entry(NamedTuple):
 @functools.cache
 def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
     """Return the names of a function's own parameters, in order."""
-    return tuple(inspect.signature(function).parameters)[len(ROLES[form]) :]
+    return tuple(inspect.signature(function).parameters)[len(FORMS[form].roles) :]
 
 
 def bind(
@@ -107,9 +65,9 @@ def bind(
     Parameters
     ----------
     function : callable
-        A plain function whose first arguments are those of ``ROLES[form]``.
+        A plain function whose first arguments are the roles of the form.
     form : str
-        One of ``ROLES``.
+        One of :data:`nonsmooth.engine.native.forms.FORMS`.
     values : mapping of str to float, tuple of float or Table
         The parameters that the law's object and its surroundings offer; the function gets tuples and tables as heaps.
     owner : str
@@ -119,7 +77,7 @@ def bind(
     -------
     tuple of int and tuple of float
         The address, and what the function's parameters need on the heap: places for numbers that it has no value
-        for (``RECORDED``); one number for each parameter, in the order of the signature, then the tuples; the number
+        for (``recorded``); one number for each parameter, in the order of the signature, then the tuples; the number
         of a tuple says where it begins.
 
     Raises
@@ -132,7 +90,7 @@ def bind(
         if name not in values:
             raise UnknownName(f"{owner}: {described(function)}, asks for a parameter whose", name, values)
     vectors = _vectors(values, names)
-    first = RECORDED.get(form, 0)
+    first = FORMS[form].n_recorded
     heap: list[float] = [math.nan] * first + [0.0] * len(names)
     for i, name in enumerate(names, start=first):
         value = values[name]
@@ -147,7 +105,7 @@ def bind(
     entry = _entry(function, form, vectors)
     if entry.refusal is not None and entry.shim is not None and entry.address not in _warned:
         _warned.add(entry.address)
-        _warn(function, owner, entry.refusal, interpreted.cost(entry.shim, tuple(heap)))
+        _warn(function, owner, entry.refusal, interpreted.cost(entry.shim, form, tuple(heap)))
     return entry.address, tuple(heap)
 
 
@@ -164,9 +122,9 @@ def bind_in_python(
     function: Callable[..., Any], form: str, owner: str, method: Callable[..., Any], why: Refusal
 ) -> tuple[int, tuple[float, ...]]:
     """Return what :func:`bind` does for a function without parameters, which calls a method that cannot be compiled."""
-    shim = _made((_PYTHON_SHIM + _CALLED_SHIM).format(**_parts(form, ())), _scope_in_python(function))
-    address = interpreted.address(shim)
-    _warn(method, owner, why, interpreted.cost(shim, ()))
+    shim = _shim_in_python(function, form, ())
+    address = interpreted.address(shim, form)
+    _warn(method, owner, why, interpreted.cost(shim, form, ()))
     return address, ()
 
 
@@ -177,7 +135,7 @@ def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float],
 
 def parameter_place(function: Callable[..., Any], form: str, name: str) -> int:
     """Return where the number of a parameter stands in what :func:`bind` wants on the heap."""
-    return RECORDED.get(form, 0) + parameter_names(function, form).index(name)
+    return FORMS[form].n_recorded + parameter_names(function, form).index(name)
 
 
 _warned: set[int] = set()
@@ -196,27 +154,53 @@ def _warn(function: Callable[..., Any], owner: str, why: Refusal, cost: str) -> 
 
 @functools.cache
 def _entry(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> _Entry:
-    parts = _parts(form, vectors)
-    ending = _ENDINGS.get(form, "")
     if PLAIN:
-        shim = _made(_PYTHON_SHIM.format(**parts) + ending, _scope_in_python(function))
-        return _Entry(address_of(shim, form, ""))
-    text = (_GUARDED_SHIM if _may_raise(function) else _SHIM).format(**parts, ending=ending)
+        return _Entry(address_of(_shim_in_python(function, form, vectors), form, ""))
+    text = (_GUARDED_SHIM if _may_raise(function) else _SHIM).format(**_parts(form, vectors))
     try:
         shim = _made(text, {"law": jit(function), "at": at})
         return _Entry(address_of(shim, form, fingerprint(function, form + text)))
     except Exception as error:  # the compiler's errors have no base of their own
-        shim = _made((_PYTHON_SHIM + _CALLED_SHIM).format(**parts) + ending, _scope_in_python(function))
-        return _Entry(interpreted.address(shim), refusal(function, error), shim)
+        shim = _shim_in_python(function, form, vectors)
+        return _Entry(interpreted.address(shim, form), refusal(function, error), shim)
+
+
+def _shim_in_python(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> Callable[..., Any]:
+    parts = _parts(form, vectors)
+    scope = {
+        "law": interpreted.in_python(function, interpreted.move),
+        "at": interpreted.move,
+        "note": functools.partial(interpreted.note, function),
+        "hold": interpreted.hold,
+    }
+    return _made(_PYTHON_SHIM.format(**parts, interruption="" if PLAIN else _INTERRUPTION.format(**parts)), scope)
 
 
 def _parts(form: str, vectors: tuple[bool, ...]) -> dict[str, str]:
     """Return the parts of a shim: what it takes, how it calls the function, what stands for an exception."""
+    its = FORMS[form]
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
-    unpacked = "".join(", " + text.format(i) for i, text in enumerate(items, start=RECORDED.get(form, 0)))
-    arguments, call, failure = _CALLS[form]
-    return {"arguments": arguments, "call": call.format(unpacked=unpacked), "failure": failure}
+    unpacked = [text.format(i) for i, text in enumerate(items, start=its.n_recorded)]
+    call = f"law({', '.join([*its.roles, *unpacked])})"
+    return {
+        "arguments": ", ".join(its.arguments),
+        "call": f"v = float({call})" if its.returns else call,
+        "failure": "v = nan" if its.returns else "out[0] = nan",
+        "ending": _record(its) + (" return v\n" if its.returns else ""),
+    }
+
+
+def _record(form: Form) -> str:
+    """Return lines that keep the numbers for which a law has no finite value, before its parameters, for messages."""
+    if not form.recorded:
+        return ""
+    value = "" if form.returns else f" v = {' + '.join(f'out[{i}]' for i in range(form.watched))}\n"
+    numbers = [
+        f"{name}[{i}]" if form.given[name] == "F" else name for name, n in form.recorded.items() for i in range(n)
+    ]
+    stores = "".join(f"   p[{i}] = {number}\n" for i, number in enumerate(numbers))
+    return f"{value} if v - v != 0.0:\n  s = {' + '.join(numbers)}\n  if s - s == 0.0:\n{stores}"
 
 
 def in_python(
@@ -228,7 +212,7 @@ def in_python(
     """
     vectors = _vectors(values, parameter_names(function, form))
     scope = {"law": interpreted.in_python(function, move), "at": move}
-    return _made(_SHIM.format(**_parts(form, vectors), ending=""), scope)
+    return _made(_SHIM.format(**_parts(form, vectors) | {"ending": ""}), scope)
 
 
 def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
@@ -236,15 +220,6 @@ def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
     exec(text, scope)  # the shim's text is ours, never the user's
     shim: Callable[..., Any] = scope["shim"]
     return shim
-
-
-def _scope_in_python(function: Callable[..., Any]) -> dict[str, Any]:
-    return {
-        "law": interpreted.in_python(function, interpreted.move),
-        "at": interpreted.move,
-        "note": functools.partial(interpreted.note, function),
-        "hold": interpreted.hold,
-    }
 
 
 _RAISING = ("RAISE_VARARGS", "BUILD_LIST", "BUILD_MAP", "BUILD_SET")
@@ -277,8 +252,30 @@ def _is_table(value: Any) -> bool:
 
 def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:
     """Return what the function of the form "scalar" at an address, as :func:`bind` gives both, makes of ``x``."""
-    heap = np.array(parameters, dtype=float)
+    return float(caller("scalar", address, np.array(parameters, dtype=float))(x))
+
+
+def caller(form: str, address: int, numbers: NDArray[np.float64]) -> Callable[..., Any]:
+    """Return what calls a function from Python just as the engine does, with numbers and contiguous arrays of floats.
+
+    Nobody checks their lengths.
+
+    Parameters
+    ----------
+    form : str
+        One of :data:`nonsmooth.engine.native.forms.FORMS`.
+    address : int
+        The function's, from :func:`bind`.
+    numbers : array
+        Its parameters, from :func:`bind`, and one number more.
+    """
+    n_given = len(FORMS[form].given)
     if PLAIN:
-        return float(call_scalar(address, x, memoryview(heap.data)))
-    function = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.c_void_p)(address)
-    return float(function(x, heap.ctypes.data))
+        return lambda *given: calls[form](address, *given[:n_given], numbers, *given[n_given:])
+    native, parameters = FORMS[form].prototype()(address), numbers.ctypes.data
+
+    def call(*given: Any, _kept: Any = numbers) -> Any:
+        values = [one.ctypes.data if isinstance(one, np.ndarray) else one for one in given]
+        return native(*values[:n_given], parameters, *values[n_given:])
+
+    return call

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.engine.native.kernel import block_at, call_support, unshared
+from nonsmooth.engine.native.kernel import at, block_at, call_support, unshared
 
 _MODULES = (math, np)
-_OWN = (block_at, call_support)
+_OWN = (at, block_at, call_support)
 
 
 def fingerprint(function: Callable[..., Any], context: str) -> str:

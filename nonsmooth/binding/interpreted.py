@@ -16,11 +16,10 @@ from collections.abc import Callable
 from typing import Any
 
 from nonsmooth.binding.source import raised
+from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.engine.native.kernel import PLAIN, at, unshared
 
 _Pointer = ctypes.POINTER(ctypes.c_double)
-_C_TYPES: dict[str, Any] = {"n": ctypes.c_int64, **dict.fromkeys("txyz", ctypes.c_double)}
-"""Of the arguments that are no pointers."""
 _SECONDS = 5e-3
 """How long a function is timed."""
 _CALLS = 100
@@ -58,30 +57,22 @@ def let_go() -> bool:
     return asked
 
 
-def address(shim: Callable[..., Any]) -> int:
-    """Return the address of a C function that calls a Python one; its arguments go by their names."""
-    callback = _prototype(shim)(shim)
+def address(shim: Callable[..., Any], form: str) -> int:
+    """Return the address of a C function of a form that calls a Python one."""
+    callback = FORMS[form].prototype(_Pointer)(shim)
     _alive.append(callback)
     return int(ctypes.cast(callback, ctypes.c_void_p).value or 0)
 
 
-def cost(shim: Callable[..., Any], numbers: tuple[float, ...]) -> str:
+def cost(shim: Callable[..., Any], form: str, numbers: tuple[float, ...]) -> str:
     """Return in words what a call by address takes: of a function of numbers itself, of any other an empty one."""
-    names = tuple(inspect.signature(shim).parameters)
+    kinds, prototype = tuple(FORMS[form].arguments.values()), FORMS[form].prototype(_Pointer)
     heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)
-    if all(name in _C_TYPES for name in names[:-1]):
-        seconds = _time(_prototype(shim)(shim), (*[0.0] * (len(names) - 1), heap))
-        return f"A call takes {1e6 * seconds:.1f} us, timed just now"
-    callback = _prototype(shim)(lambda *arguments: 0.0)
-    given = [0 if name == "n" else 0.0 if name in _C_TYPES else heap for name in names]
-    seconds = _time(callback, tuple(given))
+    given = tuple(heap if kind == "F" else 0 if kind == "i8" else 0.0 for kind in kinds)
+    if kinds.count("F") == 1:
+        return f"A call takes {1e6 * _time(prototype(shim), given):.1f} us, timed just now"
+    seconds = _time(prototype(lambda *arguments: 0.0), given)
     return f"A call takes more than {1e6 * seconds:.1f} us, the time of an empty function, measured just now"
-
-
-def _prototype(shim: Callable[..., Any]) -> Any:
-    names = tuple(inspect.signature(shim).parameters)
-    result = ctypes.c_double if "out" not in names else None
-    return ctypes.CFUNCTYPE(result, *[_C_TYPES.get(name, _Pointer) for name in names])
 
 
 def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:

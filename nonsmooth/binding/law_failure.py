@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.binding import interpreted
-from nonsmooth.binding.compile import RECORDED, ROLES, parameter_names
+from nonsmooth.binding.compile import parameter_names
 from nonsmooth.binding.source import described, returned
+from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.interfaces import (
     CompliantNormalLaw,
     FrictionLaw,
@@ -82,14 +83,13 @@ def without_value(
     where : str
         The contact, for the sentence.
     """
-    numbers = heap[: RECORDED[part.form]].tolist()
+    numbers = heap[: FORMS[part.form].n_recorded].tolist()
     if not np.all(np.isfinite(numbers)):
         return None
     offered = {**part.law.parameters(), "state": np.array(state)}
     values = {name: offered[name] for name in parameter_names(part.function, part.form)}
     vectors = {"motion": np.array(numbers[1:]), "state": np.array(state)}
-    roles = [role for role in ROLES[part.form] if role != "out"]
-    inputs = {role: vectors[role] if role in vectors else numbers[i] for i, role in enumerate(roles)}
+    inputs = {role: vectors[role] if role in vectors else numbers[i] for i, role in enumerate(FORMS[part.form].given)}
     words, again = _outcome(part, inputs, values, len(state))
     given = {name: _plain(value) for name, value in values.items()}
     at = ", ".join(f"{name} = {_plain(value)}" for name, value in inputs.items())
@@ -102,7 +102,7 @@ def _outcome(part: LawFunction, inputs: dict[str, Any], values: dict[str, Any], 
     """Return what a function does, and whether that is no finite number."""
     if noted := interpreted.noted(part.function):
         return noted, True
-    if "out" not in ROLES[part.form]:
+    if FORMS[part.form].returns:
         words, value = returned(part.function, *inputs.values(), **values)
         return words, not (isinstance(value, (int, float)) and math.isfinite(value))
     out = np.zeros(5 + n_state)

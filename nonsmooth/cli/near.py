@@ -21,13 +21,8 @@ def table(name: str) -> str:
     InvalidInput
         If there is no such file or scenario, or it is not valid.
     """
-    if name.endswith(SUFFIXES):
-        setup = read(Path(name))
-        system, names = setup.system, setup.names
-    else:
-        system = request.job(name, ()).build()
-        names = tuple(f"{type(body).__name__} {i}" for i, body in enumerate(system.bodies))
-    pairs = proximity(system)
+    system = read(Path(name)).system if name.endswith(SUFFIXES) else request.job(name, ()).build()
+    pairs, names = proximity(system), system.names.bodies
     if not pairs:
         return f"{name}: no two bodies are near each other at the start."
     rows = [

@@ -19,7 +19,9 @@ from nonsmooth.solution.events_table import save_events
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.solution import Solution
 
-Compute = Callable[[Callable[[float, float], None]], Solution]
+Told = Callable[[float, float, int], None]
+"""Takes the time reached, the end time [s] and the events so far."""
+Compute = Callable[[Told], Solution]
 """From what takes the progress to the solution."""
 
 
@@ -57,8 +59,8 @@ def _computed(compute: Compute) -> tuple[Solution | None, str, str]:
     """Return the solution, as far as there is one, the status and why the run stopped."""
     progress = on_standard_error()
 
-    def after_steps(t: float, t_end: float) -> None:
-        progress(t, t_end)
+    def after_steps(t: float, t_end: float, n_events: int) -> None:
+        progress(t, t_end, n_events)
         if t < t_end:
             interrupt.check()
 

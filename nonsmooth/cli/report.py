@@ -8,16 +8,30 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.cli.table import lines
+from nonsmooth.engine.memory.limits import LIMITS, NO_STEP
 from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
 _LONG_WORD = 80
-"""Characters of a word of modes, from which its middle is left out."""
+"""Characters of a word of modes up to which it is told; of longer ones the contacts are."""
+_NAMED = 1
+"""Contacts that are named then of each kind; the others are counted."""
 _COMMONEST = 5
 """Words of modes that are told; the others are counted."""
 _ROUND_OFF, _NOTHING = 1e-15, 1e-12
 """Numbers below which, in SI units, and beside the largest of their list, nothing is told."""
-_NUMBERS = ("t_end", "wall_seconds", "n_events", "n_impacts", "n_steps", "mode_words", "energy_residual")
+_NUMBERS = (
+    "t_end",
+    "wall_seconds",
+    "n_events",
+    "n_impacts",
+    "n_steps",
+    "step_limits",
+    "event_intervals",
+    "contacts",
+    "mode_words",
+    "energy_residual",
+)
 
 
 def of_solution(solution: Solution | None) -> Report:
@@ -30,6 +44,9 @@ def of_solution(solution: Solution | None) -> Report:
         "n_events": len(solution.events),
         "n_impacts": solution.counters.impacts,
         "n_steps": solution.counters.steps,
+        "step_limits": dict(solution.counters.limits),
+        "event_intervals": solution.events.intervals(),
+        "contacts": list(solution.system.names.contacts),
         "mode_words": solution.modes,
         "energy_residual": solution.energy.residual,
     }
@@ -57,22 +74,47 @@ def as_text(report: Report) -> str:
     ]
     residual = plain["energy_residual"]
     rows.append(("energy residual", "none" if residual is None else f"{residual:.6g}"))
-    rows += [("time in modes" * (i == 0), line) for i, line in enumerate(_modes(plain["mode_words"]))]
+    rows.append(("steps limited by", _limits(plain["step_limits"])))
+    rows += [
+        ("time in modes" * (i == 0), line) for i, line in enumerate(_modes(plain["mode_words"], plain["contacts"]))
+    ]
+    rows.append(("contacts", _contacts(plain["contacts"])))
     judged = plain.get("acceptance")
     table = [] if judged is None else ["", *_judged(judged)]
     return "\n".join([head, *lines(rows), *table])
 
 
-def _modes(shares: dict[str, float]) -> list[str]:
+def _modes(shares: dict[str, float], names: list[str]) -> list[str]:
     """Return the commonest words of modes with their shares of time, and how many others there are."""
-    found = [f"{_shortened(word)} {share:7.2%}" for word, share in list(shares.items())[:_COMMONEST]]
+    told = [(_described(word, names), share) for word, share in list(shares.items())[:_COMMONEST]]
+    width = max((len(word) for word, _ in told), default=0)
+    found = [f"{word.ljust(width)} {share:7.2%}" for word, share in told]
     others = len(shares) - len(found)
     return [*found, f"and {others} more"] if others > 0 else found
 
 
-def _shortened(word: str) -> str:
-    """Return a word of modes, its middle left out where many contacts make it long."""
-    return word if len(word) <= _LONG_WORD else f"{word[: _LONG_WORD // 2]} ... {word[-_LONG_WORD // 2 :]}"
+def _limits(counts: dict[str, int]) -> str:
+    """Return what limited the steps, the commonest first."""
+    ranked = sorted(counts.items(), key=lambda item: -item[1])
+    return ", ".join(f"{limit} {n}" for limit, n in ranked if limit != LIMITS[NO_STEP]) or "none"
+
+
+def _contacts(names: list[str]) -> str:
+    """Return how many contacts there are, and, where they fit into a line, which digit of a word is whose."""
+    text = f"from the right {', '.join(names)}"
+    return text if names and len(text) <= _LONG_WORD else str(len(names))
+
+
+def _described(word: str, names: list[str]) -> str:
+    """Return a word of modes, or, where many contacts make it long, the names of those that are not open."""
+    if len(word) <= _LONG_WORD:
+        return word
+    parts = []
+    for what, bits in zip(("closed", "approaching", "slipping"), word.strip("{}").split(","), strict=True):
+        found = [name for name, bit in zip(names, reversed(bits), strict=True) if bit == "1"]
+        more = [f"{len(found) - _NAMED} more"] if len(found) > _NAMED else []
+        parts += [f"{what} {', '.join([*found[:_NAMED], *more])}"] if found else []
+    return "; ".join(parts) or "all open"
 
 
 def _judged(criteria: list[dict[str, Any]]) -> list[str]:

@@ -10,13 +10,15 @@ from typing import Any
 
 from nonsmooth.cli import extras, report, request
 from nonsmooth.cli.messages import say
-from nonsmooth.cli.perform import perform
+from nonsmooth.cli.perform import Told, perform
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.plugins import file, registry
 from nonsmooth.results.opening import stored_setup
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.runs.resuming import resume
+from nonsmooth.runs.resuming import check_resumable
+from nonsmooth.simulate import assemble
+from nonsmooth.solution.solution import Solution
 
 
 def add_to(commands: Any) -> None:
@@ -43,14 +45,13 @@ def _perform(output: Output, troubles: list[str]) -> report.Report:
     folder = SolutionFolder.opened(output)
     name, job = _job(output, folder)
     system = job.build()
-    return perform(
-        job,
-        {"scenario": name, **job.head()},
-        lambda progress: resume(output, system=system, engine=job.engine, progress=progress),
-        output.folder,
-        False,
-        troubles,
-    )
+    check_resumable(output)
+
+    def compute(told: Told) -> Solution:
+        model = assemble(system, job.engine)
+        return model.resume(output, progress=lambda t, t_end: told(t, t_end, model.n_events))
+
+    return perform(job, {"scenario": name, **job.head()}, compute, output.folder, False, troubles)
 
 
 def _job(output: Output, folder: SolutionFolder) -> tuple[str, request.Job]:

@@ -6,16 +6,15 @@ import argparse
 import contextlib
 import json
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from nonsmooth.cli import acceptance, extras, law, report, request, results
 from nonsmooth.cli.messages import say
-from nonsmooth.cli.perform import perform
+from nonsmooth.cli.perform import Told, perform
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import check_free
-from nonsmooth.simulate import simulate
+from nonsmooth.simulate import assemble
 from nonsmooth.solution import files
 from nonsmooth.solution.solution import Solution
 
@@ -70,13 +69,12 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
         with results.noting(troubles, "--out"):
             files.prepare(arguments.out)
 
-    def compute(progress: Callable[[float, float], None]) -> Solution:
-        return simulate(
-            system,
+    def compute(told: Told) -> Solution:
+        model = assemble(system, job.engine)
+        return model.run(
             scenario.t_end,
             sample_interval=scenario.sample_interval,
-            engine=job.engine,
-            progress=progress,
+            progress=lambda t, t_end: told(t, t_end, model.n_events),
             output=output,
         )
 

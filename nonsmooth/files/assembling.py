@@ -44,6 +44,9 @@ def system(tables: Table, path: Path) -> System:
     with naming(f"{path}"):
         gravity = number("gravity", tables.get("gravity", 9.81), "m/s^2")
         made_system = System(list(reader.bodies.values()), gravity)
+    for name, body in reader.bodies.items():
+        with naming(f"{path}: bodies"):
+            made_system.name(body, name)
     for i, table in enumerate(tables_in(f"{path}: joints", tables.get("joints", []))):
         reader.tie(made_system.joint, table, f"{path}: joints[{i}]", Joint)
     for i, table in enumerate(tables_in(f"{path}: contacts", tables.get("contacts", []))):
@@ -60,7 +63,11 @@ def system(tables: Table, path: Path) -> System:
     for i, table in enumerate(tables_in(f"{path}: loads", tables.get("loads", []))):
         reader.tie(made_system.load, table, f"{path}: loads[{i}]", Load)
     for i, table in enumerate(tables_in(f"{path}: guards", tables.get("guards", []))):
-        made_system.guard(component(f"{path}: guards[{i}]", table, Guard, path.parent))
+        own = dict(table)
+        name = own.pop("name", "")
+        made_guard = component(f"{path}: guards[{i}]", own, Guard, path.parent)
+        with naming(f"{path}: guards[{i}]"):
+            made_system.guard(made_guard, name=name)
     for later in (False, True):  # what is put onto other bodies comes when those are in their places
         for name, start in starts.items():
             if not isinstance(start, dict):
@@ -131,23 +138,24 @@ class _Reader:
     def tie(self, add: Callable[..., None], table: Table, thing: str, base: type) -> None:
         own = dict(table)
         first, second = self.between(own, thing)
-        frames = own.pop("frames", [0, 0])
+        name, frames = own.pop("name", ""), own.pop("frames", [0, 0])
         del own["between"]
         if not (isinstance(frames, list) and len(frames) == 2):
             raise InvalidInput(f"{thing}.frames", "must be two numbers", frames, "For example [0, 1].")
         made = component(thing, own, base, self.path.parent)
         with naming(thing):
-            add(made, first, second, frames=tuple(frames))
+            add(made, first, second, frames=tuple(frames), name=name)
 
     def contact(self, made: System, table: Table, thing: str) -> None:
-        check_keys(thing, table, ("between", "shapes", *_ROLES), required=("between",))
+        check_keys(thing, table, ("name", "between", "shapes", *_ROLES), required=("between",))
         first, second = self.between(table, thing)
         shapes = table.get("shapes", ["all", "all"])
         if isinstance(shapes, list):
             shapes = [None if one == "all" else one for one in shapes]
-        laws = self.contact_laws(table, thing)
+        laws, name = self.contact_laws(table, thing), table.get("name", "")
+        n, f, i = laws.normal, laws.friction, laws.impact
         with naming(thing):
-            made.contact(first, second, normal=laws.normal, friction=laws.friction, impact=laws.impact, shapes=shapes)
+            made.contact(first, second, normal=n, friction=f, impact=i, shapes=shapes, name=name)
 
     def materials(self, made: System, table: Table, of: dict[str, list[Body]], thing: str) -> None:
         check_keys(thing, table, ("pairs", "default", "exclude"))

@@ -51,8 +51,6 @@ class Setup:
         What is to run it.
     system : System
         Bodies, contacts, starts.
-    names : tuple of str
-        Names of the bodies, in the order of the system.
     changes : mapping of str to str
         What was changed of the file, by key.
     """
@@ -63,7 +61,6 @@ class Setup:
     sample_interval: float | None
     engine: Engine
     system: System
-    names: tuple[str, ...]
     changes: Mapping[str, str]
     _tables: Table = field(repr=False)
 
@@ -115,7 +112,7 @@ def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
     )
     engine = engine_of(f"{path}: engine", tables.get("engine", {}), path.parent)
     made = assembling.system(tables, path)
-    return Setup(path, title, t_end, interval, engine, made, tuple(tables["bodies"]), dict(changes), tables)
+    return Setup(path, title, t_end, interval, engine, made, dict(changes), tables)
 
 
 def engine_of(thing: str, table: Any, folder: Path) -> Engine:

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.errors import InvalidInput
 from nonsmooth.files import formats
 from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.interfaces import Body, Engine
-from nonsmooth.plugins import registry
 from nonsmooth.solution.files import replacing
-from nonsmooth.system.contact import Declaration, Tie
+from nonsmooth.system.contact import Declaration, Tie, Watched
 from nonsmooth.system.system import System
 
 
@@ -25,7 +22,6 @@ def save_system(
     sample_interval: float | None = None,
     engine: Engine | None = None,
     title: str = "",
-    names: Sequence[str] = (),
 ) -> None:
     """Write a system to a TOML or YAML file that :func:`load_system` and ``nonsmooth run`` read.
 
@@ -43,8 +39,6 @@ def save_system(
         What is to run it; the defaults are not written.
     title : str
         One line that says what it is.
-    names : sequence of str
-        Names for the bodies, in their order; by default those of their classes, numbered.
 
     Raises
     ------
@@ -56,7 +50,7 @@ def save_system(
         If the file cannot be written.
     """
     form = formats.of(Path(path))
-    tables = _tables(system, t_end, sample_interval, engine, title, names)
+    tables = _tables(system, t_end, sample_interval, engine, title)
     with replacing(Path(path)) as part:
         part.write_text(form.write(tables), encoding="utf-8")
 
@@ -69,7 +63,7 @@ def text_of_system(system: System, *, t_end: float, engine: Engine, title: str) 
     InvalidInput
         If a component cannot be written; it is named.
     """
-    return formats.of(Path("system.toml")).write(_tables(system, t_end, None, engine, title, ()))
+    return formats.of(Path("system.toml")).write(_tables(system, t_end, None, engine, title))
 
 
 def _tables(
@@ -78,7 +72,6 @@ def _tables(
     sample_interval: float | None,
     engine: Engine | None,
     title: str,
-    names: Sequence[str],
 ) -> Table:
     tables: Table = {"title": title} if title else {}
     times = {"t_end": t_end, "sample_interval": sample_interval}
@@ -86,7 +79,7 @@ def _tables(
     tables["gravity"] = 0.0 - system.gravity[2]
     if engine is not None and engine != EventDriven():
         tables["engine"] = table_of(engine, "engine", EventDriven)
-    known = dict(zip(map(id, system.bodies), _names(system.bodies, names), strict=True))
+    known = dict(zip(map(id, system.bodies), system.names.bodies, strict=True))
     laws = _Laws()
     contacts = [_contact(said, known, laws, f"contacts[{i}]") for i, said in enumerate(system.declarations)]
     tables["laws"] = laws.tables
@@ -95,7 +88,7 @@ def _tables(
     tables["exclude"] = [[known[id(one)], known[id(other)]] for one, other in system.excluded]
     for kind, ties in (("joints", system.joints), ("loads", system.loads)):
         tables[kind] = [_tie(tie, known, f"{kind}[{i}]") for i, tie in enumerate(ties)]
-    tables["guards"] = [table_of(guard, f"guards[{i}]") for i, guard in enumerate(system.guards)]
+    tables["guards"] = [_name_of(one) | table_of(one.guard, f"guards[{i}]") for i, one in enumerate(system.watched)]
     return {name: value for name, value in tables.items() if value not in ([], {})}
 
 
@@ -127,17 +120,6 @@ def _free(name: str, taken: Table) -> str:
     return free
 
 
-def _names(bodies: Sequence[Body], given: Sequence[str]) -> list[str]:
-    if given:
-        if len(given) != len(bodies) or len(set(given)) != len(given):
-            raise InvalidInput(
-                "save_system: names", f"must be {len(bodies)} different names", list(given), "Give one a body."
-            )
-        return list(given)
-    kinds = [registry.name_of(type(body)) or type(body).__name__ for body in bodies]
-    return [kind if kinds.count(kind) == 1 else f"{kind}_{kinds[: i + 1].count(kind)}" for i, kind in enumerate(kinds)]
-
-
 def _body(system: System, body: Body, thing: str) -> Table:
     table = table_of(body, thing)
     if body.n_q:
@@ -148,6 +130,8 @@ def _body(system: System, body: Body, thing: str) -> Table:
 
 def _contact(said: Declaration, known: dict[int, str], laws: _Laws, thing: str) -> Table:
     table: Table = {"between": [known[id(said.first)], known[id(said.second)]]}
+    if said.name:
+        table["name"] = said.name
     if said.shapes != (None, None):
         table["shapes"] = ["all" if chosen is None else list(chosen) for chosen in said.shapes]
     for role in ("normal", "friction", "impact"):
@@ -157,8 +141,13 @@ def _contact(said: Declaration, known: dict[int, str], laws: _Laws, thing: str) 
     return table
 
 
+def _name_of(declared: Tie | Watched) -> Table:
+    return {"name": declared.name} if declared.chosen else {}
+
+
 def _tie(tie: Tie, known: dict[int, str], thing: str) -> Table:
     head: Table = {"between": [known[id(tie.first)], known[id(tie.second)]]}
+    head |= _name_of(tie)
     if tie.frames != (0, 0):
         head["frames"] = list(tie.frames)
     return head | table_of(tie.component, thing)

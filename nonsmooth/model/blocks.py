@@ -53,11 +53,18 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
         assert isinstance(tie.component, Load)
         function = tie.component.evaluator
         yield Block(_label(tie, function), function, _entry(model, "load_out", i), LOAD, LOAD)
+    names = system.names.bodies
     for i, body in enumerate(system.bodies):
         start = _entry(model, "body_out", i)
         rates = _entry(model, "body_tail", i) - start + body.n_q + body.n_u
         written = FRAME if body.n_u == 0 else rates
-        yield Block(functools.partial(repr, body), body.evaluator, start, rates + body.n_u**2 + 2, written)
+        yield Block(
+            functools.partial("body {!r}, {!r}:".format, names[i], body),
+            body.evaluator,
+            start,
+            rates + body.n_u**2 + 2,
+            written,
+        )
 
 
 def _block_of_slot(model: LaidOut, slot: int) -> Block:
@@ -92,7 +99,7 @@ def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
 
 
 def _label(owner: Tie | Contact, function: Callable[..., None]) -> Callable[[], str]:
-    return lambda: _words(owner.name, function)
+    return lambda: _words(str(owner), function)
 
 
 def _words(owner: str, function: Callable[..., None]) -> str:

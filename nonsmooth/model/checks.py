@@ -39,7 +39,7 @@ def check_start(model: LaidOut) -> None:
         if not gap >= (-math.inf if compliant else -overlap_allowed(contact)):
             _ask_shapes(model, number)
             raise InvalidInput(
-                f"start of the {contact.name}",
+                f"start of the {contact}",
                 "must not overlap",
                 gap,
                 "Place the bodies apart or touching (gap >= 0 [m]).",
@@ -83,7 +83,7 @@ def _check_joint(model: LaidOut, tie: Tie, number: int, linkage: int, allowed: f
         values = memory.floats[start : start + rows]
         if not float(np.max(np.abs(values))) <= allowed:
             raise InvalidInput(
-                f"start of the {tie.name}",
+                f"start of the {tie}",
                 f"must have the {what} 0 [{unit}] in each of its rows",
                 values.tolist(),
                 "Place the bodies where the joint is closed; joints that contradict each other cannot all be.",
@@ -98,11 +98,12 @@ def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:
     InvalidInput
         If one has no finite value.
     """
-    for guard in system.guards:
+    for watched in system.watched:
+        guard = watched.guard
         value = guard_value(guard, t, q, u)
         if not isinstance(value, float) or not math.isfinite(value):
             raise InvalidInput(
-                f"{type(guard).__name__}.value",
+                f"{watched}: {type(guard).__name__}.value",
                 "must return a finite number at the start",
                 value,
                 f"Look at {guard.value.__qualname__} with t = {t:g} and the q and u of the start.",

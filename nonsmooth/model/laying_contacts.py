@@ -162,7 +162,7 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     owners = {"geometry": contact.kinematics, "normal": contact.normal, "force": impact, "efficiency": impact}
     start = initial_state(contact)
     for name, function, form, available in functions:
-        owner = f"{type(owners.get(name, contact.friction)).__name__} ({contact.name})"
+        owner = f"{type(owners.get(name, contact.friction)).__name__} ({contact})"
         tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
         address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
         if form == "pair":
@@ -176,7 +176,7 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
             given = 1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start
             try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, given)
         elif form == "rates":
-            try_out(function, form, available, values, len(start), owner, (0.1, (), start))
+            try_out(function, form, available, values, len(start), owner, (0.1, start))
         made.fields[f"{name}_function"] = address
         at = made.store(f"{name}_parameters", values)
         made.tables += [(at + parameter_place(function, form, n), at, table) for n, table in tables.items()]

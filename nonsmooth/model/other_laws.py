@@ -56,7 +56,7 @@ def _check_same(one: System, other: System) -> None:
 def _refuse(after: Contact, before: Contact) -> None:
     laws = [", ".join(type(law).__name__ for law in (one.normal, one.friction, one.impact)) for one in (before, after)]
     raise InvalidInput(
-        f"with_laws_of: the laws of the {after.name}",
+        f"with_laws_of: the laws of the {after}",
         f"must be of the kinds of {laws[0]}",
         laws[1],
         "Laws of other kinds need other memory: assemble the system.",

@@ -52,7 +52,7 @@ def check_overlaps(model: LaidOut) -> None:
         if found > 0.0:
             kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
             raise InvalidInput(
-                f"start of the {contact.name}",
+                f"start of the {contact}",
                 "must not overlap",
                 -found,
                 f"The solids of {kinds} reach at least so far into each other [m]. Place the bodies apart or touching, "

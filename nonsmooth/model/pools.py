@@ -63,13 +63,13 @@ def find_pools(contacts: Sequence[Contact]) -> list[Pool]:
             for shape, extent in zip(one.shapes, one.extents, strict=True):
                 if not math.isfinite(extent):
                     raise InvalidInput(
-                        f"{type(shape).__name__} of the {one.name}",
+                        f"{type(shape).__name__} of the {one}",
                         "must be bounded where its features are searched for (`candidates`)",
                         extent,
                         "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                     )
             sides = (id(one.first), one.frames[0]), (id(one.second), one.frames[1])
-            name = f"{type(one.kinematics).__name__} ({one.name})"
+            name = f"{type(one.kinematics).__name__} ({one})"
             found.append(Pool(search, range(number, number + len(rows)), sides, name))
     return found
 

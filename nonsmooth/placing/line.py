@@ -72,7 +72,7 @@ class Line:
         distance = self._ahead() if free else self._back()
         if not abs(distance) < self._farthest:
             raise InvalidInput(
-                f"placing {type(self._probe.body).__name__}",
+                f"placing {self._probe.name!r}",
                 f"must find something to touch along {(self._asked if free else -self._asked).tolist()}",
                 float(np.min(self._gaps(0.0))),
                 "This is the smallest gap less the height at the start [m]; give another start or direction.",
@@ -171,7 +171,7 @@ class Line:
 
     def _refuse(self) -> None:
         raise InvalidInput(
-            f"placing {type(self._probe.body).__name__}",
+            f"placing {self._probe.name!r}",
             "must be able to move along the direction without turning",
             self._asked.tolist(),
             "Give another direction.",

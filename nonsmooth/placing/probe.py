@@ -45,6 +45,11 @@ class Probe:
         return cls(lay_out(system.about(body), EventDriven()), body, number)
 
     @property
+    def name(self) -> str:
+        """The name of the body."""
+        return self.model.system.name_of(self.body)
+
+    @property
     def contacts(self) -> tuple[Contact, ...]:
         """The contacts of the body."""
         return self.model.system.contacts

@@ -66,7 +66,10 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     """
     if np.any(body.state(**start)[1] != 0.0):
         raise InvalidInput(
-            f"resting {type(body).__name__}", "must not be given velocities", start, "Use touching(...) to give some."
+            f"resting {system.name_of(body)!r}",
+            "must not be given velocities",
+            start,
+            "Use touching(...) to give some.",
         )
     _move(system, body, 0.0, direction, start)
     probe = Probe.of(system, body)
@@ -83,8 +86,8 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     rates = probe.rates(u)[touched]
     if np.max(np.abs(rates)) > _ROUND_OFF * (1.0 + float(np.max(np.abs(twist)))):
         raise InvalidInput(
-            f"resting {type(body).__name__}",
-            f"must be able to follow the {type((contact.first, contact.second)[other]).__name__} that it touches",
+            f"resting {system.name_of(body)!r}",
+            f"must be able to follow {system.name_of((contact.first, contact.second)[other])!r}, which it touches",
             rates.tolist(),
             "These are the gap rate and the slip velocity that remain [m/s]; use touching(...) and give a velocity.",
         )
@@ -92,23 +95,20 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
 
 
 def _move(system: System, body: Body, height: float, direction: Sequence[float] | None, start: dict[str, Any]) -> None:
-    name = type(body).__name__
     way = _unit(system, direction)
-    before = system.start(body) if any(other is body for other in system.bodies) else None
+    before = system.start(body)
+    name = f"placing {system.name_of(body)!r}"
     system.place(body, **start)
     try:
         if body.n_u == 0:
-            raise InvalidInput(f"placing {name}", "needs a body that can be placed", name, "Place the other body.")
+            raise InvalidInput(name, "needs a body that can be placed", "driven", "Place the other body.")
         probe = Probe.of(system, body)
         if not probe.contacts:
-            raise InvalidInput(
-                f"placing {name}", "needs a contact of this body", 0, "Declare it with system.contact(...) first."
-            )
+            raise InvalidInput(name, "needs a contact of this body", 0, "Declare it with system.contact(...) first.")
         u = probe.u.copy()
         system.set_start(body, Line(probe, way, height).met(), u)
     except InvalidInput:
-        if before is not None:
-            system.set_start(body, *before)
+        system.set_start(body, *before)
         raise
 
 

@@ -43,10 +43,8 @@ def warn_of_overlaps(system: System) -> None:
     ]
     if not found:
         return
-    named = [
-        f"{type(bodies[i]).__name__} and {type(bodies[j]).__name__} (bodies {i} and {j}) by at least {depth:.2g} m"
-        for i, j, depth in found[:_NAMED]
-    ]
+    names = system.names.bodies
+    named = [f"{names[i]!r} and {names[j]!r} by at least {depth:.2g} m" for i, j, depth in found[:_NAMED]]
     more = [f"and {len(found) - _NAMED} more pairs"] if len(found) > _NAMED else []
     warnings.warn(
         f"Bodies without a contact overlap at the start, and will pass through each other: {'; '.join(named + more)}. "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,9 @@ from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.solution.solution import Counters, Solution
 from nonsmooth.system.system import System
+
+_NONE: dict[str, Any] = {"limits": {}}
+"""Counters of a run that is unfinished, where 0 is none."""
 
 
 def open_solution(output: Output | Path | str, *, system: System | None = None) -> Solution:
@@ -52,7 +56,7 @@ def open_solution(output: Output | Path | str, *, system: System | None = None) 
         rows[:, 1 + n_q : 1 + n_q + n_u],
         folder.events(),
         state.energy,
-        Counters(**{name: counters.get(name, 0) for name in Counters.__dataclass_fields__}),
+        Counters(**{field.name: counters.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}),
         state.time,
         state.q.copy(),
         state.u.copy(),

@@ -240,7 +240,7 @@ class SolutionFolder:
             message=solution.message,
             state=_LAST,
             t_end=solution.t_end,
-            counters=json.dumps(vars(solution.counters)),
+            counters=json.dumps(vars(solution.counters) | {"limits": dict(solution.counters.limits)}),
             **_energy(solution.state),
         )
         if solution.status in ("done", "suspect"):

@@ -63,7 +63,7 @@ def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
         state = model.memory.array("y", model.n_y)[first_state + start :][:n]
         for part in law_functions(contact.friction, contact.impact, contact.normal):
             parameters = int(row[CATALOGUE.index(f"{part.name}_parameters")])
-            yield without_value(model.memory.floats[parameters:], part, state, contact.name)
+            yield without_value(model.memory.floats[parameters:], part, state, str(contact))
 
 
 def _in_the_blocks(model: LaidOut) -> str:
@@ -97,7 +97,7 @@ def _in_the_map(model: LaidOut) -> str:
     except Exception as error:
         what = raised(law.impulses, error)
     listed = memory.array("identity", int(memory.scalars["n_contacts"][0]))
-    among = [model.system.contacts[int(i)].name for i in listed[memory.array("active", n)]]
+    among = [str(model.system.contacts[int(i)]) for i in listed[memory.array("active", n)]]
     before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
     return (
         f"{type(law).__name__}: {described(law.impulses)}, {what} for the rates {before} m/s "
@@ -109,9 +109,10 @@ def _guard_without_value(model: LaidOut) -> str:
     """Look at the guards at the end of the step that failed."""
     scalars, state = model.memory.scalars[0], model.memory.array("y_new", model.n_y)
     q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]
-    for guard in model.system.guards:
+    for watched in model.system.watched:
+        guard = watched.guard
         value = guard_value(guard, float(scalars["t"] + scalars["h"]), q, u)
         if not isinstance(value, float) or not math.isfinite(value):
             what = raised(guard.value, value) if isinstance(value, Exception) else f"gives {value!r}"
-            return f"{type(guard).__name__}: {described(guard.value)}, {what} within {float(scalars['h']):g} s."
+            return f"{watched}: {described(guard.value)}, {what} within {float(scalars['h']):g} s."
     return ""

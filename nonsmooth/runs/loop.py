@@ -11,6 +11,7 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.keeper import Keeper
+from nonsmooth.runs.pace import Pace
 from nonsmooth.runs.records import Records
 from nonsmooth.solution.files import FileError
 from nonsmooth.watch import Watch
@@ -35,6 +36,8 @@ class Ending:
         What its memory held at last where nothing yet said when the run would end.
     told : int
         Events from there on.
+    hint : str
+        What a run that failed was held up by, as far as counters and events tell.
     trouble : str
         Why its results could not be kept, "" where they could.
     """
@@ -43,6 +46,7 @@ class Ending:
     interrupted: bool
     image: Image
     told: int
+    hint: str
     trouble: str = ""
 
 
@@ -59,7 +63,7 @@ def run_engine(
     memory = model.memory
     t_end = float(memory.scalars["t_end"][0])
     report = None if progress is None else lambda t: progress(t, t_end)
-    status, interrupted, trouble = PAUSED, False, ""
+    status, interrupted, trouble, pace = PAUSED, False, "", Pace(model)
     image, before = begun, records.n_passed
     try:
         with Watch(memory, report) as watch:
@@ -69,6 +73,7 @@ def run_engine(
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
                     status = engine.advance(watch.call, memory, _STEPS_NEAR_END, False)
+                pace.look(status)
                 records.drain()
                 if progress is not None:
                     progress(float(memory.scalars["t"][0]), t_end)
@@ -80,4 +85,4 @@ def run_engine(
         status, trouble = PAUSED, str(error)
     if status == STOPPED:
         image, before = Image.of(memory), records.n_passed
-    return Ending(status, interrupted, image, records.n_passed - before, trouble)
+    return Ending(status, interrupted, image, records.n_passed - before, pace.hint(status), trouble)

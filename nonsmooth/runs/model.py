@@ -53,6 +53,7 @@ class Model:
         begin(laid, self._blank, start)
         self._energy = laid.energy()
         self._begun = Image.of(laid.memory)
+        self._records = Records(laid)
         self._runs = threading.Lock()
 
     @classmethod
@@ -82,6 +83,11 @@ class Model:
     def start(self) -> State:
         """Where it starts if nothing else is said: as the bodies were placed when it was made, at t = 0."""
         return self._start
+
+    @property
+    def n_events(self) -> int:
+        """Events so far of the run that is under way, or of the last one; what ``progress`` may want to tell."""
+        return self._records.n_passed
 
     def copy(self) -> Model:
         """Return a model of its own for another thread; it reads the same tables of meshes.
@@ -209,7 +215,7 @@ class Model:
             )
         with self._alone("resume"), contextlib.closing(folder):
             laid = self._laid
-            records = Records(laid, (folder.events(), folder.rows()))
+            self._records = records = Records(laid, (folder.events(), folder.rows()))
             try:
                 restore(laid, self._blank, state)
             except (ValueError, IndexError) as error:
@@ -222,7 +228,7 @@ class Model:
 
     def _states_from(self, energy: tuple[float, float]) -> Callable[[Image], State]:
         """Return what makes states of images, for the account of energy that begins with these [J]."""
-        return lambda image: state_of(self._laid, self._blank, self._key, energy, Ending(PAUSED, False, image, 0))
+        return lambda image: state_of(self._laid, self._blank, self._key, energy, Ending(PAUSED, False, image, 0, ""))
 
     def _left(self, state: State) -> bool:
         """Tell whether a run of this model left a state, which goes on then."""
@@ -237,7 +243,8 @@ class Model:
         progress: Progress | None,
         output: Output | None,
     ) -> Solution:
-        laid, records = self._laid, Records(self._laid)
+        laid = self._laid
+        records = self._records = Records(laid)
         scalars, begun = laid.memory.scalars, None
         if state is self._start:
             begun = self._begun

@@ -6,6 +6,7 @@ import numpy as np
 
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
+from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.modes import DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Difference, Guards, Image
@@ -30,7 +31,7 @@ def reason(model: LaidOut, guards: Guards, ending: Ending) -> tuple[str, str]:
         return "failed", f"At t = {float(model.memory.scalars['t'][0]):.9g} s {ending.trouble}"
     if past or status not in (DONE, STOPPED, PAUSED):
         message = f"At t = {float(model.memory.scalars['t'][0]):.9g} s {REASONS[status]}."
-        return "failed", f"{message} {past or culprit(model, status)}".strip()
+        return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
     return "interrupted" if ending.interrupted else "done", REASONS[status]
 
 
@@ -67,16 +68,16 @@ def solution_of(
         rejected=int(record["rejected"]),
         impacts=int(record["impacts"]),
         impact_steps=int(record["impact_steps"]),
+        limits={word: int(n) for word, n in zip(LIMITS, model.memory.array("limits", len(LIMITS)), strict=True) if n},
+        gap_looks=int(record["gap_looks"]),
+        listings=int(record["listings"]),
         wall_seconds=wall,
     )
     t, q = table[:, 0], table[:, 1 : 1 + n_q]
     worst = float(record["open_t"]), float(record["open_energy"]), float(record["open_share"])
     tolerances = float(record["rtol"]), float(record["impact_rtol"])
-    found = (
-        suspicions(worst, state.energy, model.system.bodies, (t, q), tolerances, counters.steps)
-        if word == "done"
-        else ""
-    )
+    bodies = dict(zip(model.system.names.bodies, model.system.bodies, strict=True))
+    found = suspicions(worst, state.energy, bodies, (t, q), tolerances, counters.steps) if word == "done" else ""
     if found:
         word, message = "suspect", f"{message}, but {found}"
     return Solution(

@@ -43,7 +43,8 @@ class Records:
     def n_passed(self) -> int:
         """Events that the engine has recorded, less those that it has still to pass as told."""
         record = self.model.memory.scalars[0]
-        return self._events + int(record["n_events"]) - int(record["told"])
+        earlier = 0 if self.earlier is None else len(self.earlier[0])
+        return earlier + self._events + int(record["n_events"]) - int(record["told"])
 
     def drain(self) -> None:
         """Empty the engine's buffers.

@@ -60,6 +60,13 @@ def resume(
         As :func:`nonsmooth.simulate`.
     """
     where = Output.to(output)
+    folder = check_resumable(where)
+    made = system or stored_setup(where, folder).system
+    return Model.of(made, engine or stored_engine(where, folder)).resume(where, progress=progress)
+
+
+def check_resumable(where: Output) -> SolutionFolder:
+    """Return the folder of a run that can go on; warnings and errors as :func:`resume`."""
     folder = SolutionFolder.opened(where)
     if "checkpoint" not in folder.attributes:
         raise InvalidInput(
@@ -72,6 +79,5 @@ def resume(
     other = [f"{name} {began.get(name)}, now {now.get(name)}" for name in now if began.get(name) != now.get(name)]
     if other:
         text = f"{where.folder}: the run began with {'; '.join(other)}. Its last bits may differ from there on."
-        warnings.warn(text, OtherVersions, stacklevel=2)
-    made = system or stored_setup(where, folder).system
-    return Model.of(made, engine or stored_engine(where, folder)).resume(where, progress=progress)
+        warnings.warn(text, OtherVersions, stacklevel=3)
+    return folder

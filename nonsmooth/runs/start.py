@@ -8,6 +8,7 @@ import numpy as np
 
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
+from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.image import Image
@@ -16,7 +17,7 @@ from nonsmooth.runs.identity import constants
 from nonsmooth.solution.state import State
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
-_COUNTERS = ("steps", "rejected", "impacts", "impact_steps")
+_COUNTERS = ("steps", "rejected", "impacts", "impact_steps", "gap_looks", "listings")
 _OUTPUT = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats", "stopped")
 """What stands in buffers that Python has emptied."""
 _UNIT = 1e-9
@@ -63,7 +64,7 @@ def check_state(model: LaidOut, state: State) -> None:
             start = first + body.quaternion
             length = float(np.linalg.norm(state.q[start : start + 4]))
             if not abs(length - 1.0) <= _UNIT:
-                thing = f"State.q[{start}:{start + 4}], the quaternion of {type(body).__name__},"
+                thing = f"State.q[{start}:{start + 4}], the quaternion of {system.name_of(body)!r},"
                 raise InvalidInput(thing, "must have unit length", length, "Divide it by its norm.")
         first += body.n_q
 
@@ -110,7 +111,7 @@ def check_closed(model: LaidOut, state: State) -> None:
         reach = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
         if not gaps[number] <= reach + allowed:
             raise InvalidInput(
-                f"State.modes[{number}], the {model.system.contacts[number].name},",
+                f"State.modes[{number}], the {model.system.contacts[number]},",
                 f"must be 0, open, where there is a gap of {gaps[number]:.3g} m",
                 int(state.modes[number]),
                 "Where q has been changed, begin with State.at(system, time, q, u).",
@@ -126,6 +127,7 @@ def go_on(model: LaidOut, blank: Image, state: State) -> None:
     scalars = model.memory.scalars
     for name in (*_COUNTERS, *_OUTPUT):
         scalars[name] = 0
+    model.memory.array("limits", len(LIMITS))[:] = 0
     scalars["h_valid"] = math.inf
     scalars["told"], scalars["resumed"] = continuation.told, 1
 

@@ -17,18 +17,18 @@ def unexplained(model: LaidOut, status: int) -> str:
         n = int(scalars["n_contacts"])
         contact = model.system.contacts[int(model.memory.array("identity", n)[number])]
         return (
-            f"{contact.name}: the gap is {found:.3g} m, of which tolerances explain {allowed:.3g} m.  It jumps in "
+            f"The {contact}: the gap is {found:.3g} m, of which tolerances explain {allowed:.3g} m.  It jumps in "
             f"{described(contact.kinematics.evaluator)}, or contacts that contradict each other are closed. {_REMEDY}"
         )
     if status not in (MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return ""
-    body = model.system.bodies[number]
+    body, name = model.system.bodies[number], model.system.names.bodies[number]
     if status == MOTION_UNEXPLAINED:
         return (
-            f"{body!r} would have to move by {found:.3g} in one of its coordinates, of which tolerances explain "
-            f"{allowed:.3g}: what is closed around it contradicts itself."
+            f"The body {name!r} would have to move by {found:.3g} in one of its coordinates, of which tolerances "
+            f"explain {allowed:.3g}: what is closed around it contradicts itself."
         )
     return (
-        f"{body!r}: the length of its quaternion is off by {found:.3g} after one step, of which tolerances explain "
-        f"{allowed:.3g}: {described(body.evaluator)} turns it at rates that do not keep its length. {_REMEDY}"
+        f"The body {name!r}: the length of its quaternion is off by {found:.3g} after one step, of which tolerances "
+        f"explain {allowed:.3g}: {described(body.evaluator)} turns it at rates that do not keep its length. {_REMEDY}"
     )

@@ -17,6 +17,7 @@ _MOST_MODES = 14
 _LONGEST_WORD, _FEW = 16, 8
 """Characters of a word that fits into its node, and how many modes may show it; else they are numbered and listed."""
 _LONGEST_ROW = 46
+_LONGEST_LINE = 110
 _COLOURS = (
     "#000000",
     "#d55e00",
@@ -51,7 +52,7 @@ def draw(graph: TransitionGraph, most: int = _MOST_MODES) -> Figure:
     from matplotlib.figure import Figure
 
     shown = graph.most_visited(most)
-    numbered = 3 * shown.n_contacts + 4 > _LONGEST_WORD or len(shown.shares) > _FEW
+    numbered = 3 * len(shown.contacts) + 4 > _LONGEST_WORD or len(shown.shares) > _FEW
     places = places_of(shown)
     margin = 0.3
     left, right = min(x for x, _ in places.values()) - 2.0 * margin, max(x for x, _ in places.values()) + 2.0 * margin
@@ -76,12 +77,20 @@ def draw(graph: TransitionGraph, most: int = _MOST_MODES) -> Figure:
     axis.set_ylim(low, high)
     figure.suptitle(_title(graph, shown), fontsize=11)
     figure.supxlabel(
-        "Mode word {closed, approaching, slipping}, contact 1 rightmost; share of the time. Dashed: impacts,\n"
-        "which take no time. Bold: the start. Numbers at the arrows: how often.",
+        "Mode word {closed, approaching, slipping}, first contact rightmost; share of the time. Dashed: impacts,\n"
+        f"which take no time. Bold: the start. Numbers at the arrows: how often.{_named(graph)}",
         fontsize=7.5,
         color="0.3",
     )
     return figure
+
+
+def _named(graph: TransitionGraph) -> str:
+    """Return a line that names the contacts of the words, or, where they are too many, what numbers mean."""
+    text = f"From the right: {', '.join(graph.contacts)}."
+    if len(text) > _LONGEST_LINE:
+        text = "Contacts go by their indices in solution.system.contacts, from 0."
+    return f"\n{text}" if graph.contacts else ""
 
 
 def _title(graph: TransitionGraph, shown: TransitionGraph) -> str:
@@ -178,13 +187,13 @@ def _list_words(panel: Axes, graph: TransitionGraph, places: dict[Mode, Point]) 
 
 
 def _described(graph: TransitionGraph, mode: Mode) -> str:
-    """Return the mode word, or, where it is too long, which contacts are not open."""
-    if 3 * graph.n_contacts + 4 <= _LONGEST_ROW:
+    """Return the mode word, or, where it is too long, which contacts are not open, by their indices."""
+    if 3 * len(graph.contacts) + 4 <= _LONGEST_ROW:
         return graph.word(mode)
     names = ("closed", "approaching", "slipping")
     parts = []
     for i, name in enumerate(names):
-        numbers = [str(contact + 1) for contact, bits in mode if bits >> i & 1]
+        numbers = [str(contact) for contact, bits in mode if bits >> i & 1]
         if numbers:
             parts.append(f"{name} {' '.join(numbers)}")
     text = "; ".join(parts) or "all open"

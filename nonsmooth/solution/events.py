@@ -29,8 +29,8 @@ class Events:
     cause : array
         Index into :data:`nonsmooth.engine.memory.modes.CAUSES`, shape [n].
     contact : array
-        The contact that caused it, counted from 0, -1 at the start; the number of the guard where that is the
-        cause; shape [n].
+        Index into ``system.contacts`` of the contact that caused it, or into ``system.guards`` where that is the cause;
+        -1 at the start; shape [n].
     phases : array
         Changes of phase within an impact, else 0; shape [n].
     truncated : array
@@ -174,6 +174,18 @@ class Events:
         """Return the mode words ``before``, ``during`` or ``after`` every event."""
         codes: Integers = {"before": self.before, "during": self.during, "after": self.after}[which]
         return words(codes)
+
+    def intervals(self) -> dict[str, int]:
+        """Return how many events followed the one before after which time, by the decade that it begins with [s].
+
+        "1e-05" stands for 1e-5 s and more, below 1e-4 s, and "0" for the same instant.
+        """
+        passed = np.diff(self.time)
+        decades = np.floor(np.log10(passed[passed > 0.0])).astype(int)
+        found = {"0": int(np.count_nonzero(passed <= 0.0))} | {
+            f"1e{decade:+03d}": int(n) for decade, n in zip(*np.unique(decades, return_counts=True), strict=True)
+        }
+        return {decade: n for decade, n in found.items() if n}
 
     def count(self, *causes: int) -> int:
         """Return how many events have one of the causes."""

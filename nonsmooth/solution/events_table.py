@@ -5,13 +5,11 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from nonsmooth.engine.memory.modes import GUARD
 from nonsmooth.solution.files import replacing
-from nonsmooth.solution.labels import labels
 from nonsmooth.solution.solution import Solution
 
 _ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
-_HEAD = ("time [s]", "cause", "contact", "phases", *(f"{name} [J]" for name in _ENERGIES), "modes")
+_HEAD = ("time [s]", "cause", "contact or guard", "phases", *(f"{name} [J]" for name in _ENERGIES), "modes")
 
 
 def save_events(solution: Solution, path: Path) -> None:
@@ -25,22 +23,20 @@ def save_events(solution: Solution, path: Path) -> None:
     FileError
         If that is not possible; an older file of that name stays as it was.
     """
-    events, names = solution.events, labels(solution.system).contacts
+    events, names = solution.events, solution.system.names.contacts
     first, listed, codes = events.first.tolist(), events.listed.tolist(), events.codes.tolist()
     causes, energies = events.causes(), [getattr(events, name).tolist() for name in _ENERGIES]
-    contacts = zip(events.cause.tolist(), events.contact.tolist(), strict=True)
     with replacing(path) as part, part.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(_HEAD)
-        for i, ((cause, contact), time) in enumerate(zip(contacts, events.time.tolist(), strict=True)):
+        for i, (time, trigger) in enumerate(zip(events.time.tolist(), solution.triggers(), strict=True)):
             modes = [
                 f"{names[listed[j]]} {' '.join(_bits(codes[j] >> shift) for shift in (0, 3, 6))}"
                 for j in range(first[i], first[i + 1])
                 if codes[j] not in _UNCHANGED
             ]
-            what = "" if contact < 0 else f"guard {contact + 1}" if cause == GUARD else names[contact]
             numbers = (repr(column[i]) for column in energies)
-            table.writerow([repr(time), causes[i], what, int(events.phases[i]), *numbers, "; ".join(modes)])
+            table.writerow([repr(time), causes[i], trigger, int(events.phases[i]), *numbers, "; ".join(modes)])
 
 
 _UNCHANGED = {bits * (1 + 8 + 64) for bits in range(8)}

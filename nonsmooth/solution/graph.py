@@ -22,8 +22,8 @@ class TransitionGraph:
 
     Attributes
     ----------
-    n_contacts : int
-        Contacts of the system.
+    contacts : tuple of str
+        Names of the contacts of the system.
     start : Mode
         The mode at t = 0.
     shares : mapping of Mode to float
@@ -34,7 +34,7 @@ class TransitionGraph:
         How often a mode led to another one, and by which cause.
     """
 
-    n_contacts: int
+    contacts: tuple[str, ...]
     start: Mode
     shares: Mapping[Mode, float]
     passing: frozenset[Mode]
@@ -42,7 +42,7 @@ class TransitionGraph:
 
     def word(self, mode: Mode) -> str:
         """Return the mode word of Eq. (29)."""
-        rows = [[0] * self.n_contacts for _ in range(3)]
+        rows = [[0] * len(self.contacts) for _ in range(3)]
         for contact, bits in mode:
             for i, row in enumerate(rows):
                 row[contact] = bits >> i & 1
@@ -75,7 +75,7 @@ class TransitionGraph:
         ranked = sorted(self.shares, key=lambda mode: (mode != self.start, -visits[mode], -self.shares[mode]))
         kept = set(ranked[:limit])
         return TransitionGraph(
-            self.n_contacts,
+            self.contacts,
             self.start,
             {mode: share for mode, share in self.shares.items() if mode in kept},
             self.passing & kept,
@@ -83,7 +83,7 @@ class TransitionGraph:
         )
 
 
-def transition_graph(events: Events, t_end: float) -> TransitionGraph:
+def transition_graph(events: Events, contacts: tuple[str, ...], t_end: float) -> TransitionGraph:
     """Return the graph of a run that reached ``t_end`` [s]; one mode, open, where nothing was recorded."""
     counts: Counter[tuple[Mode, Mode, str]] = Counter()
     shares: dict[Mode, float] = {}
@@ -106,7 +106,7 @@ def transition_graph(events: Events, t_end: float) -> TransitionGraph:
     if not shares:
         shares[start] = 1.0
     passing = frozenset(mode for mode in passed if mode not in shares)
-    return TransitionGraph(events.n_contacts, start, dict.fromkeys(passed, 0.0) | shares, passing, dict(counts))
+    return TransitionGraph(contacts, start, dict.fromkeys(passed, 0.0) | shares, passing, dict(counts))
 
 
 def _mode(events: Events, event: int, shift: int) -> Mode:

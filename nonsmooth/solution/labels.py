@@ -1,17 +1,14 @@
-"""Labels for bodies, coordinates and contacts, made from what they are: "ball 1", "ball 2", "plate - ball 2"."""
+"""Labels for coordinates and velocities, with their units: "ball 2 x" [m]."""
 
 from __future__ import annotations
 
-import re
-from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import final
 
 from nonsmooth.interfaces import Body
 from nonsmooth.system.system import System
 
-_HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 _POSE = tuple(zip(("x", "y", "z", "q0", "q1", "q2", "q3"), "mmm1111", strict=True))
 _TWIST = tuple(zip(("vx", "vy", "vz", "wx", "wy", "wz"), 3 * ["m/s"] + 3 * ["rad/s"], strict=True))
 _OF_ITS_OWN = "SI"
@@ -21,42 +18,25 @@ _OF_ITS_OWN = "SI"
 @final
 @dataclass(frozen=True)
 class Labels:
-    """What the parts of a system are called, in its order.
+    """What the coordinates of a system are called, in its order.
 
     Attributes
     ----------
-    bodies, contacts : tuple of str
-        Each once.
     coordinates, velocities : tuple of tuple of str
         Body, name with the body's, unit.
     """
 
-    bodies: tuple[str, ...]
-    contacts: tuple[str, ...]
     coordinates: tuple[tuple[str, str, str], ...]
     velocities: tuple[tuple[str, str, str], ...]
 
 
 def labels(system: System) -> Labels:
-    """Return the labels of a system."""
-    bodies = _numbered([_HUMP.sub(" ", type(body).__name__).lower() for body in system.bodies], "{} {}")
-    known = dict(zip(map(id, system.bodies), bodies, strict=True))
-    contacts = [f"{known[id(contact.first)]} - {known[id(contact.second)]}" for contact in system.contacts]
-    pairs = list(zip(system.bodies, bodies, strict=True))
+    """Return the labels of the coordinates and velocities of a system."""
+    pairs = list(zip(system.bodies, system.names.bodies, strict=True))
     return Labels(
-        bodies,
-        _numbered(contacts, "{} ({})"),
         tuple(row for body, label in pairs for row in _rows(body, label, body.n_q, "q", _POSE)),
         tuple(row for body, label in pairs for row in _rows(body, label, body.n_u, "u", _TWIST)),
     )
-
-
-def _numbered(words: Sequence[str], form: str) -> tuple[str, ...]:
-    totals, seen, found = Counter(words), Counter[str](), []
-    for word in words:
-        seen[word] += 1
-        found.append(word if totals[word] == 1 else form.format(word, seen[word]))
-    return tuple(found)
 
 
 def _rows(

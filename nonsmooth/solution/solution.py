@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.modes import IMPACT, JAM, PAINLEVE
+from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
@@ -32,6 +33,12 @@ class Counters:
         Accepted and rejected steps of the flow.
     impacts, impact_steps : int
         Impacts and the steps taken inside them.
+    limits : mapping of str to int
+        How many steps were limited by what (:data:`nonsmooth.engine.memory.limits.LIMITS`).
+    gap_looks : int
+        How often open gaps had to be looked at within a step to prove that they stay open.
+    listings : int
+        How often the contacts that are near each other were listed anew.
     wall_seconds : float
         Wall time of the engine [s].
     """
@@ -40,6 +47,9 @@ class Counters:
     rejected: int
     impacts: int
     impact_steps: int
+    limits: Mapping[str, int]
+    gap_looks: int
+    listings: int
     wall_seconds: float
 
 
@@ -115,9 +125,15 @@ class Solution:
         columns = (self.events.words(which) for which in ("before", "during", "after"))
         return list(zip(self.events.time.tolist(), self.events.causes(), *columns, strict=True))
 
+    def triggers(self) -> list[str]:
+        """Return the name of the contact, or of the guard, that caused each event; "" at the start."""
+        names = self.system.names
+        pairs = zip(self.events.cause.tolist(), self.events.contact.tolist(), strict=True)
+        return ["" if i < 0 else (names.guards if cause == GUARD else names.contacts)[i] for cause, i in pairs]
+
     def transition_graph(self) -> TransitionGraph:
         """Return the modes visited, their shares of the time, and how often which cause led from one to another."""
-        return transition_graph(self.events, self.t_end)
+        return transition_graph(self.events, self.system.names.contacts, self.t_end)
 
     def of(self, body: Body) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the samples of q and u of one body, shapes [n, body.n_q] and [n, body.n_u]."""

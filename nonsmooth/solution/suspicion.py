@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,15 +21,15 @@ _ROUND_OFF = 1e-12
 def suspicions(
     worst_event: tuple[float, float, float],
     energy: EnergyAccount,
-    bodies: Sequence[Body],
+    bodies: Mapping[str, Body],
     samples: tuple[NDArray[np.float64], NDArray[np.float64]],
     tolerances: tuple[float, float],
     steps: int,
 ) -> str:
     """Return what is wrong with a run, "" for nothing.
 
-    ``worst_event`` has time [s], energy [J] and share of what is explained; ``samples`` t and q; ``tolerances`` are
-    those of a step and of an impact, ``steps`` their number.
+    ``worst_event`` has time [s], energy [J] and share of what is explained; ``bodies`` are those of the system by name;
+    ``samples`` t and q; ``tolerances`` are those of a step and of an impact, ``steps`` their number.
     """
     found = (
         open_event(*worst_event),
@@ -61,10 +61,12 @@ def open_run(energy: EnergyAccount, tolerance: float, steps: int) -> str:
     )
 
 
-def long_quaternion(bodies: Sequence[Body], t: NDArray[np.float64], q: NDArray[np.float64], tolerance: float) -> str:
+def long_quaternion(
+    bodies: Mapping[str, Body], t: NDArray[np.float64], q: NDArray[np.float64], tolerance: float
+) -> str:
     """Return which quaternion is off unit length most at the samples, by more than the tolerance explains, or ""."""
     most, found, first = _EXPLAINED * tolerance, "", 0
-    for body in bodies:
+    for name, body in bodies.items():
         if body.quaternion >= 0 and len(t) > 0:
             start = first + body.quaternion
             four = q[:, start : start + 4]
@@ -72,6 +74,6 @@ def long_quaternion(bodies: Sequence[Body], t: NDArray[np.float64], q: NDArray[n
             worst = int(np.argmax(off))
             if off[worst] > most:
                 most = float(off[worst])
-                found = f"the quaternion of {body!r} is off unit length by {most:.3g} at t = {float(t[worst]):.9g} s"
+                found = f"the quaternion of {name!r} is off unit length by {most:.3g} at t = {float(t[worst]):.9g} s"
         first += body.n_q
     return found

@@ -30,13 +30,13 @@ _SHIFTS = {"mode_before": 0, "mode_during": 3, "mode_after": 6}
 
 def of_system(system: System) -> list[Variable]:
     """Return the labels of bodies, coordinates and contacts, and the laws of the latter."""
-    names, contacts = labels(system), system.contacts
+    names, rows_of, contacts = system.names, labels(system), system.contacts
     known = dict(zip(map(id, system.bodies), names.bodies, strict=True))
     found = [
         _words("body", "body", names.bodies, "body"),
         _words("body_kind", "body", [type(body).__name__ for body in system.bodies], "class of the body"),
     ]
-    for dimension, rows in (("coordinate", names.coordinates), ("velocity", names.velocities)):
+    for dimension, rows in (("coordinate", rows_of.coordinates), ("velocity", rows_of.velocities)):
         whose, label, unit = zip(*rows, strict=True) if rows else ((), (), ())
         found += [
             _words(dimension, dimension, label, f"{dimension} of a body"),
@@ -44,6 +44,7 @@ def of_system(system: System) -> list[Variable]:
             _words(f"{dimension}_units", dimension, unit, "its unit"),
         ]
     found.append(_words("contact", "contact", names.contacts, "contact"))
+    found.append(_words("guard", "guard", names.guards, "guard"))
     for which in ("first", "second"):
         between = [known[id(getattr(contact, which))] for contact in contacts]
         found.append(_words(f"contact_{which}_body", "contact", between, f"{which} body of the contact"))
@@ -99,7 +100,11 @@ def of_events(events: Events) -> list[Variable]:
     return [
         over("event_time", events.time, "time of the event", "s", standard_name="time"),
         over("event_cause", events.cause.astype(np.int8), "cause", **causes),
-        over("event_contact", events.contact.astype(np.int32), "place in `contact`, from 0; of a guard its number"),
+        over(
+            "event_contact",
+            events.contact.astype(np.int32),
+            "index in `contact` or, by its cause, `guard`, from 0",
+        ),
         over("event_phases", events.phases.astype(np.int32), "changes of phase within the impact"),
         over("event_truncated", events.truncated.astype(np.int8), "1 where an endless cascade was cut short"),
         *(over(name, getattr(events, name), what, "J") for name, what in _ENERGIES.items()),
@@ -107,7 +112,7 @@ def of_events(events: Events) -> list[Variable]:
         _over("event_u_before", ("event", "velocity"), events.u_before, "velocities before the event"),
         _over("event_u_after", ("event", "velocity"), events.u_after, "velocities after the event"),
         over("event_size", np.diff(events.first).astype(np.int32), "contacts listed", sample_dimension="listing"),
-        listed("listed_contact", events.listed.astype(np.int32), "place in `contact`, from 0"),
+        listed("listed_contact", events.listed.astype(np.int32), "index in `contact`, from 0"),
         *(listed(name, bits[name], f"mode of the contact {name[5:]} the event", **_MODE) for name in _SHIFTS),
         Variable(
             "impulse",

@@ -1,4 +1,4 @@
-"""What ties two bodies together: contacts, joints, loads, each between a frame of either."""
+"""What is declared in a system: contacts, joints and loads, each between frames of two bodies, and guards."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from nonsmooth.interfaces import (
     Body,
     ContactKinematics,
+    Guard,
     ImpactLaw,
     Joint,
     Load,
@@ -24,7 +25,7 @@ class Contact:
     Attributes
     ----------
     name : str
-        Number in the system and bodies, for messages.
+        Its name, once among the contacts of the system.
     first, second : Body
         The bodies; the normal points from the first to the second.
     frames : tuple of int
@@ -55,6 +56,10 @@ class Contact:
     friction: TangentialLaw
     impact: ImpactLaw | None
 
+    def __str__(self) -> str:
+        """Return what messages call it."""
+        return f"contact {self.name!r}"
+
     @property
     def size(self) -> float:
         """The smaller of the extents [m]."""
@@ -73,12 +78,38 @@ class Declaration:
         For either body numbers of its shapes, or None for all.
     laws : ContactLaws
         The laws.
+    name : str
+        The name chosen for the contacts, empty where theirs were made.
     """
 
     first: Body
     second: Body
     shapes: tuple[tuple[int, ...] | None, tuple[int, ...] | None]
     laws: ContactLaws
+    name: str
+
+
+@dataclass(frozen=True)
+class Watched:
+    """A guard of a system.
+
+    Attributes
+    ----------
+    name : str
+        Its name, once among the guards of the system.
+    chosen : bool
+        Whether the user chose it.
+    guard : Guard
+        The guard.
+    """
+
+    name: str
+    chosen: bool
+    guard: Guard
+
+    def __str__(self) -> str:
+        """Return what messages call it."""
+        return f"guard {self.name!r}"
 
 
 @dataclass(frozen=True)
@@ -88,7 +119,11 @@ class Tie:
     Attributes
     ----------
     name : str
-        Kind and bodies, for messages.
+        Its name, once among the joints or loads of the system.
+    chosen : bool
+        Whether the user chose it.
+    kind : str
+        "joint" or "load".
     first, second : Body
         The bodies.
     frames : tuple of int
@@ -98,7 +133,13 @@ class Tie:
     """
 
     name: str
+    chosen: bool
+    kind: str
     first: Body
     second: Body
     frames: tuple[int, int]
     component: Joint | Load
+
+    def __str__(self) -> str:
+        """Return what messages call it."""
+        return f"{self.kind} {self.name!r}"

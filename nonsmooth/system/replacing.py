@@ -35,7 +35,7 @@ def with_laws(
     """
     if not system.declarations:
         raise InvalidInput("with_laws", "needs a system with contacts", 0, "Declare some with system.contact(...).")
-    made = System(system.bodies, -system.gravity[2])
+    made = system.without_contacts()
     for said in system.declarations:
         laws = said.laws
         kept = None if isinstance(normal, CompliantNormalLaw) else laws.impact
@@ -46,15 +46,6 @@ def with_laws(
             friction=laws.friction if friction is None else friction,
             impact=kept if impact is None else impact,
             shapes=said.shapes,
+            name=said.name,
         )
-    for one, other in system.excluded:
-        made.exclude(one, other)
-    for tie in system.joints:
-        made.joint(tie.component, tie.first, tie.second, frames=tie.frames)  # type: ignore[arg-type]
-    for tie in system.loads:
-        made.load(tie.component, tie.first, tie.second, frames=tie.frames)  # type: ignore[arg-type]
-    for guard in system.guards:
-        made.guard(guard)
-    for body in system.bodies:
-        made.set_start(body, *system.start(body))
     return made

@@ -13,6 +13,7 @@ import numpy as np
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     Body,
+    ContactKinematics,
     Guard,
     ImpactLaw,
     ImpactProcess,
@@ -23,8 +24,9 @@ from nonsmooth.interfaces import (
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
-from nonsmooth.system.contact import Contact, Declaration, Tie
+from nonsmooth.system.contact import Contact, Declaration, Tie, Watched
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws
+from nonsmooth.system.names import Names, Naming, between, kind_word
 from nonsmooth.system.pairing import Geometries
 from nonsmooth.system.selection import Side, select
 from nonsmooth.system.sharing import check_sharing
@@ -32,6 +34,7 @@ from nonsmooth.system.sharing import check_sharing
 _LARGEST_GRAVITY = 1e4
 _Pair: TypeAlias = frozenset[int]
 _ShapePair: TypeAlias = frozenset[tuple[int, int]]
+_Facing: TypeAlias = tuple[Side, Side, ContactKinematics]
 
 
 class System:
@@ -71,7 +74,8 @@ class System:
         self._left_out: list[tuple[Body, Body]] = []
         self._joints: list[Tie] = []
         self._loads: list[Tie] = []
-        self._guards: list[Guard] = []
+        self._watched: list[Watched] = []
+        self._naming = Naming(self._bodies)
         self._starts: list[tuple[Vector, Vector]] = [body.state() for body in bodies]
         self._count_bodies()
 
@@ -88,7 +92,8 @@ class System:
     def __getstate__(self) -> dict[str, Any]:
         """Return what a copy starts from: lists of its own, that it may be changed apart from this system."""
         kept = {name: value for name, value in vars(self).items() if name not in ("_numbers", "_geometries")}
-        return {name: value.copy() if isinstance(value, (list, set)) else value for name, value in kept.items()}
+        own = (list, set, Naming)
+        return {name: copy.copy(value) if isinstance(value, own) else value for name, value in kept.items()}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:
         vars(self).update(state)
@@ -98,6 +103,30 @@ class System:
     def bodies(self) -> tuple[Body, ...]:
         """The bodies, in the order given."""
         return self._bodies
+
+    def name(self, body: Body, name: str) -> None:
+        """Choose the name of a body: words with single blanks, before anything is declared between bodies.
+
+        One without is called after its kind, with a number from 1 where there are several: "ball 2".
+
+        Raises
+        ------
+        InvalidInput
+            If the body is not of this system, the name has another form or is taken, or it comes too late.
+        """
+        self._require(body, "System.name")
+        self._naming.choose("System.name", self._numbers[id(body)], name)
+
+    @property
+    def names(self) -> Names:
+        """The names of all bodies, contacts, joints, loads and guards, in their orders."""
+        declared = self._contacts, self._joints, self._loads, self._watched
+        return Names(self._naming.bodies, *(tuple(one.name for one in parts) for parts in declared))
+
+    def name_of(self, body: Body) -> str:
+        """Return the name of a body; InvalidInput if it is not of this system."""
+        self._require(body, "System.name_of")
+        return self._naming.bodies[self._numbers[id(body)]]
 
     @property
     def gravity(self) -> tuple[float, float, float]:
@@ -122,7 +151,12 @@ class System:
     @property
     def guards(self) -> tuple[Guard, ...]:
         """The guards of the scenario's own, in the order declared."""
-        return tuple(self._guards)
+        return tuple(one.guard for one in self._watched)
+
+    @property
+    def watched(self) -> tuple[Watched, ...]:
+        """The guards with their names, in the order declared."""
+        return tuple(self._watched)
 
     def about(self, body: Body) -> System:
         """Return the same system with no contacts but those of a body, in the order declared."""
@@ -130,17 +164,25 @@ class System:
         made._contacts = [contact for contact in self._contacts if contact.first is body or contact.second is body]
         return made
 
-    def guard(self, guard: Guard) -> None:
+    def without_contacts(self) -> System:
+        """Return the same system with no contacts, of which others may then be declared."""
+        made = copy.copy(self)
+        made._contacts, made._declared, made._paired = [], [], set()
+        made._naming.forget("contact")
+        return made
+
+    def guard(self, guard: Guard, *, name: str = "") -> None:
         """Watch a condition of the scenario's own; its events carry its number, in the order declared.
 
         Raises
         ------
         InvalidInput
-            If it is not a Guard.
+            If it is not a Guard, or the name is taken.
         """
         if not isinstance(guard, Guard):
             raise InvalidInput("System.guard", "needs a Guard", guard, "Subclass nonsmooth.interfaces.Guard.")
-        self._guards.append(guard)
+        (given,) = self._naming.give("guard", name, [kind_word(guard)])
+        self._watched.append(Watched(given, bool(name), guard))
 
     @property
     def joints(self) -> tuple[Tie, ...]:
@@ -152,48 +194,57 @@ class System:
         """The loads, in the order declared."""
         return tuple(self._loads)
 
-    def joint(self, joint: Joint, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0)) -> None:
+    def joint(
+        self, joint: Joint, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0), name: str = ""
+    ) -> None:
         """Tie two bodies by a joint; ``frames`` says which frame of either.
 
         Raises
         ------
         InvalidInput
-            If it is not a Joint, a body is not of this system, they are the same or both driven, or a frame is unknown.
+            If it is not a Joint, a body is not of this system, they are the same or both driven, a frame is unknown or
+            the name taken.
         """
         if not isinstance(joint, Joint):
             raise InvalidInput("System.joint", "needs a Joint", joint, "See `nonsmooth list joints`.")
-        tie = self._tie("System.joint", joint, first, second, frames)
+        self._check_tie("System.joint", first, second, frames)
         if first.n_u == 0 and second.n_u == 0:
-            raise InvalidInput(tie.name, "needs a body that can move", "both are driven", "Take the joint out.")
-        self._joints.append(tie)
+            raise InvalidInput("System.joint", "needs a body that can move", "both are driven", "Take the joint out.")
+        self._joints.append(self._tie("joint", joint, first, second, frames, name))
 
-    def load(self, load: Load, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0)) -> None:
+    def load(self, load: Load, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0), name: str = "") -> None:
         """Let a load act on the second body, and its opposite on the first; ``frames`` says which frame of either.
 
         Raises
         ------
         InvalidInput
-            If it is not a Load, a body is not of this system, they are the same, or a frame is unknown.
+            If it is not a Load, a body is not of this system, they are the same, a frame is unknown or the name taken.
         """
         if not isinstance(load, Load):
             raise InvalidInput("System.load", "needs a Load", load, "See `nonsmooth list loads`.")
-        self._loads.append(self._tie("System.load", load, first, second, frames))
+        self._check_tie("System.load", first, second, frames)
+        self._loads.append(self._tie("load", load, first, second, frames, name))
 
-    def _tie(self, where: str, component: Joint | Load, first: Body, second: Body, frames: tuple[int, int]) -> Tie:
+    def _check_tie(self, where: str, first: Body, second: Body, frames: tuple[int, int]) -> None:
         self._require(first, where)
         self._require(second, where)
         if first is second:
-            raise InvalidInput(where, "needs two different bodies", type(first).__name__, "Name the other body.")
+            raise InvalidInput(where, "needs two different bodies", self.name_of(first), "Name the other body.")
         for body, frame in zip((first, second), frames, strict=True):
             if frame not in range(len(body.frames)):
                 raise InvalidInput(
                     f"{where}: frames",
-                    f"must be below {len(body.frames)} for {type(body).__name__}",
+                    f"must be below {len(body.frames)} for {self.name_of(body)}",
                     frame,
                     "Count from 0.",
                 )
-        name = f"{type(component).__name__} of {type(first).__name__} and {type(second).__name__}"
-        return Tie(name, first, second, frames, component)
+
+    def _tie(
+        self, kind: str, component: Joint | Load, first: Body, second: Body, frames: tuple[int, int], name: str
+    ) -> Tie:
+        made = between(self.name_of(first), self.name_of(second), kind_word(component))
+        (given,) = self._naming.give(kind, name, [made])
+        return Tie(given, bool(name), kind, first, second, frames, component)
 
     def start(self, body: Body) -> tuple[Vector, Vector]:
         """Return q and u of a body at t = 0; InvalidInput if it is not of this system."""
@@ -234,6 +285,7 @@ class System:
         friction: TangentialLaw,
         impact: ImpactLaw | None = None,
         shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
+        name: str = "",
     ) -> tuple[Contact, ...]:
         """Let two bodies touch: one contact per pair of their shapes, all with the same laws.
 
@@ -249,6 +301,8 @@ class System:
             Which shapes of either body may touch, None for all.  The shapes of a body are numbered from 0 through all
             of its frames, in the order of ``Body.frames``.  Shapes of the same two bodies may so get laws of their own
             by further calls.
+        name : str, optional
+            What the contacts are called, with numbers from 1 if they are several; by default after the bodies.
 
         Returns
         -------
@@ -259,8 +313,8 @@ class System:
         ------
         InvalidInput
             If a body is not of this system, a law is missing or of the wrong kind, no kinematics is known
-            for a pair of shapes, a body carries none or not the one named, two shapes have their contacts already, or
-            the impact law is of another kind than that of the other contacts.
+            for a pair of shapes, a body carries none or not the one named, two shapes have their contacts already,
+            the impact law is of another kind than that of the other contacts, or the name is taken.
         """
         self._require(first, "System.contact")
         self._require(second, "System.contact")
@@ -275,7 +329,7 @@ class System:
             )
         if first is second:
             raise InvalidInput(
-                "System.contact", "needs two different bodies", type(first).__name__, "Name the other body."
+                "System.contact", "needs two different bodies", self.name_of(first), "Name the other body."
             )
         sides = select("System.contact", (first, second), shapes, self._geometries.shapes)
         pairs = {frozenset((self._key(one), self._key(other))) for one, other in itertools.product(*sides)}
@@ -283,17 +337,18 @@ class System:
             raise InvalidInput(
                 "System.contact",
                 "needs two bodies, or shapes of them, that have no contact with each other yet",
-                (type(first).__name__, type(second).__name__),
+                (self.name_of(first), self.name_of(second)),
                 "One call adds the contacts of all their shapes, or of those named by `shapes`.",
             )
-        added: list[Contact] = []
-        for one, other in itertools.product(*sides):
-            added += self._pair(one, other, len(added), normal, friction, impact)
-        check_sharing("System.contact", added)
+        facing = [found for one, other in itertools.product(*sides) for found in self._facing(one, other)]
+        made = [between(self.name_of(one.body), self.name_of(two.body)) for one, two, _ in facing]
+        laws = ContactLaws(normal, friction, impact)
+        check_sharing("System.contact", laws, len(facing))
+        names = self._naming.give("contact", name, made)
+        added = [_contact(*named, laws) for named in zip(names, facing, strict=True)]
         self._contacts += added
         chosen = tuple(None if numbers is None else tuple(numbers) for numbers in shapes)
-        laws = ContactLaws(normal, friction, impact)
-        self._declared.append(Declaration(first, second, (chosen[0], chosen[1]), laws))
+        self._declared.append(Declaration(first, second, (chosen[0], chosen[1]), laws, name))
         self._paired |= pairs
         return tuple(added)
 
@@ -345,14 +400,14 @@ class System:
         out |= {self._pair_of(one, other) for one, other in (*self._excluded, *apart)}
         for body in chosen:
             self._require(body, "System.contact_all: bodies")
-        kept, added = (list(self._contacts), list(self._declared), set(self._paired)), len(self._contacts)
+        kept, added = self.__getstate__(), len(self._contacts)
         try:
             for one, other in itertools.combinations(chosen, 2):
                 if self._pair_of(one, other) not in out and one.n_u + other.n_u > 0:
                     laws = materials.laws(names.get(id(one)), names.get(id(other)))
                     self.contact(one, other, normal=laws.normal, friction=laws.friction, impact=laws.impact)
         except InvalidInput:
-            self._contacts, self._declared, self._paired = kept
+            vars(self).update(kept)
             raise
         self._left_out += apart
         return tuple(self._contacts[added:])
@@ -369,7 +424,7 @@ class System:
         self._require(second, "System.exclude")
         if first is second:
             raise InvalidInput(
-                "System.exclude", "needs two different bodies", type(first).__name__, "Name the other body."
+                "System.exclude", "needs two different bodies", self.name_of(first), "Name the other body."
             )
         self._excluded.append((first, second))
 
@@ -383,30 +438,15 @@ class System:
                     raise InvalidInput(
                         "System.contact_all: of",
                         "must name one material for a body",
-                        f"{type(body).__name__} of {names[id(body)]!r} and {name!r}",
+                        f"{self.name_of(body)} of {names[id(body)]!r} and {name!r}",
                         "Take it out of one of the two.",
                     )
         return names
 
-    def _pair(
-        self,
-        first: Side,
-        second: Side,
-        n_added: int,
-        normal: NormalLaw,
-        friction: TangentialLaw,
-        impact: ImpactLaw | None,
-    ) -> list[Contact]:
-        number = len(self._contacts) + n_added + 1
+    def _facing(self, first: Side, second: Side) -> list[_Facing]:
         geometries, in_order = self._geometries.between(first.shape, second.shape)
         one, two = (first, second) if in_order else (second, first)
-        name = f"contact of {type(one.body).__name__} and {type(two.body).__name__} (from number {number})"
-        bodies, frames, shapes = (one.body, two.body), (one.frame, two.frame), (one.shape, two.shape)
-        extents, levers = (one.shape.extent, two.shape.extent), (one.shape.lever, two.shape.lever)
-        return [
-            Contact(name, *bodies, frames, shapes, geometry, extents, levers, normal, friction, impact)
-            for geometry in geometries
-        ]
+        return [(one, two, geometry) for geometry in geometries]
 
     def _require(self, body: Body, where: str) -> None:
         if id(body) not in self._numbers:
@@ -427,6 +467,13 @@ class System:
     def n_degrees(self) -> int:
         """Number of velocities of all bodies."""
         return int(np.sum([body.n_u for body in self._bodies]))
+
+
+def _contact(name: str, facing: _Facing, laws: ContactLaws) -> Contact:
+    one, two, geometry = facing
+    bodies, frames, shapes = (one.body, two.body), (one.frame, two.frame), (one.shape, two.shape)
+    extents, levers = (one.shape.extent, two.shape.extent), (one.shape.lever, two.shape.lever)
+    return Contact(name, *bodies, frames, shapes, geometry, extents, levers, laws.normal, laws.friction, laws.impact)
 
 
 def _same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:

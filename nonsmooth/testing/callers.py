@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import functools
 import types
 from collections.abc import Callable, Mapping
@@ -11,25 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.binding.compile import bind, parameter_names
+from nonsmooth.binding.compile import bind, caller, parameter_names
 from nonsmooth.engine.native.kernel import PLAIN, at
 from nonsmooth.parameters import Value
 
 Array = NDArray[np.float64]
 Caller = Callable[..., Any]
-_POINTERS = {
-    "body": 4,
-    "load": 4,
-    "pair": 4,
-    "support": 3,
-    "map": 4,
-    "guard": 3,
-    "scalar": 1,
-    "compliance": 1,
-    "traction": 4,
-    "rates": 4,
-}
-_RETURNING = ("scalar", "guard", "compliance")
 
 
 def plain_caller(function: Callable[..., Any], form: str, values: Mapping[str, Any]) -> Caller:
@@ -72,8 +58,7 @@ def compiled_caller(function: Callable[..., Any], form: str, values: Mapping[str
     address, heap = bind(function, form, values, owner)
     if PLAIN:
         return plain_caller(function, form, values)
-    numbers = np.array([*heap, 0.0])
-    return _native(address, form, numbers)
+    return caller(form, address, np.array([*heap, 0.0]))
 
 
 def compiled_map(function: Callable[..., Any], vectors: Mapping[str, Array], owner: str) -> Caller:
@@ -82,23 +67,4 @@ def compiled_map(function: Callable[..., Any], vectors: Mapping[str, Array], own
     if PLAIN:
         return plain_caller(function, "map", vectors)
     numbers = np.concatenate([vectors[name] for name in parameter_names(function, "map")] + [np.zeros(1)])
-    return _native(address, "map", numbers)
-
-
-def _native(address: int, form: str, numbers: Array) -> Caller:
-    result = ctypes.c_double if form in _RETURNING else None
-    heads: dict[str, list[Any]] = {"pair": [], "map": [ctypes.c_int64], "compliance": [ctypes.c_double] * 3}
-    first = heads.get(form, [ctypes.c_double])
-    native: Any = ctypes.CFUNCTYPE(result, *first, *[ctypes.c_void_p] * _POINTERS[form])(address)
-
-    def call(*arguments: Any) -> Any:
-        given = [a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments]
-        if form in _RETURNING:
-            return native(*given, numbers.ctypes.data)
-        if form == "rates":
-            # called as loads are, with the states in place of both bodies
-            given.insert(1, given[1])
-        # the engine hands the parameters over before what is to be written
-        return native(*given[:-1], numbers.ctypes.data, given[-1])
-
-    return call
+    return caller("map", address, numbers)

@@ -11,6 +11,7 @@ from typing import Any, final
 import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
+from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.engine.native.kernel import room_addresses
 from nonsmooth.errors import UnknownName
 from nonsmooth.testing.budget import Call, OutOfTime, make_all, where
@@ -22,8 +23,6 @@ ROOM = 4
 OLD = 7.0e3
 """What stands there, and must stay."""
 _SAME = 1e-9
-_RETURNING = ("scalar", "guard", "compliance")
-"""Forms that return a number and write nothing."""
 
 
 @final
@@ -40,7 +39,7 @@ class Function:
     function : callable
         The function.
     form : str
-        Its form (:data:`nonsmooth.binding.compile.ROLES`).
+        Its form (:data:`nonsmooth.engine.native.forms.FORMS`).
     offered : mapping
         The parameters that it may ask for.
     plain, compiled : callable
@@ -213,7 +212,7 @@ def _finite(function: Function) -> None:
 
 
 def _inside(function: Function) -> None:
-    for words, value in function.inputs if function.form not in _RETURNING else ():
+    for words, value in function.inputs if not FORMS[function.form].returns else ():
         if np.any(np.asarray(function.plain(value))[-ROOM:] != OLD):
             raise Broken(f"{function.title}({words}) writes beyond its block", *described(function.owner))
 

@@ -30,8 +30,7 @@ from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.binding.compile import bind
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.rooms import ROOMS
-from nonsmooth.engine.native.kernel import address_of, room_addresses
-from nonsmooth.engine.native.native import call_pair
+from nonsmooth.engine.native.kernel import address_of, call_pair, room_addresses
 from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.image import Image

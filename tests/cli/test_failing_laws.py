@@ -118,7 +118,7 @@ def test_a_law_that_runs_in_python_is_one_line_of_warning(call: Call, law: Path)
         assert told == []
         return
     assert len(told) == 1
-    for word in ("Table (contact of", f"by_table in {law}, line", '`return level * TABLE["level"]`', "A call takes"):
+    for word in ("Table (contact '", f"by_table in {law}, line", '`return level * TABLE["level"]`', "A call takes"):
         assert word in told[0]
 
 

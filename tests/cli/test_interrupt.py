@@ -44,7 +44,7 @@ def test_a_process_that_is_interrupted_saves_its_results(
 
 def test_ctrl_c_between_two_calls_of_the_engine(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
     class Impatient:
-        def __call__(self, t: float, t_end: float) -> None:
+        def __call__(self, t: float, t_end: float, events: int) -> None:
             signal.raise_signal(signal.SIGINT)
 
         def finish(self) -> None:
@@ -62,7 +62,7 @@ def test_ctrl_c_before_the_run_began(call: Call, monkeypatch: pytest.MonkeyPatch
     def stopped(*words: object, **more: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(run, "simulate", stopped)
+    monkeypatch.setattr(run, "assemble", stopped)
     status, output, _ = call("run", "tiny", "--json")
     report = json.loads(output)
     assert status == 1

@@ -1,12 +1,14 @@
-"""When progress is written, and what stays of it."""
+"""When progress is shown, and what stays of it."""
 
 from __future__ import annotations
 
 import io
+import subprocess
+import sys
 
 import pytest
 
-from nonsmooth.cli.progress import LINES, TERMINAL, Progress, Style, on_standard_error
+from nonsmooth.cli.progress import Bar, Display, Lines, Progress, on_standard_error
 
 
 class _Clock:
@@ -17,56 +19,68 @@ class _Clock:
         return self.now
 
 
-def _written(style: Style, seconds: float) -> str:
-    """Run of ten simulated seconds in so many seconds of wall time, reported a hundred times."""
-    clock, stream = _Clock(), io.StringIO()
-    progress = Progress(stream, style, clock)
+class _Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def _shown(display: Display, seconds: float) -> None:
+    """Run ten simulated seconds in so many seconds of wall time, reported a hundred times."""
+    clock = _Clock()
+    progress = Progress(display, clock)
     for i in range(1, 101):
         clock.now = seconds * i / 100
-        progress(0.1 * i, 10.0)
+        progress(0.1 * i, 10.0, 3 * i)
     progress.finish()
-    return stream.getvalue()
 
 
-@pytest.mark.parametrize("style", [LINES, TERMINAL])
-def test_a_short_run_says_nothing(style: Style) -> None:
-    assert _written(style, 0.9) == ""
+@pytest.mark.parametrize("kind", [Lines, Bar])
+def test_a_short_run_says_nothing(kind: type[Lines] | type[Bar]) -> None:
+    stream = _Terminal()
+    _shown(kind(stream), 0.9)
+    assert stream.getvalue() == ""
 
 
 def test_lines_are_few_and_whole() -> None:
-    lines = _written(LINES, 30.0).splitlines()
+    stream = io.StringIO()
+    _shown(Lines(stream), 30.0)
+    lines = stream.getvalue().splitlines()
     assert len(lines) == 3
-    assert lines[0] == "t = 0.7 of 10 s (7%), about 28 s to go"
+    assert lines[0] == "t = 0.8 of 10 s (8%, 24 events, about 28 s to go)"
 
 
-def test_a_terminal_has_one_line_that_is_gone_in_the_end() -> None:
-    written = _written(TERMINAL, 30.0)
-    assert "\n" not in written
+def test_a_terminal_has_one_line_that_is_gone_in_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With all that the bar tells; what is printed meanwhile stands above it."""
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "100")
+    stream = _Terminal()
+    _shown(Bar(stream), 30.0)
+    written = stream.getvalue()
     assert 50 < written.count("t = ") <= 101
-    assert written.endswith("\r\x1b[K")
+    for word in ("t = 5 of 10 s", "━", "50%, 150 events, about 15 s to go"):
+        assert word in written
+    assert written.endswith("\x1b[2K")
 
 
-def test_what_came_before_the_run_is_not_in_the_estimate() -> None:
+def test_what_came_before_the_run_does_not_count() -> None:
     """The engine may have been compiled for half a minute."""
     clock, stream = _Clock(), io.StringIO()
-    progress = Progress(stream, LINES, clock)
+    progress = Progress(Lines(stream), clock)
     clock.now = 30.0
     progress(1.0, 10.0)
+    assert stream.getvalue() == ""
     clock.now = 41.0
     progress(2.0, 10.0)
-    assert stream.getvalue().splitlines() == ["t = 1 of 10 s (10%)", "t = 2 of 10 s (20%), about 88 s to go"]
+    assert stream.getvalue() == "t = 2 of 10 s (20%, about 88 s to go)\n"
 
 
 def test_the_next_of_several_runs_is_estimated_by_itself() -> None:
     clock, stream = _Clock(), io.StringIO()
-    progress = Progress(stream, LINES, clock)
-    clock.now = 100.0
-    progress(10.0, 10.0)
-    clock.now = 101.0
-    progress(0.1, 10.0)
-    clock.now = 111.0
-    progress(5.0, 10.0)
-    assert stream.getvalue().splitlines()[-1] == "t = 5 of 10 s (50%), about 10 s to go"
+    progress = Progress(Lines(stream), clock)
+    for now, t in ((0.0, 1.0), (100.0, 10.0), (101.0, 0.1), (111.0, 5.0)):
+        clock.now = now
+        progress(t, 10.0)
+    assert stream.getvalue().splitlines()[-1] == "t = 5 of 10 s (50%, about 10 s to go)"
 
 
 def test_a_stream_that_takes_nothing_does_not_stop_the_run() -> None:
@@ -74,12 +88,9 @@ def test_a_stream_that_takes_nothing_does_not_stop_the_run() -> None:
         def flush(self) -> None:
             raise BrokenPipeError
 
-    clock, stream = _Clock(), Full()
-    progress = Progress(stream, LINES, clock)
-    clock.now = 100.0
-    progress(1.0, 10.0)
-    progress.finish()
-    assert stream.getvalue().startswith("t = 1 of 10 s")
+    stream = Full()
+    _shown(Lines(stream), 30.0)
+    assert stream.getvalue().startswith("t = 0.8 of 10 s")
 
 
 def test_without_standard_error_nothing_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -87,3 +98,8 @@ def test_without_standard_error_nothing_is_written(monkeypatch: pytest.MonkeyPat
     progress = on_standard_error()
     progress(1.0, 10.0)
     progress.finish()
+
+
+def test_nobody_waits_for_the_bar_to_be_imported() -> None:
+    code = "import sys, nonsmooth.cli.main; assert 'rich' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

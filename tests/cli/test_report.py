@@ -49,6 +49,9 @@ def test_the_text_has_units_and_no_round_off() -> None:
         "n_events": 3,
         "n_impacts": 2,
         "n_steps": 5,
+        "step_limits": {"no step": 7, "error": 2, "event": 3},
+        "event_intervals": {},
+        "contacts": ["plate - ball 1", "plate - ball 2", "tip"],
         "mode_words": shares,
         "energy_residual": 1.2e-16,
         "summary": {
@@ -74,7 +77,9 @@ def test_the_text_has_units_and_no_round_off() -> None:
         "strikes none",
     ]
     assert lines[8] == "energy residual 1.2e-16"
-    assert lines[9] == "time in modes {000} 50.00%"
-    assert lines[-1] == "and 3 more"
-    assert len(lines) == 15
+    assert lines[9] == "steps limited by event 3, error 2"
+    assert lines[10] == "time in modes {000} 50.00%"
+    assert lines[-2] == "and 3 more"
+    assert lines[-1] == "contacts from the right plate - ball 1, plate - ball 2, tip"
+    assert len(lines) == 17
     assert "null" not in "".join(lines)

@@ -18,7 +18,7 @@ Call = Callable[..., tuple[int, str, str]]
 class _Impatient:
     """Progress that interrupts the run when half of it is done."""
 
-    def __call__(self, t: float, t_end: float) -> None:
+    def __call__(self, t: float, t_end: float, n_events: int) -> None:
         if t > 0.5 * t_end:
             signal.raise_signal(signal.SIGINT)
 

@@ -22,6 +22,9 @@ KEYS = {
     "n_events",
     "n_impacts",
     "n_steps",
+    "step_limits",
+    "event_intervals",
+    "contacts",
     "mode_words",
     "energy_residual",
     "final",
@@ -42,7 +45,8 @@ def test_json_is_the_only_line_and_complete(call: Call) -> None:
     assert report["t_end"] == pytest.approx(0.2, abs=1e-12)
     assert report["n_impacts"] >= 2
     assert report["n_events"] > report["n_impacts"]
-    assert report["n_steps"] > 0
+    assert sum(report["step_limits"].values()) >= report["n_steps"] > 0
+    assert sum(report["event_intervals"].values()) == report["n_events"] - 1
     assert sum(report["mode_words"].values()) == pytest.approx(1.0, abs=1e-12)
     assert report["energy_residual"] < 1e-8
     assert [len(report["final"][name]) for name in ("q", "u")] == [7, 6]

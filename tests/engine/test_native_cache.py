@@ -71,7 +71,7 @@ def _say_something_else(file: Path) -> None:
 
 
 def _swap(file: Path) -> None:
-    other = file.with_name("settle.code")
+    other = file.with_name("update_at_event.code")
     one, two = file.read_bytes(), other.read_bytes()
     file.write_bytes(two)
     other.write_bytes(one)
@@ -115,6 +115,25 @@ def test_a_complete_cache_is_used_as_it_is(filled: Path) -> None:
     assert (compiled, said) == (0, "")
 
 
+_SCENARIO = """
+import contextlib, io, sys
+from nonsmooth.cli.main import main
+from numba.core import event
+with event.install_recorder("numba:run_pass") as passes, contextlib.redirect_stdout(io.StringIO()):
+    assert main(["run", "woodpecker", "--set", "t_end=0.001"]) == 0
+print(len(passes.buffer), [name for name in ("scipy.linalg", "numpy.f2py", "trimesh", "fcl") if name in sys.modules])
+"""
+
+
+def test_a_second_start_compiles_nothing_and_loads_no_library_of_use_to_none() -> None:
+    """A mechanism's equations are put together by the program; they, too, are found on disk."""
+    for _ in range(2):
+        done = subprocess.run([sys.executable, "-c", _SCENARIO], check=True, capture_output=True, text=True)
+        if done.stdout == "0 []\n":
+            return
+    pytest.fail(f"in a second start: passes of the compiler, modules: {done.stdout}")
+
+
 @pytest.mark.skipif(os.name != "posix", reason="no permissions")
 def test_a_cache_that_cannot_be_written_to_is_read(
     filled: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -129,7 +148,7 @@ def test_a_cache_that_cannot_be_written_to_is_read(
     assert stat.S_IMODE(writable.stat().st_mode) == 0o700
     assert stat.S_IMODE(writable.parent.stat().st_mode) == 0o700
     assert _is_filled()
-    shutil.copy(filled / "settle.code", writable / "touch.code")
+    shutil.copy(filled / "update_at_event.code", writable / "touch.code")
     (filled / "touch.code").unlink()
     assert not _is_filled("touch")
     assert "touch.code is damaged" in capsys.readouterr().err

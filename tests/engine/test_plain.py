@@ -22,13 +22,13 @@ from tests.engine.plain_cases import CASES
 
 NOT_ENTERED = {
     "contact/search": {"_accept_raw", "_rubs"},
-    "contact/spread": {"_add_disc_curve", "_disc_excess"},
-    "events/hybrid": {"_up_to_end"},
+    "contact/distribution": {"_add_disc_curve", "_disc_excess"},
+    "events/event_loop": {"_up_to_end"},
     "impact/clock": {"_restore_phases"},
     "impact/end": {"cut_short", "faded"},
     "flow/location": {"_advance", "_behind_jump", "_sampled", "_soonest"},
     "flow/self_check": {"blame"},
-    "events/settle": {"_force_gone"},
+    "events/event_update": {"_force_gone"},
     "contact/enumeration": {"_sweep_slips"},
 }
 """By module, what no case enters: ways out of rare difficulties and of faults, run compiled by other tests."""

@@ -53,7 +53,7 @@ def test_a_file_says_what_python_says(path: Path) -> None:
     system = ns.System([floor, ball])
     system.contact(ball, floor, normal=Unilateral(), friction=Coulomb(0.8), impact=EnergeticImpact(restitution=0.5))
     ns.touching(system, ball, velocity=(0.5, 0.0, 0.0))
-    assert (setup.title, setup.t_end, setup.sample_interval, setup.names) == (
+    assert (setup.title, setup.t_end, setup.sample_interval, setup.system.names.bodies) == (
         "A ball on a slope",
         0.2,
         None,

@@ -174,7 +174,7 @@ def test_a_guard_that_loses_its_value_ends_the_run() -> None:
     """The error names it, and what was computed is kept."""
     system = _thrown()
     system.guard(Wrong(0.9))
-    with pytest.raises(ns.RunFailed, match="Wrong: _logarithm") as caught:
+    with pytest.raises(ns.RunFailed, match="guard 'wrong': _logarithm") as caught:
         ns.simulate(system, 1.0)
     solution = caught.value.solution
     assert isinstance(solution, ns.Solution)

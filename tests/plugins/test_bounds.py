@@ -145,7 +145,9 @@ def test_a_run_in_which_a_block_is_left_is_not_done(where: int) -> None:
     if where < 9:
         assert ns.simulate(system, 0.03).status == "done"
         return
-    with pytest.raises(ns.RunFailed, match=rf"Late.*_late in .*test_bounds.py.* to out\[{where}\]") as caught:
+    with pytest.raises(
+        ns.RunFailed, match=rf"late plate - ball.*_late in .*test_bounds.py.* to out\[{where}\]"
+    ) as caught:
         ns.simulate(system, 0.03)
     solution = caught.value.solution
     assert isinstance(solution, ns.Solution)

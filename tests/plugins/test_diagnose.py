@@ -33,7 +33,7 @@ def _second_ball_lands() -> None:
 
 def test_a_map_without_value_is_named_with_its_contact() -> None:
     """The contact that collided is not among the first of the list."""
-    with pytest.raises(ns.RunFailed, match=r"Map: without_value .* \(1 in contact: contact of Plate and Ball.* 2\)"):
+    with pytest.raises(ns.RunFailed, match=r"Map: without_value .* \(1 in contact: contact 'plate - ball 2'\)"):
         _second_ball_lands()
 
 

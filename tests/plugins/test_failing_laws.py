@@ -101,7 +101,7 @@ def test_a_map_in_the_second_impact(function: Callable[..., None], offset: int |
     message, solution = _failure(lambda: dummies.bouncing(dummies.Map(function)))
     first = function.__code__.co_firstlineno
     line = "" if offset is None else rf"\(line {first + offset}\) "
-    before = rf"\[\[(?P<rate>{NUMBER}), {NUMBER} ?, {NUMBER} ?\]\] m/s \(1 in contact: contact of Plate and Ball"
+    before = rf"\[\[(?P<rate>{NUMBER}), {NUMBER} ?, {NUMBER} ?\]\] m/s \(1 in contact: contact 'plate - ball"
     found = re.search(
         rf"Map: {function.__name__} in \S*failing_laws\.py, line {first}, {what} ?{line}for the rates {before}", message
     )

@@ -98,21 +98,33 @@ import sys
 import numba
 from numba.core import event
 from nonsmooth.binding.compile import bind, evaluate
-from own_law import law
+import own_law
+law = getattr(own_law, sys.argv[1])
 with event.install_recorder("numba:run_pass") as passes:
     print(evaluate(*bind(law, "scalar", {"p": 4.0}, "test"), 3.0), len(passes.buffer))
+"""
+_ALLOCATING = """
+import numpy as np
+def filled(x, p):
+    return np.full(1, x)[0] + p
 """
 
 
 @pytest.mark.skipif(PLAIN, reason="nothing is compiled")
 def test_another_process_finds_a_law_until_it_changes(tmp_path: Path) -> None:
-    """Compiled once, then found; compiled again for a new constant, and where the file on disk is damaged."""
+    """Compiled once, then found, as is one that allocates; compiled again for a new constant or a damaged file."""
 
-    def run(source: str) -> tuple[float, int]:
+    def run(source: str, name: str = "law") -> tuple[float, int]:
         (tmp_path / "own_law.py").write_text("from nonsmooth.compiled import compiled\n" + source)
         path = os.pathsep.join([str(tmp_path), str(Path(__file__).parents[2])])
-        environment = {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}
-        command = [sys.executable, "-c", _RUN]
+        environment = {
+            "XDG_CACHE_HOME": str(tmp_path),
+            "PYTHONPATH": path,
+            "PYTHONDONTWRITEBYTECODE": "1",
+            # numba's own caches, which would not see an edit of a helper's file, have no part in this
+            "NUMBA_CACHE_LOCATOR_CLASSES": "InTreeCacheLocator",
+        }
+        command = [sys.executable, "-c", _RUN, name]
         done = subprocess.run(command, env=os.environ | environment, check=True, capture_output=True, text=True)
         value, passes = done.stdout.split()
         return float(value), int(passes)
@@ -125,6 +137,9 @@ def test_another_process_finds_a_law_until_it_changes(tmp_path: Path) -> None:
     assert value == 17.0
     assert passes > 0
     assert run(_SOURCE) == (13.0, 0)
+    assert run(_ALLOCATING, "filled")[0] == 7.0
+    assert run(_ALLOCATING, "filled") == (7.0, 0)
+    assert not list(tmp_path.rglob("*.nbi"))
     for kept in tmp_path.glob("nonsmooth/*/*.code"):
         kept.write_bytes(kept.read_bytes()[:100])
     value, passes = run(_SOURCE)

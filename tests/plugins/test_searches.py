@@ -117,7 +117,7 @@ def _approaching(function: Callable[..., None], second: Shape | None = None, sta
     sizes = (0.3, math.inf if second else 0.35)
     # not by System.contact, which looks for kinematics among those installed
     system._contacts += [
-        Contact(f"contact {i}", one, two, (0, 0), shapes, Near(search, i), sizes, sizes, **LAWS) for i in range(2)
+        Contact(f"pair {i}", one, two, (0, 0), shapes, Near(search, i), sizes, sizes, **LAWS) for i in range(2)
     ]
     return system
 
@@ -134,7 +134,9 @@ def test_a_sound_search_is_an_impact() -> None:
 @pytest.mark.filterwarnings("ignore::nonsmooth.RunsInPython")
 def test_a_search_that_fails_ends_the_run(function: Callable[..., None]) -> None:
     """By name; up to there the run stands."""
-    with pytest.raises(ns.RunFailed, match=rf"Near \(contact 0\): {function.__name__} in .*test_searches.py") as caught:
+    with pytest.raises(
+        ns.RunFailed, match=rf"Near \(contact 'pair 0'\): {function.__name__} in .*test_searches.py"
+    ) as caught:
         ns.simulate(_approaching(function), 1.5)
     solution = caught.value.solution
     assert isinstance(solution, ns.Solution)
@@ -147,7 +149,7 @@ def test_a_search_that_fails_ends_the_run(function: Callable[..., None]) -> None
 @pytest.mark.parametrize("function", [without_number, raising, negative], ids=lambda f: f.__name__)
 def test_a_search_that_fails_at_the_start_is_named(function: Callable[..., None]) -> None:
     """Before anything runs."""
-    with pytest.raises(ns.PluginError, match=rf"^Near \(contact 0\): {function.__name__} in .*test_searches.py"):
+    with pytest.raises(ns.PluginError, match=rf"^Near \(contact 'pair 0'\): {function.__name__} in .*test_searches.py"):
         ns.simulate(_approaching(function, start=0.75), 0.5)
 
 
@@ -157,13 +159,15 @@ def test_a_search_that_writes_beyond_its_room_is_named(tried: bool, monkeypatch:
     if not tried:
         monkeypatch.setattr(bounds, "_MOST", 0)
     said = "reaches for number 10 of a block of 10" if tried else "has written past the 10 numbers of its block"
-    with pytest.raises(ns.PluginError, match=rf"^Near \(contact 0\): beyond in .*{said}"):
+    with pytest.raises(ns.PluginError, match=rf"^Near \(contact 'pair 0'\): beyond in .*{said}"):
         ns.simulate(_approaching(beyond, start=0.75), 0.5)
 
 
 def test_unbounded_shapes_have_no_search() -> None:
     """Nobody could say when to look again."""
-    with pytest.raises(ns.InvalidInput, match=r"Plane of the contact 0 must be bounded .*, but it is inf\. Give"):
+    with pytest.raises(
+        ns.InvalidInput, match=r"Plane of the contact 'pair 0' must be bounded .*, but it is inf\. Give"
+    ):
         ns.simulate(_approaching(finds, second=Plane()), 0.5)
 
 

@@ -46,14 +46,14 @@ def test_an_event_is_named_with_time_and_energy() -> None:
 
 def test_a_long_quaternion_is_named_with_its_body_and_time() -> None:
     """The third of four bodies, at the second sample."""
-    bodies = [Plate(Rest()), Ball(0.01), Ball(0.02), Ball(0.03)]
+    bodies = {"floor": Plate(Rest()), "one": Ball(0.01), "two": Ball(0.02), "three": Ball(0.03)}
     t = np.array([0.0, 0.1, 0.2])
     q = np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (3, 3))
     assert long_quaternion(bodies, t, q, 1e-9) == ""
     q[1, 7 + 4] = 1e-3  # half its square, 5e-7, is explained
     assert long_quaternion(bodies, t, q, 1e-9) == ""
     q[1, 7 + 3] = 1.0 + 2e-6
-    assert "Ball(radius=0.02" in long_quaternion(bodies, t, q, 1e-9)
+    assert "quaternion of 'two'" in long_quaternion(bodies, t, q, 1e-9)
     assert "t = 0.1 s" in long_quaternion(bodies, t, q, 1e-9)
     assert long_quaternion(bodies, t[:0], q[:0], 1e-9) == ""
 
@@ -62,7 +62,7 @@ def test_all_that_is_found_is_said() -> None:
     """Nothing for nothing."""
     t: Any = np.zeros(0)
     samples = t, np.zeros((0, 0))
-    assert suspicions((0.0, 0.0, 0.0), _account(0.0), [], samples, (1e-9, 1e-8), 10) == ""
-    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), [], samples, (1e-9, 1e-8), 10)
+    assert suspicions((0.0, 0.0, 0.0), _account(0.0), {}, samples, (1e-9, 1e-8), 10) == ""
+    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), {}, samples, (1e-9, 1e-8), 10)
     assert "at the event" in both
     assert "; the energy account" in both

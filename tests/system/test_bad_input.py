@@ -130,7 +130,10 @@ class Ghost(FreeBody):
 
 
 BAD: dict[str, tuple[Callable[[], Any], tuple[str, str, str, str]]] = {
-    "overlap": (_overlap, ("start of the contact of Ball and Ball", "must not overlap", "-0.0005", "Place the bodies")),
+    "overlap": (
+        _overlap,
+        ("start of the contact 'ball 1 - ball 2'", "must not overlap", "-0.0005", "Place the bodies"),
+    ),
     "no density": (lambda: Ball(0.01, 0.0), ("Ball.density", "must be > 0 [kg/m^3]", "0.0", "It is the density")),
     "no mass": (lambda: RigidBody(0.0, (1, 1, 1)), ("RigidBody.mass", "must be > 0 [kg]", "0.0", "It is the mass")),
     "no inertia": (
@@ -146,15 +149,20 @@ BAD: dict[str, tuple[Callable[[], Any], tuple[str, str, str, str]]] = {
     "a body's own mass": (Ghost, ("mass of Ghost", "must be positive", "0.0", "A body that moves has mass")),
     "joints apart": (
         lambda: _tied(BallJoint(), BallJoint(second=(0.0, 0.0, 0.4))),
-        ("start of the BallJoint of Plate and Ball", "must have the residual 0", "[0.0, 0.0, 0.4]", "contradict"),
+        (
+            "start of the joint 'ball joint plate - ball (2)'",
+            "must have the residual 0",
+            "[0.0, 0.0, 0.4]",
+            "contradict",
+        ),
     ),
     "joints moving apart": (
         lambda: _tied(BallJoint(), BallJoint(), bodies=(Plate(Harmonic(1e-3, 20.0)), Plate())),
-        ("start of the BallJoint of Plate and Ball", "must have the rate 0", "-0.125", "contradict"),
+        ("start of the joint 'ball joint plate 1 - ball'", "must have the rate 0", "-0.125", "contradict"),
     ),
     "a rod too long": (
         lambda: _tied(Distance(length=1.0), position=(0.0, 0.0, 0.9)),
-        ("start of the Distance of Plate and Ball", "must have the residual 0", "-0.09999", "Place the bodies"),
+        ("start of the joint 'distance plate - ball'", "must have the residual 0", "-0.09999", "Place the bodies"),
     ),
     "a slanting axis": (lambda: Hinge(axis=(1.0, 1.0, 0.0)), ("Hinge.axis", "unit length", "1.0, 1.0", "Divide")),
     "shapes nobody knows": (
@@ -193,7 +201,10 @@ BAD: dict[str, tuple[Callable[[], Any], tuple[str, str, str, str]]] = {
         lambda: _contact(Plate(), Dumbbell(), shapes=(None, (1, 1))),
         ("System.contact: shapes of Dumbbell", "every shape once", "(1, 1)", "Take the double one out"),
     ),
-    "a contact twice": (_twice, ("System.contact", "no contact with each other yet", "'Ball'", "One call adds")),
+    "a contact twice": (
+        _twice,
+        ("System.contact", "no contact with each other yet", "('ball', 'plate')", "One call adds"),
+    ),
     "no normal law": (lambda: _contact(Plate(), Ball(1), normal=None), ("System.contact", "NormalLaw", "None", "list")),
     "no friction law": (
         lambda: _contact(Plate(), Ball(1), friction=None),
@@ -378,7 +389,7 @@ FAILING: dict[str, tuple[Callable[[], Any], float, tuple[str, ...]]] = {
     "friction raises": (
         lambda: _run(friction=Limited()),
         0.0,
-        ("Limited: _too_fast", HERE, "raises ValueError('too fast')", "'limit': 0.4", "contact of Plate and Dumbbell"),
+        ("Limited: _too_fast", HERE, "raises ValueError('too fast')", "'limit': 0.4", "contact 'plate - dumbbell (1)'"),
     ),
     "friction has a helper": (
         lambda: _run(friction=Helped()),
@@ -393,17 +404,17 @@ FAILING: dict[str, tuple[Callable[[], Any], float, tuple[str, ...]]] = {
     "load raises": (
         lambda: _run(load=FunctionLoad(_late)),
         0.05,
-        ("FunctionLoad of Plate and Dumbbell", "_late", HERE),
+        ("load 'function load plate - dumbbell'", "_late", HERE),
     ),
     "spring of no length": (
         lambda: _run(load=Spring(stiffness=1.0, length=0.1, first=(0.0, 0.0, 0.01))),
         0.0,
-        ("Spring of Plate and Dumbbell", "spring.py"),
+        ("load 'spring plate - dumbbell'", "spring.py"),
     ),
     "motion raises after its time": (
         lambda: _run(motion=_motion(_after), t_end=2.0),
         1.0,
-        ("Plate(motion=FunctionMotion(", "_after", "at t = 1 s"),
+        ("body 'plate', Plate(motion=FunctionMotion(", "_after", "at t = 1 s"),
     ),
 }
 

@@ -101,7 +101,7 @@ def test_a_pair_is_declared_once() -> None:
     laws: Any = {"normal": STEEL.normal, "friction": STEEL.friction, "impact": STEEL.impact}
     system.contact(plates[0], balls[0], **laws)
     system.contact(plates[1], balls[0], **laws)
-    words = ("System.contact", "Ball", "no contact with each other yet")
+    words = ("System.contact", "'ball 1'", "no contact with each other yet")
     _raises(words, lambda: system.contact(plates[0], balls[0], **laws))
     _raises(words, lambda: system.contact(balls[0], plates[0], **laws))
     assert len(system.contacts) == 2
@@ -130,7 +130,7 @@ def test_wrong_materials_and_bodies() -> None:
     _raises(("exclude", "body of this system"), lambda: system.contact_all(every, exclude=[(balls[0], Ball(0.01))]))
     _raises(("two different bodies",), lambda: system.contact_all(every, bodies=[balls[0], balls[0]]))
     twice = {"steel": [*plates, balls[0]], "glass": balls}
-    _raises(("one material", "Ball of 'steel' and 'glass'", "Take it out"), lambda: system.contact_all(TABLE, twice))
+    _raises(("one material", "ball 1 of 'steel' and 'glass'", "Take it out"), lambda: system.contact_all(TABLE, twice))
     assert system.contacts == ()
 
 

@@ -66,9 +66,10 @@ def _system(build: Any, one: Body, two: Body, place: Any, turn: Any, **laws: Any
 def test_bodies_in_one_another_are_refused(build: Any, name: str) -> None:
     """Before anything runs, with the names of both, the overlap and what to do."""
     one, two, place, turn = INSIDE[name]
+    system = _system(build, one, two, place, turn)
     with pytest.raises(ns.InvalidInput) as caught:
-        assemble(_system(build, one, two, place, turn), EventDriven())
-    for word in ("start of the contact", type(one).__name__, type(two).__name__, "overlap", "but it is -0.0", "apart"):
+        assemble(system, EventDriven())
+    for word in ("start of the contact", *system.names.bodies, "overlap", "but it is -0.0", "apart"):
         assert word in str(caught.value)
 
 

@@ -159,7 +159,7 @@ def test_a_line_cannot_follow_a_belt_but_a_lift(build: Any) -> None:
     ns.resting(lift, body)
     assert lift.start(body)[1][0] == pytest.approx(0.2, abs=1e-15)
     belt = build.over(body, ConstantVelocity((0.2, 0.0, 0.0)))
-    with pytest.raises(ns.InvalidInput, match="must be able to follow the Plate"):
+    with pytest.raises(ns.InvalidInput, match="must be able to follow 'plate'"):
         ns.resting(belt, body)
 
 
@@ -175,20 +175,20 @@ def test_what_is_refused(build: Any) -> None:
     ball, plate, rail = Ball(0.01), Plate(), LineBody(1.0, (1.0, 0.0, 0.0), (Sphere(0.01),))
     system = ns.System([plate, ball, rail])
     system.place(ball, position=(0.0, 0.0, 0.7))
-    _refused(("placing Ball", "needs a contact"), ns.touching, system, ball)
+    _refused(("placing 'ball'", "needs a contact"), ns.touching, system, ball)
     system.contact(plate, ball, **build.laws())
     system.contact(plate, rail, **build.laws())
     up = {"direction": (0.0, 0.0, 1.0)}
-    _refused(("placing Ball", "something to touch along"), ns.touching, system, ball, position=(0, 0, 1), **up)
+    _refused(("placing 'ball'", "something to touch along"), ns.touching, system, ball, position=(0, 0, 1), **up)
     level = {"direction": (1.0, 0.0, 0.0)}
-    _refused(("placing Ball", "something to touch along"), ns.touching, system, ball, position=(0, 0, 1), **level)
-    _refused(("placing LineBody", "without turning"), ns.touching, system, rail)
-    _refused(("placing Plate", "can be placed"), ns.touching, system, plate)
-    _refused(("System.place", "body of this system"), ns.touching, system, Ball(0.02))
+    _refused(("placing 'ball'", "something to touch along"), ns.touching, system, ball, position=(0, 0, 1), **level)
+    _refused(("placing 'line body'", "without turning"), ns.touching, system, rail)
+    _refused(("placing 'plate'", "can be placed"), ns.touching, system, plate)
+    _refused(("System.start", "body of this system"), ns.touching, system, Ball(0.02))
     _refused(("placing: direction", "three finite"), ns.touching, system, ball, direction=(0.0, 0.0, 0.0))
     _refused(("placing: direction", "three finite"), ns.touching, system, ball, direction=(0.0, 1.0))
     _refused(("at_height: height", "must not be negative", "-0.1"), ns.at_height, system, ball, -0.1)
-    _refused(("resting Ball", "velocities"), ns.resting, system, ball, velocity=(1.0, 0.0, 0.0))
+    _refused(("resting 'ball'", "velocities"), ns.resting, system, ball, velocity=(1.0, 0.0, 0.0))
     _refused(("velocity of Ball", "3 finite numbers"), ns.touching, system, ball, velocity=1.0)
     np.testing.assert_array_equal(system.start(ball)[0][:3], [0.0, 0.0, 0.7])
     free = ns.System([DrivenBody(Rest(), (Sphere(1.0),)), ball], gravity=0.0)

@@ -12,7 +12,16 @@ from nonsmooth.engine.bodies.kinematics import evaluate_row_response, push_respo
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, GAP, GEOMETRY, SPIN, TRACTION, TRACTION_MOMENT
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_compliance, call_load, kernel
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    at,
+    call_compliance,
+    call_rates,
+    call_traction,
+    kernel,
+)
 
 
 @kernel("void(S, F, I, i8)")
@@ -47,7 +56,7 @@ def evaluate_traction(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> Non
     """Let the law of traction of contact ``c`` write force, moment and rates of its states."""
     _evaluate_motion(S, w, k, c)
     out = k[S.traction_out + c]
-    call_load(
+    call_traction(
         k[S.traction_function + c],
         w[S.compliant_force + c],
         at(w, S.motion),
@@ -101,8 +110,8 @@ def write_state_rates(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> N
             source = k[S.rates_out + c]
             v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
             speed = 0.0 if k[S.mode + c] == STICK else math.sqrt(v1 * v1 + v2 * v2)
-            states = at(w, state_at(S, k, c, y))
-            call_load(k[S.rates_function + c], speed, states, states, at(w, k[S.rates_parameters + c]), at(w, source))
+            states, parameters = at(w, state_at(S, k, c, y)), at(w, k[S.rates_parameters + c])
+            call_rates(k[S.rates_function + c], speed, states, parameters, at(w, source))
         for i in range(n):
             w[state_at(S, k, c, out) + i] = w[source + i]
 

@@ -34,6 +34,7 @@ from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_accoun
 from nonsmooth.engine.impact.instant import is_jammed
 from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
 from nonsmooth.engine.memory.layout import FALL, LAST_STAGE
+from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
 from nonsmooth.engine.memory.modes import (
     DONE,
     EVENTS_ENDLESS,
@@ -291,6 +292,7 @@ def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I, i8)")
 def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
+    S.limit = NO_STEP
     contact = _singular(S, w, k) if status == STEP_TOO_SMALL else -1
     return _carry_out(S, w, k, JAM, contact) if contact >= 0 else _up_to_end(S, status)
 
@@ -299,6 +301,7 @@ def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
 def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Take over a step without an event, unless a slip has come to rest in it; return the status."""
     if S.h > S.t_end - S.t:
+        S.limit = BY_END
         return _end_within(S, w, k)
     _commit(S, w, k, S.h)
     contact = _stopping(S, w, k)
@@ -311,11 +314,12 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I, f8)")
 def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     """Locate the first event before the fraction ``high`` of the step and carry it out; return the status."""
-    S.fresh = 0
+    S.fresh, S.limit = 0, BY_EVENT
     h = locate(S, w, k, S.h, high)
     if h < 0.0:
         return _shorten(S)
     if h > S.t_end - S.t:
+        S.limit = BY_END
         return _end_within(S, w, k)
     return _event(S, w, k, h, S.trigger)
 
@@ -323,6 +327,7 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
 @kernel("i8(S)")
 def _shorten(S: Scalars) -> int:
     """Ask for a quarter of the step, in which no event could be located; return the status."""
+    S.limit = BY_CROWD
     if S.h < _NO_STEP * S.time_tolerance:
         return STEP_TOO_SMALL
     if S.n_grouped > 0:
@@ -425,7 +430,9 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
             return PAUSED
         if 2 * S.n_samples > S.sample_capacity:
             return PAUSED
+        S.limit = NO_STEP
         status = _step(S, w, k)
+        k[S.limits + S.limit] += 1
         if status == RUNNING:
             status = int(S.failed)
         if S.crowded == 1:

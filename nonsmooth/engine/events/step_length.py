@@ -9,6 +9,15 @@ from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.flow.clearance import foresee
 from nonsmooth.engine.flow.flow import try_step
 from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.memory.limits import (
+    BY_END,
+    BY_ERROR,
+    BY_FIRST,
+    BY_LARGEST,
+    BY_LIST,
+    BY_SAMPLES,
+    BY_SINGULARITY,
+)
 from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import step_factor
@@ -64,6 +73,18 @@ def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
     return float(h)
 
 
+@kernel("i8(S, f8, f8)")
+def _limit(S: Scalars, wanted: float, h: float) -> int:
+    """Return what limits the step of ``h`` that is tried first, where ``wanted`` is how long it may be."""
+    if h == wanted:
+        return BY_LARGEST if wanted == S.h_max else BY_ERROR
+    if h == S.h_listed:
+        return BY_LIST
+    if h == S.h_sampled:
+        return BY_SAMPLES
+    return BY_END if h == S.h_valid else BY_FIRST
+
+
 @kernel("i8(S, F, I, f8)")
 def _overran(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     """Return 1 if the step of ``h`` leads farther than the list of contacts holds."""
@@ -94,6 +115,7 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
     wanted = wanted_step(S, k)
     h = _first_attempt(S, w, k, wanted)
+    S.limit = _limit(S, wanted, h)
     for _attempt in range(_ATTEMPTS):
         if S.stopped == 1:
             return NOT_FINITE
@@ -102,13 +124,16 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
             h *= 0.5
             wanted = 0.0
+            S.limit = BY_SINGULARITY
         elif error <= 1.0 and _overran(S, w, k, h) == 1:
             h *= 0.5
+            S.limit = BY_LIST
         elif error <= 1.0:
             _remember_step(S, k, h, error, wanted)
             return RUNNING
         else:
             S.rejected += 1
+            S.limit = BY_ERROR
             wanted = 0.0
             if not error < 1e300 and h < S.time_tolerance:
                 return NOT_FINITE

@@ -354,6 +354,7 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
             enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * contact.size))
             if span * h > S.time_tolerance and not enough:
                 n += 1
+                S.gap_looks += 1
                 _look(S, w, k, h, w[left + _THETA] + 0.5 * span, c, left + SECTOR * n)
                 if has_fired(S, w, k, normal_guard(c)) == 1:
                     return w[left + SECTOR * n + _THETA]

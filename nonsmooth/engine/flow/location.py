@@ -175,6 +175,7 @@ def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float
     """
     theta, looks = 0.0, 0
     while theta < high:
+        S.gap_looks += 1
         # right at the start nothing has grown yet
         guards_within(S, w, k, h, max(theta, _FAINT), 0)
         if theta > 0.0:

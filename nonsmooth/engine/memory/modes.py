@@ -59,7 +59,7 @@ REASONS = {
 
 
 def word(a: list[int], b: list[int], c: list[int]) -> str:
-    """Write a mode word from the bits of Eq. (29), contact 1 rightmost in every group.
+    """Write a mode word from the bits of Eq. (29), first contact rightmost in every group.
 
     >>> word([1, 0], [0, 0], [1, 0])
     '{01,00,01}'

@@ -46,6 +46,8 @@ INTEGER_SCALARS = (
     "resumed",
     "steps",
     "rejected",
+    "limit",
+    "gap_looks",
     "listings",
     "impacts",
     "phases",

@@ -1,21 +1,21 @@
-"""How numba compiles the engine and the shims of laws; with the cache all that leans on its private parts."""
+"""How numba compiles the engine and the shims of laws; with the cache all that leans on its private parts.
+
+All of it is made of subclasses: what else numba compiles in the process is compiled as ever.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import gc
-import hashlib
-import itertools
-import threading
+import secrets
 from collections.abc import Callable, Iterator
 from typing import Any, final
 
-from numba.core.bytecode import FunctionIdentity
+from numba.core import types
 from numba.core.ccallback import CFunc
-from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
-from numba.core.compiler import Compiler, CompilerBase
-from numba.core.compiler_machinery import PassManager
-from numba.core.dispatcher import Dispatcher
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler_machinery import FunctionPass, PassManager, register_pass
 from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import (
     IRLegalization,
@@ -24,116 +24,151 @@ from numba.core.typed_passes import (
     NopythonTypeInference,
     PreLowerStripPhis,
 )
-from numba.core.types.functions import BaseFunction
 from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 
 from nonsmooth.engine.native.cache import Store
 
 
+@register_pass(mutates_CFG=False, analysis_only=False)
 @final
-class EnginePasses(CompilerBase):
-    """The passes of numba that the engine's plain loops need.
+class Number(FunctionPass):
+    """Give a function a number that no function of another process has.
 
-    Those left out rewrite closures, literals, overloads and whole arrays, which the engine has none of.
+    A symbol is made of a function's name, types and number, and cached code of several processes is linked by symbols.
     """
 
-    def define_pipelines(self) -> list[PassManager]:
-        """Return the one list of passes."""
-        passes = PassManager("engine")
-        for one in (
-            TranslateByteCode,
-            FixupArgs,
-            IRProcessing,
-            ReconstructSSA,
-            NopythonTypeInference,
-            PreLowerStripPhis,
-            IRLegalization,
-            NativeLowering,
-            NoPythonBackend,
-        ):
-            passes.add_pass(one, one.__name__)
-        passes.finalize()
-        return [passes]
+    _name = "number"
+
+    def __init__(self) -> None:
+        """Leave all to the state."""
+
+    def run_pass(self, state: Any) -> bool:
+        """Draw the number."""
+        state.func_id.unique_id = secrets.randbits(48)
+        return True
 
 
-@contextlib.contextmanager
-def typed_once() -> Iterator[None]:
-    """Find the type of an operation once for given types of operands: numba tries all candidates at every place."""
-    find: Callable[..., Any] = BaseFunction.get_call_type
-    found: dict[Any, Any] = {}
+class _Typing:
+    """A typing context that finds the types of an operation once: numba tries all candidates at every place."""
 
-    def remember(operation: Any, context: Any, arguments: Any, keywords: Any) -> Any:
-        key = operation, tuple(arguments), tuple(sorted(keywords.items()))
-        if key not in found:
-            found[key] = find(operation, context, arguments, keywords)
-        return found[key]
+    def __init__(self, context: Any) -> None:
+        self._context = context
 
-    with contextlib.ExitStack() as stack:
-        _replace(stack, BaseFunction, "get_call_type", remember)
-        yield
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._context, name)
 
-
-def _replace(stack: contextlib.ExitStack, owner: type, name: str, value: Callable[..., Any]) -> None:
-    stack.callback(setattr, owner, name, getattr(owner, name))
-    setattr(owner, name, value)
+    def resolve_function_type(self, function: Any, arguments: Any, keywords: Any) -> Any:
+        if not isinstance(function, types.Function):
+            return self._context.resolve_function_type(function, arguments, keywords)
+        key = function, tuple(arguments), tuple(sorted(keywords.items()))
+        if key not in _typed:
+            _typed[key] = self._context.resolve_function_type(function, arguments, keywords)
+        return _typed[key]
 
 
-_LATER = (
-    (CPUCodeLibrary, "_optimize_final_module"),
-    (JITCodeLibrary, "_finalize_specific"),
-    (JITCPUCodegen, "_add_module"),
-    (JITCPUCodegen, "set_env"),
-)
-"""The steps of numba that optimise a function and make machine code of it."""
+_typed: dict[Any, Any] = {}
 
 
-class _Thread(threading.local):
-    """Whether what this thread compiles stays raw: others may compile functions of their own meanwhile."""
+@register_pass(mutates_CFG=True, analysis_only=False)
+@final
+class TypeOnce(NopythonTypeInference):
+    """Type inference that remembers; a tenth of the time of compiling."""
 
-    raw = False
+    _name = "remembering_type_inference"
 
-
-_thread = _Thread()
-
-
-@contextlib.contextmanager
-def raw(wanted: bool = True) -> Iterator[None]:
-    """Leave what is compiled inside as intermediate code: only the rooms that take it in go on with it, once each."""
-    before = _thread.raw
-    with contextlib.ExitStack() as stack:
-        for owner, name in _LATER:
-            _replace(stack, owner, name, _unless_raw(getattr(owner, name)))
-        _thread.raw = wanted
+    def run_pass(self, state: Any) -> bool:
+        """Infer the types of all variables."""
+        context = state.typingctx
+        state.typingctx = _Typing(context)
         try:
-            yield
+            return bool(super().run_pass(state))
         finally:
-            _thread.raw = before
+            state.typingctx = context
 
 
-def _unless_raw(step: Callable[..., Any]) -> Callable[..., Any]:
-    return lambda *arguments: None if _thread.raw else step(*arguments)
+class _RawLibrary(JITCodeLibrary):
+    """Intermediate code as it was lowered, which is never run: the code of a caller takes it in and is optimised."""
+
+    def _optimize_final_module(self) -> None:
+        pass
+
+    def _finalize_final_module(self) -> None:
+        self._finalized = True
+
+    @property
+    def codegen(self) -> Any:
+        """What is told of the code's environment."""
+        return self
+
+    def set_env(self, name: str, environment: Any) -> None:
+        """Leave it: no code, no environment."""
 
 
-@contextlib.contextmanager
-def raw_inside() -> Iterator[None]:
-    """Leave the functions that those compiled inside call as intermediate code: their callers take it in.
+@register_pass(mutates_CFG=True, analysis_only=False)
+@final
+class LowerRaw(NativeLowering):
+    """Lowering that leaves what it makes to the callers; half of the time of compiling."""
 
-    Functions that Python can call compiled, as those of a user's own, are not left so.
-    """
-    compiled: Callable[..., Any] = Dispatcher.compile
+    _name = "raw_native_lowering"
 
-    def leave_raw(dispatcher: Any, signature: Any) -> Any:
-        with raw(wanted=dispatcher.targetoptions.get("no_cpython_wrapper", False)):
-            return compiled(dispatcher, signature)
+    def run_pass(self, state: Any) -> bool:
+        """Lower to intermediate code."""
+        state.library = _RawLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+        return bool(super().run_pass(state))
 
-    with contextlib.ExitStack() as stack:
-        _replace(stack, Dispatcher, "compile", leave_raw)
-        yield
+
+_ENGINE = (
+    TranslateByteCode,
+    FixupArgs,
+    IRProcessing,
+    ReconstructSSA,
+    NopythonTypeInference,
+    PreLowerStripPhis,
+    IRLegalization,
+    NativeLowering,
+    NoPythonBackend,
+)
+"""The passes of numba that the engine's plain loops need.
+
+Those left out rewrite closures, literals, overloads and whole arrays, which the engine has none of.
+"""
+
+
+def _engine_passes(state: Any) -> PassManager:
+    passes = PassManager("engine")
+    for one in _ENGINE:
+        passes.add_pass(one, one.__name__)
+    return passes
+
+
+def _compiler(numba_passes: Callable[[Any], PassManager], lowering: type) -> type[CompilerBase]:
+    own = {NopythonTypeInference: TypeOnce, NativeLowering: lowering}
+
+    @final
+    class Passes(CompilerBase):
+        def define_pipelines(self) -> list[PassManager]:
+            passes = numba_passes(self.state)
+            passes.passes = [(own.get(one, one), what) for one, what in passes.passes]
+            passes.add_pass_after(Number, TranslateByteCode)
+            passes.finalize()
+            return [passes]
+
+    return Passes
+
+
+RoomPasses = _compiler(_engine_passes, NativeLowering)
+"""For functions of the engine that are called by address."""
+KernelPasses = _compiler(_engine_passes, LowerRaw)
+"""For functions of the engine that those take in."""
+ShimPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, NativeLowering)
+"""For shims, which are called by address."""
+LawPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerRaw)
+"""For functions of plug-ins, which shims take in."""
 
 
 @contextlib.contextmanager
 def uncollected() -> Iterator[None]:
-    """Look for no garbage inside: the compiler makes millions of small objects that live."""
+    """Look for no garbage inside, a tenth of the time: the compiler makes millions of small objects that live."""
     collecting = gc.isenabled()
     gc.disable()
     try:
@@ -159,28 +194,9 @@ class CFunction(CFunc):
     """
 
     def __init__(
-        self,
-        function: Callable[..., Any],
-        signature: Any,
-        store: Store | None,
-        passes: type[CompilerBase] = Compiler,
+        self, function: Callable[..., Any], signature: Any, store: Store | None, passes: type[CompilerBase]
     ) -> None:
         options = {"nopython": True, "error_model": "numpy"}
         super().__init__(function, normalize_signature(signature), locals={}, options=options, pipeline_class=passes)
         if store is not None:
             self._cache = store
-
-
-@contextlib.contextmanager
-def numbered(key: str) -> Iterator[None]:
-    """Give the functions that are compiled inside numbers that no other process gives to other functions.
-
-    A symbol is made of a function's name, types and number, and cached code of several processes is linked by symbols.
-    """
-    kept = FunctionIdentity._unique_ids
-    start = int.from_bytes(hashlib.sha256(key.encode()).digest()[:6], "big")
-    FunctionIdentity._unique_ids = itertools.count(start)
-    try:
-        yield
-    finally:
-        FunctionIdentity._unique_ids = kept

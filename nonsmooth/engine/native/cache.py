@@ -22,8 +22,9 @@ from typing import Any, final
 
 import numba
 import numpy as np
-from llvmlite.binding import get_host_cpu_name
+from llvmlite.binding import get_host_cpu_name, parse_assembly
 from numba.core.compiler import CompileResult
+from numba.core.runtime import rtsys
 from numba.core.serialize import dumps
 
 from nonsmooth.notices import say
@@ -31,6 +32,8 @@ from nonsmooth.user_cache import user_cache
 
 _ENGINE = Path(__file__).resolve().parents[1]
 _WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
+_COUNTING = b"NRT_"
+"""Begins the names of the functions by which compiled code, of plug-ins, allocates memory."""
 _CHECKSUM = hashlib.sha256().digest_size
 
 
@@ -106,6 +109,16 @@ def _is_own_folder(folder: Path) -> bool:
     return stat.S_ISDIR(status.st_mode) and _is_own(status)
 
 
+def _to_call(compiled: Any) -> tuple[Any, ...]:
+    """Return what makes compiled code again, without the intermediate code by which other functions could take it in.
+
+    Reading that would be the better part of a start.  In its place is a module that says which symbol can be called.
+    """
+    (name, kind, (code, _)), *others = compiled._reduce()
+    symbol = compiled.fndesc.llvm_cfunc_wrapper_name
+    return (name, kind, (code, parse_assembly(f'define void @"{symbol}"() {{ ret void }}').as_bitcode())), *others
+
+
 @final
 class Store:
     """The place on disk of one function's compiled code; numba asks it as it asks its own caches.
@@ -127,11 +140,14 @@ class Store:
 
     def load_overload(self, signature: Any, context: Any) -> Any:
         """Return the code as numba wants it, or None."""
-        context.refresh()
         content = self._read or self._sound()
         self._read = None
         if content is None:
             return None
+        if _COUNTING in content:
+            # all else that machine code may call has been there since the context was made: no need of its `refresh`,
+            # which imports what numba knows of numpy and scipy, a third of a start
+            rtsys.initialize(context)
         processor, reduced = pickle.loads(content)
         return None if processor != context.codegen().magic_tuple() else CompileResult._rebuild(context, *reduced)
 
@@ -143,7 +159,7 @@ class Store:
             return
         if compiled.library.has_dynamic_globals:
             return  # addresses of this process
-        content = dumps((compiled.codegen.magic_tuple(), compiled._reduce()))
+        content = dumps((compiled.codegen.magic_tuple(), _to_call(compiled)))
         part = folder / f"{self._name}.{uuid.uuid4().hex[:16]}"
         try:
             with open(part, "xb", opener=lambda path, flags: os.open(path, flags, 0o644)) as file:

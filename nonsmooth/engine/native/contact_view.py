@@ -22,7 +22,7 @@ from numba.extending import (
 
 from nonsmooth.engine.memory.contact_fields import NUMBERS
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS
-from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, get_field, tag
+from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, get_field, moved, tag
 
 
 class Contact(types.Type):  # type: ignore[misc]
@@ -59,8 +59,9 @@ def _place(context: Any, builder: Any, value: Any, name: str) -> Any:
     """Return a pointer to the first number of a field."""
     parts = cgutils.create_struct_proxy(CONTACT)(context, builder, value=value)
     behind = builder.mul(parts.c, ir.Constant(ir.IntType(64), NUMBERS[name]))
-    heap = parts.w if _heap_of(name) is FLOATS else parts.k
-    return builder.gep(heap, [builder.add(get_field(context, builder, TABLE, parts.S, name), behind)])
+    heap = _heap_of(name)
+    offset = builder.add(get_field(context, builder, TABLE, parts.S, name), behind)
+    return moved(context, builder, heap, parts.w if heap is FLOATS else parts.k, offset)
 
 
 @lower_getattr_generic(Contact)  # type: ignore[untyped-decorator]
@@ -68,8 +69,9 @@ def _get_field(context: Any, builder: Any, contact: Contact, value: Any, name: s
     place = _place(context, builder, value, name)
     if NUMBERS[name] > 1:
         return place
-    load = builder.load(place)
-    tag(load, _heap_of(name).name)
+    heap = _heap_of(name)
+    load = builder.load(place, typ=context.get_value_type(heap.dtype))
+    tag(load, heap.name)
     return load
 
 

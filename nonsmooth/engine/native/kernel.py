@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Protocol, TypeAlias, TypeVar
 
 from nonsmooth.engine.memory.memory import Memory
@@ -46,27 +46,35 @@ contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.contact_at
 """A contact with its fields by name (:mod:`nonsmooth.engine.memory.contact_fields`)."""
 at: Callable[[Floats, int], Floats] = _half.at
 """The heap from an offset on."""
-call_scalar: Callable[[int, float, Floats], float] = _half.call_scalar
+
+_Filling: TypeAlias = Callable[[int, float, Floats, Floats, Floats, Floats], None]
+
+calls: Mapping[str, Callable[..., Any]] = _half.calls
+"""What calls a function at an address, for each of :data:`nonsmooth.engine.native.forms.FORMS`."""
+call_scalar: Callable[[int, float, Floats], float] = calls["scalar"]
 """Call ``law(x, parameters)`` at an address."""
-call_compliance: Callable[[int, float, float, float, Floats], float] = _half.call_compliance
+call_compliance: Callable[[int, float, float, float, Floats], float] = calls["compliance"]
 """Call ``force(indentation, rate, closing_rate, parameters)`` at an address."""
-call_body: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.call_body
-"""Call ``body(t, q, u, parameters, out)`` at an address."""
-call_guard: Callable[[int, float, Floats, Floats, Floats], float] = _half.call_guard
+call_traction: _Filling = calls["traction"]
+"""Call ``traction(normal_force, motion, state, parameters, out)`` at an address."""
+call_rates: Callable[[int, float, Floats, Floats, Floats], None] = calls["rates"]
+"""Call ``rates(speed, state, parameters, out)`` at an address."""
+call_guard: Callable[[int, float, Floats, Floats, Floats], float] = calls["guard"]
 """Call ``guard(t, q, u, parameters)`` at an address."""
-call_load: Callable[[int, float, Floats, Floats, Floats, Floats], None] = _half.call_load
+call_body: _Filling = calls["body"]
+"""Call ``body(t, q, u, parameters, out)`` at an address."""
+call_load: _Filling = calls["load"]
 """Call ``load(t, frame_a, frame_b, parameters, out)`` at an address."""
-call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = _half.call_pair
+call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = calls["pair"]
 """Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
+call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = calls["map"]
+"""Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
 call_watch: Callable[[int, float], float] = _half.call_watch
 """Call ``watch(t)`` at an address."""
 watch_address: Callable[[Callable[[float], float]], int] = _half.watch_address
 """Return the address of a function that :func:`call_watch` may call until :func:`forget_watch`."""
 forget_watch: Callable[[int], None] = _half.forget_watch
 """Give up an address of :func:`watch_address`."""
-call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = _half.call_map
-"""Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
-
 call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _half.call_support
 """Call ``support(direction, parameters, point)`` at the address at a place of a heap, the parameters behind it."""
 
@@ -80,7 +88,7 @@ shared: Callable[[Callable[..., Any]], Any] = _half.shared
 unshared: Callable[[Any], Any] = _half.unshared
 """The function out of which :func:`shared` has made a value, any other value as it is."""
 address_of: Callable[[Callable[..., Any], str, str], int] = _half.address_of
-"""Compile a shim of a form of :data:`nonsmooth.binding.compile.ROLES`, or find it under its key on disk, and
+"""Compile a shim of one of :data:`nonsmooth.engine.native.forms.FORMS`, or find it under its key on disk, and
 return its address.  Without a key nothing is kept on disk."""
 
 __all__ = [
@@ -98,10 +106,13 @@ __all__ = [
     "call_load",
     "call_map",
     "call_pair",
+    "call_rates",
     "call_room",
     "call_scalar",
     "call_support",
+    "call_traction",
     "call_watch",
+    "calls",
     "contact_at",
     "forget_watch",
     "jit",

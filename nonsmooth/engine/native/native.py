@@ -21,10 +21,11 @@ from numba.extending import intrinsic, typeof_impl
 
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
-from nonsmooth.engine.native.build import CFunction, EnginePasses, numbered, raw, raw_inside, typed_once, uncollected
+from nonsmooth.engine.native.build import CFunction, KernelPasses, LawPasses, RoomPasses, ShimPasses, uncollected
 from nonsmooth.engine.native.cache import Store, folders
 from nonsmooth.engine.native.contact_view import contact_at as contact_at
-from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE
+from nonsmooth.engine.native.forms import C_TYPES, FORMS
+from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, call_at, moved
 from nonsmooth.notices import say
 
 _OPTIONS: dict[str, Any] = {
@@ -43,7 +44,6 @@ _TYPES = {
     "i8": types.int64,
     "void": types.void,
 }
-_C_TYPES: dict[str, Any] = {"f8": ctypes.c_double, "i8": ctypes.c_int64, "void": None}
 _pending: list[tuple[Any, Any]] = []
 _alive: list[Any] = []
 _rooms: dict[str, tuple[Callable[..., Any], str]] = {}
@@ -60,7 +60,7 @@ def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], A
     """Compile an engine function with an explicit signature, when an entry point first needs it."""
 
     def decorate(function: Callable[..., Any]) -> Any:
-        dispatcher = numba.jit(pipeline_class=EnginePasses, **_OPTIONS)(function)
+        dispatcher = numba.jit(pipeline_class=KernelPasses, **_OPTIONS)(function)
         _pending.append((dispatcher, _signature(signature)))
         return dispatcher
 
@@ -77,7 +77,7 @@ def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any
     def decorate(function: Callable[..., Any]) -> Any:
         _rooms[function.__name__] = (function, signature)
         names = ", ".join(inspect.signature(function).parameters)
-        scope: dict[str, Any] = {"call": _room_caller(_signature(signature))}
+        scope: dict[str, Any] = {"call": by_address(_signature(signature))}
         name = function.__name__
         exec(_STUB.format(name=name, names=names, index=ROOMS.index(name)), scope)
         return kernel(signature)(scope[f"stub_{name}"])
@@ -85,14 +85,18 @@ def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any
     return decorate
 
 
-def _room_caller(signature: Any) -> Any:
-    result, arguments = signature.return_type, signature.args
+def by_address(signature: Any) -> Any:
+    """Return an intrinsic that calls the C function of a signature at an address."""
 
     def call(typingctx: Any, address: Any, *values: Any) -> Any:
-        return _caller(result, arguments)
+        def lower(context: Any, builder: Any, _: Any, args: Any) -> Any:
+            value = call_at(builder, args[0], context.get_value_type(signature.return_type), args[1:])
+            return context.get_dummy_value() if signature.return_type is types.void else value
+
+        return signature.return_type(types.int64, *signature.args), lower
 
     scope: dict[str, Any] = {"call": call}
-    names = ", ".join(f"v{i}" for i in range(len(arguments)))
+    names = ", ".join(f"v{i}" for i in range(len(signature.args)))
     exec(f"def typed(typingctx, address, {names}): return call(typingctx, address, {names})", scope)
     return intrinsic(scope["typed"])
 
@@ -101,33 +105,39 @@ def _room_caller(signature: Any) -> Any:
 def room_addresses() -> tuple[int, ...]:
     """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
     importlib.import_module("nonsmooth.engine.events.event_loop")
-    if not all(_store(name).is_filled() for name in ROOMS):
+    if missing := _missing():
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
-        _fill_cache()
+        _compile_apart(missing)
+        compile_rooms(_missing())
     return tuple(_compiled(name) for name in ROOMS)
 
 
-def _fill_cache() -> None:
-    """Compile all rooms, half of them in a process of its own where there are two processors."""
-    middle = len(ROOMS) // 2
-    helper = _helper(middle) if numba.config.NUMBA_DEFAULT_NUM_THREADS > 1 and folders()[1] else None
-    if helper is None:
-        compile_rooms(0, len(ROOMS))
-    else:
-        with helper:
-            compile_rooms(0, middle)
-        if helper.returncode != 0:
-            compile_rooms(middle, len(ROOMS))
+def _missing() -> tuple[str, ...]:
+    return tuple(name for name in ROOMS if not _store(name).is_filled())
 
 
-def _helper(start: int) -> subprocess.Popen[bytes] | None:
-    """Compile the rooms from one on in another process; it may fail, as only the cache knows of it."""
+def _compile_apart(names: tuple[str, ...]) -> None:
+    """Compile rooms into the cache, half of them each in two processes of their own, or all in one on one processor.
+
+    They may fail, as only the cache knows of them.  In this process the compiler would leave half a gigabyte.
+    """
+    if folders()[1] is None:
+        return
+    n = min(2, numba.config.NUMBA_DEFAULT_NUM_THREADS)
+    parts = [names[i * len(names) // n : (i + 1) * len(names) // n] for i in range(n)]
+    with contextlib.ExitStack() as stack:
+        for part in parts:
+            if part and (helper := _helper(part)) is not None:
+                stack.enter_context(helper)
+
+
+def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
     # an interpreter of our own: multiprocessing would run the user's script again, a frozen program itself
     if "python" not in Path(sys.executable or "").name:
         return None
     task = (
         f"import sys; sys.path[:] = {sys.path!r}; from nonsmooth.engine.native import native; "
-        f"import nonsmooth.engine.events.event_loop; native.compile_rooms({start}, {len(ROOMS)})"
+        f"import nonsmooth.engine.events.event_loop; native.compile_rooms({names!r})"
     )
     try:
         quiet = subprocess.DEVNULL
@@ -136,13 +146,12 @@ def _helper(start: int) -> subprocess.Popen[bytes] | None:
         return None
 
 
-def compile_rooms(start: int, stop: int) -> None:
-    """Compile a range of ``ROOMS`` into the cache."""
-    with uncollected(), numbered(ROOMS[start]), typed_once():
-        with raw():
-            for inner, typed in _kernels_of(ROOMS[start:stop]):
-                inner.compile(typed)
-        for name in ROOMS[start:stop]:
+def compile_rooms(names: tuple[str, ...]) -> None:
+    """Compile some of ``ROOMS`` into the cache."""
+    with uncollected():
+        for inner, typed in _kernels_of(names):
+            inner.compile(typed)
+        for name in names:
             _compiled(name)
 
 
@@ -169,7 +178,7 @@ def _store(room: str) -> Store:
 def _compiled(room: str) -> int:
     """Return the address of a room, and let its code live."""
     function, signature = _rooms[room]
-    return _address(CFunction(function, _signature(signature), _store(room), EnginePasses))
+    return _address(CFunction(function, _signature(signature), _store(room), RoomPasses))
 
 
 def _address(function: CFunction) -> int:
@@ -183,8 +192,8 @@ def _callable(name: str) -> Callable[..., Any]:
     """Return a room as a function of the addresses of the three heaps, and of numbers."""
     _, signature = _rooms[name]
     result, _, names = signature.partition("(")
-    extra = [_C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[3:]]
-    prototype = ctypes.CFUNCTYPE(_C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
+    extra = [C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[3:]]
+    prototype = ctypes.CFUNCTYPE(C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
     return prototype(room_addresses()[ROOMS.index(name)])
 
 
@@ -198,33 +207,9 @@ def at(typingctx: Any, heap: Any, offset: Any) -> Any:
     """Return a pointer moved by ``offset`` elements."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.gep(args[0], [args[1]])
+        return moved(context, builder, heap, *args)
 
     return heap(heap, types.int64), codegen
-
-
-def _caller(result: Any, arguments: tuple[Any, ...]) -> Any:
-    """Make an intrinsic that calls the C function at an address."""
-
-    def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        native = ir.FunctionType(context.get_value_type(result), [context.get_value_type(a) for a in arguments])
-        function = builder.inttoptr(args[0], ir.PointerType(native))
-        value = builder.call(function, args[1:])
-        return context.get_dummy_value() if result is types.void else value
-
-    return result(types.int64, *arguments), lower
-
-
-@intrinsic
-def call_scalar(typingctx: Any, address: Any, x: Any, p: Any) -> Any:
-    """Call ``float law(float, parameters)`` at an address."""
-    return _caller(types.float64, (types.float64, FLOATS))
-
-
-@intrinsic
-def call_watch(typingctx: Any, address: Any, t: Any) -> Any:
-    """Call ``float watch(float)`` at an address."""
-    return _caller(types.float64, (types.float64,))
 
 
 _watches: dict[int, Any] = {}
@@ -243,59 +228,14 @@ def forget_watch(address: int) -> None:
     del _watches[address]
 
 
-@intrinsic
-def call_compliance(typingctx: Any, address: Any, x: Any, rate: Any, first: Any, p: Any) -> Any:
-    """Call ``float force(indentation, rate, closing_rate, parameters)`` at an address."""
-    return _caller(types.float64, (types.float64, types.float64, types.float64, FLOATS))
-
-
-@intrinsic
-def call_body(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any, out: Any) -> Any:
-    """Call ``void body(t, q, u, parameters, out)`` at an address."""
-    return _caller(types.void, (types.float64, FLOATS, FLOATS, FLOATS, FLOATS))
-
-
-@intrinsic
-def call_load(typingctx: Any, address: Any, t: Any, a: Any, b: Any, p: Any, out: Any) -> Any:
-    """Call ``void load(t, frame_a, frame_b, parameters, out)`` at an address."""
-    return _caller(types.void, (types.float64, FLOATS, FLOATS, FLOATS, FLOATS))
-
-
-@intrinsic
-def call_pair(typingctx: Any, address: Any, a: Any, b: Any, p: Any, out: Any) -> Any:
-    """Call ``void geometry(frame_a, frame_b, parameters, out)`` at an address."""
-    return _caller(types.void, (FLOATS, FLOATS, FLOATS, FLOATS))
-
-
-@intrinsic
-def call_map(typingctx: Any, address: Any, n: Any, g: Any, z: Any, p: Any, out: Any) -> Any:
-    """Call ``void impact(n, delassus, rates, parameters, impulses)`` at an address."""
-    return _caller(types.void, (types.int64, FLOATS, FLOATS, FLOATS, FLOATS))
-
-
-@intrinsic
-def call_guard(typingctx: Any, address: Any, t: Any, q: Any, u: Any, p: Any) -> Any:
-    """Call ``float guard(t, q, u, parameters)`` at an address."""
-    return _caller(types.float64, (types.float64, FLOATS, FLOATS, FLOATS))
-
-
-_C_SIGNATURES = {
-    "guard": types.float64(types.float64, FLOATS, FLOATS, FLOATS),
-    "scalar": types.float64(types.float64, FLOATS),
-    "compliance": types.float64(types.float64, types.float64, types.float64, FLOATS),
-    "traction": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
-    "rates": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
-    "body": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
-    "load": types.void(types.float64, FLOATS, FLOATS, FLOATS, FLOATS),
-    "pair": types.void(FLOATS, FLOATS, FLOATS, FLOATS),
-    "map": types.void(types.int64, FLOATS, FLOATS, FLOATS, FLOATS),
-    "support": types.void(FLOATS, FLOATS, FLOATS),
-}
+calls = {name: by_address(_signature(form.signature)) for name, form in FORMS.items()}
+"""What calls a function of each form at an address."""
+call_watch = by_address(types.float64(types.float64))
 
 
 def jit(function: Callable[..., Any]) -> Any:
     """Compile a plug-in's function on demand; it is cached with the shim that calls it, or not at all."""
-    return numba.jit(**_OPTIONS)(function)
+    return numba.jit(pipeline_class=LawPasses, **_OPTIONS)(function)
 
 
 class _Shared:
@@ -303,8 +243,13 @@ class _Shared:
 
     def __init__(self, function: Callable[..., Any], inner: Callable[..., Any] | None = None) -> None:
         self.function = function
-        self.dispatcher = jit(inner or function)
+        self._compiled = inner or function
         functools.update_wrapper(self, function)
+
+    @functools.cached_property
+    def dispatcher(self) -> Any:
+        """What numba calls; made when asked for, as a start asks for few."""
+        return jit(self._compiled)
 
     def __call__(self, *arguments: Any) -> Any:
         return self.function(*arguments)
@@ -331,17 +276,15 @@ def _support_at(typingctx: Any, heap: Any, place: Any, x: Any, y: Any, z: Any) -
 
     def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         number, size = ir.DoubleType(), ir.IntType(64)
-        numbers = number.as_pointer()
         way, found = (cgutils.alloca_once(builder, number, 3) for _ in range(2))
         ends = [size(i) for i in range(3)]
         for end, value in zip(ends, args[2:], strict=True):
-            builder.store(value, builder.gep(way, [end]))
+            builder.store(value, moved(context, builder, FLOATS, way, end))
         if heap == FLOATS:
-            function = ir.FunctionType(ir.VoidType(), [numbers, numbers, numbers]).as_pointer()
-            address = builder.fptosi(builder.load(builder.gep(args[0], [args[1]])), size)
-            parameters = builder.gep(args[0], [builder.add(args[1], size(1))])
-            builder.call(builder.inttoptr(address, function), [way, parameters, found])
-        values = [builder.load(builder.gep(found, [end])) for end in ends]
+            address = builder.load(moved(context, builder, heap, args[0], args[1]), typ=number)
+            parameters = moved(context, builder, heap, args[0], builder.add(args[1], size(1)))
+            call_at(builder, builder.fptosi(address, size), ir.VoidType(), [way, parameters, found])
+        values = [builder.load(moved(context, builder, FLOATS, found, end), typ=number) for end in ends]
         return context.make_tuple(builder, point, values)
 
     return point(heap, types.int64, types.float64, types.float64, types.float64), lower
@@ -355,7 +298,7 @@ def _support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[float
     """Call ``void support(direction, parameters, point)`` with what stands in a heap; return the point."""
     numbers = (ctypes.c_double * (len(heap) - place))(*heap[place + 1 :])
     way, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
-    ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(int(heap[place]))(way, numbers, found)
+    FORMS["support"].prototype()(int(heap[place]))(way, numbers, found)
     return found[0], found[1], found[2]
 
 
@@ -379,6 +322,6 @@ def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
 
     Equal keys must mean equal functions; without a key nothing is cached.
     """
-    compiled = CFunction(shim, _C_SIGNATURES[form], Store(f"shim-{key}") if key else None)
-    with numbered(key) if key else contextlib.nullcontext(), uncollected(), typed_once(), raw_inside():
-        return _address(compiled)
+    return _address(
+        CFunction(shim, _signature(FORMS[form].signature), Store(f"shim-{key}") if key else None, ShimPasses)
+    )

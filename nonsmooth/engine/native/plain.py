@@ -11,6 +11,7 @@ from nonsmooth.engine.memory.contact_fields import NUMBERS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, SCALARS
+from nonsmooth.engine.native.forms import FORMS
 
 _functions: list[Callable[..., Any]] = []
 _watches: dict[int, Callable[[float], float]] = {}
@@ -82,14 +83,12 @@ def at(heap: memoryview, offset: int) -> memoryview:
     return heap[offset:]
 
 
-def call_scalar(address: int, x: float, p: Any) -> Any:
-    """Call ``float law(float, parameters)``."""
-    return _functions[address - 1](x, p)
+def _call(address: int, *arguments: Any) -> Any:
+    """Call the function of a form at an address."""
+    return _functions[address - 1](*arguments)
 
 
-def call_compliance(address: int, x: float, rate: float, first: float, p: Any) -> Any:
-    """Call ``float force(indentation, rate, closing_rate, parameters)``."""
-    return _functions[address - 1](x, rate, first, p)
+calls = dict.fromkeys(FORMS, _call)
 
 
 def call_watch(address: int, t: float) -> Any:
@@ -109,26 +108,6 @@ def forget_watch(address: int) -> None:
     del _watches[address]
 
 
-def call_body(address: int, t: float, q: Any, u: Any, p: Any, out: Any) -> None:
-    """Call ``void body(t, q, u, parameters, out)``."""
-    _functions[address - 1](t, q, u, p, out)
-
-
-def call_guard(address: int, t: float, q: Any, u: Any, p: Any) -> Any:
-    """Call ``float guard(t, q, u, parameters)``."""
-    return _functions[address - 1](t, q, u, p)
-
-
-def call_load(address: int, t: float, a: Any, b: Any, p: Any, out: Any) -> None:
-    """Call ``void load(t, frame_a, frame_b, parameters, out)``."""
-    _functions[address - 1](t, a, b, p, out)
-
-
-def call_pair(address: int, a: Any, b: Any, p: Any, out: Any) -> None:
-    """Call ``void geometry(frame_a, frame_b, parameters, out)``."""
-    _functions[address - 1](a, b, p, out)
-
-
 def call_support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
     """Call ``void support(direction, parameters, point)`` with what stands in a heap; return the point."""
     found = [0.0, 0.0, 0.0]
@@ -139,11 +118,6 @@ def call_support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[f
 def block_at(block: Any, place: int) -> Any:
     """Return what stands in a block from a place on."""
     return block[place:]
-
-
-def call_map(address: int, n: int, g: Any, z: Any, p: Any, out: Any) -> None:
-    """Call ``void impact(n, delassus, rates, parameters, impulses)``."""
-    _functions[address - 1](n, g, z, p, out)
 
 
 def jit(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -1,13 +1,15 @@
 """The numba types of the record ``S`` and of the two heaps, and what the optimiser may know of them.
 
-They are plain pointers.  Their loads and stores carry alias metadata: a store into a heap touches neither the
-other heap nor a scalar, a scalar no other scalar, and offsets and counts never change while the engine runs.
-Without that, every store would make the compiler read every offset again.
+They are plain pointers; what stands there is said at each use, as llvmlite is to drop the types of pointers.  Loads
+and stores carry alias metadata: a store into a heap touches neither the other heap nor a scalar, a scalar no other
+scalar, and offsets and counts never change while the engine runs.  Without that, every store would make the compiler
+read every offset again.
 """
 
 from __future__ import annotations
 
 import operator
+from collections.abc import Sequence
 from typing import Any
 
 from llvmlite import ir
@@ -56,6 +58,34 @@ class _TableModel(models.PrimitiveModel):  # type: ignore[misc]
         super().__init__(manager, table, ir.IntType(64).as_pointer())
 
 
+def moved(context: Any, builder: Any, heap: Heap, pointer: Any, offset: Any) -> Any:
+    """Return a pointer moved by a number of elements."""
+    return builder.gep(pointer, [offset], source_etype=context.get_value_type(heap.dtype))
+
+
+class Callee:
+    """The address of a C function, as llvmlite calls it: with the type of the function, which a pointer need not know.
+
+    Parameters
+    ----------
+    pointer : llvmlite value
+        The address.
+    function_type : llvmlite type
+        Of the function.
+    """
+
+    def __init__(self, pointer: Any, function_type: Any) -> None:
+        self.type = pointer.type
+        self.function_type = function_type
+        self.get_reference = pointer.get_reference
+
+
+def call_at(builder: Any, address: Any, result: Any, arguments: Sequence[Any]) -> Any:
+    """Call the C function at an address, a number; ``result`` is the type of what it returns."""
+    function_type = ir.FunctionType(result, [argument.type for argument in arguments])
+    return builder.call(Callee(builder.inttoptr(address, function_type.as_pointer()), function_type), arguments)
+
+
 def tag(access: Any, name: str) -> None:
     """Mark a load or store as one of the memory called ``name``."""
     module = access.function.module
@@ -85,15 +115,17 @@ def _type_setitem(context: Any) -> Any:
 
 @lower_builtin(operator.getitem, Heap, types.Integer)  # type: ignore[untyped-decorator]
 def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-    load = builder.load(builder.gep(args[0], [args[1]]))
-    tag(load, signature.args[0].name)
+    heap = signature.args[0]
+    load = builder.load(moved(context, builder, heap, *args), typ=context.get_value_type(heap.dtype))
+    tag(load, heap.name)
     return load
 
 
 @lower_builtin(operator.setitem, Heap, types.Integer, types.Any)  # type: ignore[untyped-decorator]
 def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     heap, _index, value = signature.args
-    store = builder.store(context.cast(builder, args[2], value, heap.dtype), builder.gep(args[0], [args[1]]))
+    place = moved(context, builder, heap, args[0], args[1])
+    store = builder.store(context.cast(builder, args[2], value, heap.dtype), place)
     tag(store, heap.name)
     return context.get_dummy_value()
 
@@ -103,7 +135,8 @@ def _field_type(name: str) -> Any:
 
 
 def _field(context: Any, builder: Any, table: Any, name: str) -> Any:
-    place = builder.gep(table, [ir.Constant(ir.IntType(64), _NAMES.index(name))])
+    word = ir.IntType(64)
+    place = builder.gep(table, [ir.Constant(word, _NAMES.index(name))], source_etype=word)
     return builder.bitcast(place, context.get_value_type(_field_type(name)).as_pointer())
 
 
@@ -118,7 +151,7 @@ class _TableFields(AttributeTemplate):  # type: ignore[misc]
 @lower_getattr_generic(Table)  # type: ignore[untyped-decorator]
 def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
     """Load a scalar of the record."""
-    load = builder.load(_field(context, builder, value, name))
+    load = builder.load(_field(context, builder, value, name), typ=context.get_value_type(_field_type(name)))
     tag(load, name)
     if name in CONSTANT_SCALARS:
         load.set_metadata("invariant.load", builder.module.add_metadata([]))

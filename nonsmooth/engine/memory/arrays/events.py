@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per
+from nonsmooth.engine.memory.limits import LIMITS
 
 ARRAYS = Arrays(
     floats={
@@ -17,6 +18,7 @@ ARRAYS = Arrays(
         "mode_agreed": per(1, "n_slots"),
         "closes": per(1, "n_slots"),
         "listed": per(1, "n_slots"),
+        "limits": fixed(len(LIMITS)),
     },
     later_floats={
         "events": per(1, "event_floats"),

@@ -1,0 +1,30 @@
+"""What may limit a step of the flow: codes and their words."""
+
+from __future__ import annotations
+
+(
+    NO_STEP,
+    BY_ERROR,
+    BY_LARGEST,
+    BY_LIST,
+    BY_SAMPLES,
+    BY_FIRST,
+    BY_SINGULARITY,
+    BY_EVENT,
+    BY_CROWD,
+    BY_END,
+) = range(10)
+
+LIMITS = (
+    "no step",
+    "error",
+    "largest step",
+    "list of near contacts",
+    "samples",
+    "first step in contact",
+    "Painleve singularity",
+    "event",
+    "crowded events",
+    "end of the run",
+)
+"""Their words; without a step are the events that begin where another ended, and new lists of near contacts."""

@@ -1,0 +1,86 @@
+"""The forms of the functions that the engine calls by address; all that knows how they are called is made from here."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, final
+
+C_TYPES: Mapping[str, Any] = {"f8": ctypes.c_double, "i8": ctypes.c_int64, "F": ctypes.c_void_p, "void": None}
+"""Types of arguments and results; ``F`` are floats behind a pointer."""
+
+
+@final
+@dataclass(frozen=True)
+class Form:
+    """What the engine passes to a function, and what it gets.
+
+    Attributes
+    ----------
+    given : mapping of str to str
+        What is passed before the function's own parameters, names with types.
+    returns : bool
+        Whether it returns a number; else it writes to ``out``.
+    recorded : mapping of str to int
+        What is kept for a message, before the parameters, where a law has no finite value: names of arguments, and
+        how many numbers of each.
+    watched : int
+        How many numbers of ``out`` are to be finite for that.
+    """
+
+    given: Mapping[str, str]
+    returns: bool = False
+    recorded: Mapping[str, int] = field(default_factory=dict)
+    watched: int = 0
+
+    @cached_property
+    def roles(self) -> tuple[str, ...]:
+        """What a function takes before its own parameters."""
+        return (*self.given, *(() if self.returns else ("out",)))
+
+    @cached_property
+    def arguments(self) -> Mapping[str, str]:
+        """What the engine calls with, in order: ``p`` are the parameters."""
+        return {**self.given, "p": "F", **({} if self.returns else {"out": "F"})}
+
+    @cached_property
+    def signature(self) -> str:
+        """The types, as those of kernels are written."""
+        return f"{self._result}({', '.join(self.arguments.values())})"
+
+    @cached_property
+    def n_recorded(self) -> int:
+        """How many numbers are kept."""
+        return sum(self.recorded.values())
+
+    @property
+    def _result(self) -> str:
+        return "f8" if self.returns else "void"
+
+    def prototype(self, pointer: Any = ctypes.c_void_p) -> Any:
+        """Return the type of the C function for :mod:`ctypes`."""
+        types = {**C_TYPES, "F": pointer}
+        return ctypes.CFUNCTYPE(types[self._result], *[types[kind] for kind in self.arguments.values()])
+
+
+FORMS: Mapping[str, Form] = {
+    "scalar": Form({"x": "f8"}, returns=True, recorded={"x": 1}),
+    "compliance": Form(
+        {"indentation": "f8", "rate": "f8", "closing_rate": "f8"},
+        returns=True,
+        recorded={"indentation": 1, "rate": 1, "closing_rate": 1},
+    ),
+    "traction": Form(
+        {"normal_force": "f8", "motion": "F", "state": "F"}, recorded={"normal_force": 1, "motion": 5}, watched=5
+    ),
+    "rates": Form({"speed": "f8", "state": "F"}, recorded={"speed": 1}, watched=1),
+    "guard": Form({"t": "f8", "q": "F", "u": "F"}, returns=True),
+    "body": Form({"t": "f8", "q": "F", "u": "F"}),
+    "load": Form({"t": "f8", "a": "F", "b": "F"}),
+    "pair": Form({"a": "F", "b": "F"}),
+    "map": Form({"n": "i8", "delassus": "F", "rates": "F"}),
+    "support": Form({"direction": "F"}),
+}
+"""All forms by name."""

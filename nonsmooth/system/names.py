@@ -1,0 +1,154 @@
+"""Names of bodies and of what is declared between them: chosen by the user, else made from what they are.
+
+Made names count from 1, where there are several of a kind: "ball 1", "ball 2", "plate", "plate - ball 2",
+"plate - ball 2 (1)", "hinge base - arm".
+"""
+
+from __future__ import annotations
+
+import copy
+import itertools
+import re
+from collections import Counter
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from typing import final
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.plugins import registry
+
+_BETWEEN = " - "
+_RESERVED = (_BETWEEN, "(", ")")
+"""What made names are put together with: chosen ones have none of it, so that no two are alike."""
+_HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
+
+
+@final
+@dataclass(frozen=True)
+class Names:
+    """The names of all parts of a system, each once among its kind, in the order of the system.
+
+    Attributes
+    ----------
+    bodies, contacts, joints, loads, guards : tuple of str
+        The names.
+    """
+
+    bodies: tuple[str, ...]
+    contacts: tuple[str, ...]
+    joints: tuple[str, ...]
+    loads: tuple[str, ...]
+    guards: tuple[str, ...]
+
+
+def kind_word(component: object) -> str:
+    """Return in words what a component is: its installed name, else that of its class."""
+    owner = type(component)
+    word = registry.name_of(owner) or _HUMP.sub(" ", owner.__name__).lower()
+    return " ".join(word.replace("_", " ").split())
+
+
+def body_names(bodies: Sequence[object], chosen: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of bodies: the chosen ones, and made ones in place of those that are empty."""
+    words = {kind: kind_word(body) for kind, body in {type(body): body for body in bodies}.items()}
+    kinds = [words[type(body)] for body in bodies]
+    totals, seen, taken = Counter(kinds), Counter[str](), set(chosen)
+    names = []
+    for kind, name in zip(kinds, chosen, strict=True):
+        seen[kind] += 1
+        numbers = itertools.count(seen[kind])
+        names.append(name or next(word for n in numbers if (word := _word(kind, n, totals[kind])) not in taken))
+        taken.add(names[-1])
+    return tuple(names)
+
+
+def _word(kind: str, number: int, total: int) -> str:
+    return kind if number == total == 1 else f"{kind} {number}"
+
+
+def between(first: str, second: str, what: str = "") -> str:
+    """Return the name of what is between two bodies of these names; ``what`` says what it is, a contact if empty."""
+    return f"{what} {first}{_BETWEEN}{second}".strip()
+
+
+@final
+class Naming:
+    """Gives the parts of one system their names.
+
+    Parameters
+    ----------
+    bodies : sequence of Body
+        The bodies.
+    """
+
+    def __init__(self, bodies: Sequence[object]) -> None:
+        self._bodies = bodies
+        self._chosen = [""] * len(bodies)
+        self._made: tuple[str, ...] = ()
+        self._given: dict[str, Counter[str]] = {}
+
+    def __copy__(self) -> Naming:
+        made = Naming(self._bodies)
+        made._chosen, made._made, made._given = [*self._chosen], self._made, copy.deepcopy(self._given)
+        return made
+
+    def choose(self, where: str, number: int, name: str) -> None:
+        """Choose the name of a body, by its number.
+
+        Raises
+        ------
+        InvalidInput
+            If the name has another form or is taken, or something has a name already that may tell of the body's.
+        """
+        check_name(where, name, [*self._chosen[:number], *self._chosen[number + 1 :]])
+        if any(self._given.values()):
+            remedy = "Name the bodies right after System([...])."
+            raise InvalidInput(where, "must come before contacts, joints, loads and guards", name, remedy)
+        self._chosen[number], self._made = name, ()
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """The names of the bodies."""
+        # kinds are looked up among what is installed, which takes a while: when a name is wanted first
+        self._made = self._made or body_names(self._bodies, self._chosen)
+        return self._made
+
+    def give(self, kind: str, chosen: str, made: Sequence[str]) -> list[str]:
+        """Return names for new parts of a kind: the chosen one, if that is empty those made, numbered where alike.
+
+        Raises
+        ------
+        InvalidInput
+            If the chosen name has another form or is taken.
+        """
+        given = self._given.setdefault(kind, Counter())
+        if chosen:
+            check_name(f"System.{kind}: name", chosen, given)
+        wanted = [chosen or name for name in made]
+        totals, names = Counter(wanted), []
+        for name in wanted:
+            given[name] += 1
+            names.append(name if given[name] == totals[name] == 1 else f"{name} ({given[name]})")
+        return names
+
+    def forget(self, kind: str) -> None:
+        """Take back the names of all parts of a kind."""
+        self._given.pop(kind, None)
+
+
+def check_name(where: str, name: object, taken: Collection[str] = ()) -> None:
+    """Look at a name that a user chose.
+
+    Raises
+    ------
+    InvalidInput
+        If it is no text that can be told from made names, or taken.
+    """
+    if not isinstance(name, str) or not name or name != " ".join(name.split()) or not name.isprintable():
+        raise InvalidInput(where, "must be a text of words with single blanks", name, 'For example "left hammer".')
+    if any(part in name for part in _RESERVED):
+        raise InvalidInput(
+            where, f"must not have any of {', '.join(map(repr, _RESERVED))}", name, "Made names are put together so."
+        )
+    if name in taken:
+        raise InvalidInput(where, "must be one that nothing of its kind has yet", name, "Choose another.")
