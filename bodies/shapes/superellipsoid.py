@@ -33,8 +33,9 @@ class Superellipsoid(SmoothShape):
     follow from it: its radii of curvature do not jump for p >= 2, q >= 2, and q = 2 where p = 2.  With both
     below 1 the body is boxy: it has flat points in the middle of its faces and flat lines across them, where these
     radii are infinite, and the contacts follow from its gauge, whose curvatures are finite
-    (:mod:`bodies.contacts.boxy_newton`).  With one below 1 and one above it has flat lines and sharp ones, and the
-    contacts follow from coordinates in which point and normal have derivatives (:mod:`bodies.contacts.chart`).
+    (:mod:`bodies.contacts.smooth.boxy_newton`).  With one below 1 and one above it has flat lines and sharp
+    ones, and the contacts follow from coordinates in which point and normal have derivatives
+    (:mod:`bodies.contacts.smooth.chart`).
 
     References
     ----------

@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import BoxBody, Cylinder, EllipsoidBody, Superellipsoid, SuperellipsoidBody, TriangleMesh, Triangles
-from bodies.contacts.boxy_newton import place_on
-from bodies.contacts.smooth_newton import widest
+from bodies.contacts.smooth.boxy_newton import place_on
+from bodies.contacts.smooth.smooth_newton import widest
 from bodies.shapes.support_function import boxy_gauge_of, support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from bodies import Superellipsoid
-from bodies.contacts.chart import chart_of, start_of
-from bodies.contacts.smooth_newton import widest
+from bodies.contacts.smooth.chart import chart_of, start_of
+from bodies.contacts.smooth.smooth_newton import widest
 from bodies.shapes.support_function import gauge_of, support_of
 from nonsmooth.engine.native.kernel import PLAIN
 

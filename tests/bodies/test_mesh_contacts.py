@@ -25,9 +25,9 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from bodies.contacts import patch_near
-from bodies.contacts.apex_mesh import ApexMesh
-from bodies.contacts.mesh_point import MeshPoint, PointMesh
+from bodies.contacts.mesh.apex_mesh import ApexMesh
+from bodies.contacts.surface import patch_near
+from bodies.contacts.surface.mesh_point import MeshPoint, PointMesh
 from nonsmooth.binding.call import pair_caller
 from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY
 from nonsmooth.engine.native.kernel import PLAIN

@@ -28,10 +28,11 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from bodies.contacts import mesh_mesh, patch_near, surface_pairs
-from bodies.contacts.frustum_mesh import FrustumMesh
-from bodies.contacts.mesh_mesh import MeshMesh
-from bodies.contacts.mesh_swept import MeshSwept
+from bodies.contacts.mesh import mesh_mesh
+from bodies.contacts.mesh.frustum_mesh import FrustumMesh
+from bodies.contacts.mesh.mesh_mesh import MeshMesh
+from bodies.contacts.mesh.mesh_swept import MeshSwept
+from bodies.contacts.surface import patch_near, surface_pairs
 from nonsmooth.binding.call import candidate_caller, pair_caller
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from bodies import Superellipsoid
-from bodies.contacts.smooth_newton import widest
+from bodies.contacts.smooth.smooth_newton import widest
 from bodies.shapes.support_function import support_of
 from nonsmooth.engine.native.kernel import PLAIN
 

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from bodies import Cone, Cylinder, Disc, Superellipsoid
-from bodies.contacts.frustum import HIGH_CAP, LOW_CAP
-from bodies.contacts.frustum_smooth import is_over_cap
-from bodies.contacts.frustum_stops import on_cap
-from bodies.contacts.inscribed import no_shorter_way
-from bodies.contacts.smooth_newton import widest
-from bodies.contacts.smooth_starts import gap_along, starts_of, uphill
+from bodies.contacts.frustum.frustum import HIGH_CAP, LOW_CAP
+from bodies.contacts.frustum.frustum_smooth import is_over_cap
+from bodies.contacts.frustum.frustum_stops import on_cap
+from bodies.contacts.smooth.inscribed import no_shorter_way
+from bodies.contacts.smooth.smooth_newton import widest
+from bodies.contacts.smooth.smooth_starts import gap_along, starts_of, uphill
 from bodies.shapes.support_function import support_of
 from nonsmooth.engine.native.kernel import PLAIN
 

@@ -31,7 +31,7 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from bodies.contacts.surface_pairs import MOST_NEAR
+from bodies.contacts.surface.surface_pairs import MOST_NEAR
 from bodies.meshes.patches import patches_for_ball
 from laws import (
     Anisotropic,

@@ -24,7 +24,7 @@ from bodies import (
     Rest,
     Sphere,
 )
-from bodies.contacts.plane_point import evaluate_ball_over_plane
+from bodies.contacts.plane.plane_point import evaluate_ball_over_plane
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.native.kernel import call_room

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import Cone, Cylinder, CylinderBody, Disc, DrivenBody, Frustum, Rest, TriangleMesh, Triangles
-from bodies.contacts.frustum import nearest_part
+from bodies.contacts.frustum.frustum import nearest_part
 from bodies.shapes.frustum import AXIS, CENTER, FEET
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import CAUSES

@@ -1,0 +1,243 @@
+"""A vertex as a sphere, or without a radius, against a swept polyhedron or segment of another body."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.blocks import put
+from bodies.contacts.features.curvature import write_round
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.features.nearest import Nearest, nearest_feature
+from bodies.contacts.features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
+from bodies.contacts.features.swept_side import write_swept
+from bodies.contacts.features.tangents import write_tangent
+from bodies.shapes.polytope import Point
+from bodies.shapes.swept import SweptPolytope
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+END = 3e-10
+"""So far before its end, in units of the size of the bodies, an edge gives its contact to the vertex, and the vertex
+gives it back after twice that way: neither none of them is closed nor both of them for long."""
+OPEN = 100.0
+"""Gap of a contact that another one has, over its way past the end."""
+NEAR = 1e-6
+"""A wider gap, in units of the size, ends nowhere: it is that of a sphere that is part of the body."""
+
+
+@compiled
+def past_star(
+    frame: Floats, star: Floats, n_star: float, distance: float, nx: float, ny: float, nz: float, size: float
+) -> float:
+    """Return how far the nearest point of the other core, along -n from the vertex, is past it along one of its edges.
+
+    Then that edge is nearer than the vertex, unless the vertex is inside of the other core.
+    """
+    x, y, z = vector_in_body(frame, nx, ny, nz)
+    past = -size
+    for i in range(int(n_star) if distance > 0.0 else 0):
+        along = x * star[3 * i] + y * star[3 * i + 1] + z * star[3 * i + 2]
+        past = max(past, -distance * along)
+    return past - 2.0 * END * size
+
+
+@compiled
+def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
+    """Return gap and way past the end as they are written."""
+    if gap > NEAR * size:
+        return gap, min(past, -END * size)
+    if past > 0.0:
+        return math.sqrt(gap * gap + past * past), past
+    return gap, past
+
+
+@compiled
+def write_vertex_over(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
+    center: Point,
+    radius: float,
+    found: Nearest,
+    past: float,
+    n_faces: float,
+    n_edges: float,
+    edges: Floats,
+    sweep: float,
+    size: float,
+) -> None:
+    """Write the geometry block of a vertex, with its radius, and what is nearest of the other body.
+
+    The vertex is the first body's if ``swap`` is 1, else the second's, whose contact two vertices are; ``past`` is how
+    far it is past the end otherwise.
+    """
+    other = b if swap == 1.0 else a
+    number, distance, nx, ny, nz, within = found
+    nx, ny, nz = vector_in_world(other, nx, ny, nz)
+    shared = END * size - within if swap == 1.0 else -1e300
+    gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
+    if shared > 0.0:
+        # so small a way past the end is written large, that nobody takes the open contact for one that touches
+        gap, past = math.hypot(distance - sweep - radius, OPEN * shared), max(past, shared)
+    sign = 1.0 - 2.0 * swap
+    near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
+    out[GAP], out[FEATURE], out[PAST_END] = gap, number, past
+    put(out, NORMAL, sign * nx, sign * ny, sign * nz)
+    out[near], out[near + 1], out[near + 2] = center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz
+    out[far], out[far + 1], out[far + 2] = out[near] - gap * nx, out[near + 1] - gap * ny, out[near + 2] - gap * nz
+    write_tangent(a, out)
+    write_swept(other, out, SIDE_B if swap == 1.0 else SIDE_A, number, n_faces, n_edges, edges, sweep)
+    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
+    n_faces: float,
+    faces: Floats,
+    n_edges: float,
+    edges: Floats,
+    ends: Floats,
+    sweep: float,
+    x_v: float,
+    y_v: float,
+    z_v: float,
+    n_star: float,
+    star: Floats,
+    radius: float,
+    size: float,
+) -> None:
+    """Write the geometry block of a vertex over a core; parameters as the attributes of :class:`SweptVertex`."""
+    own, other = (a, b) if swap == 1.0 else (b, a)
+    px, py, pz = point_in_world(own, x_v, y_v, z_v)
+    x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
+    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
+    past = past_star(own, star, n_star, found[1], nx, ny, nz, size)
+    write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
+
+
+write_vertex = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
+
+
+def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
+    """Return the size of the larger of two shapes [m]."""
+    return max(shape.core.size + 2.0 * shape.sweep for shape in (first, second))
+
+
+@final
+@dataclass(frozen=True)
+class SweptVertex(ContactKinematics):
+    """A vertex, with its radius, against the nearest face, edge or vertex of a swept core of the other body.
+
+    Two vertices are the contact of the second body's: in that of the first body's they are never closed.
+
+    Attributes
+    ----------
+    swap : bool
+        Whether the vertex belongs to the first body.
+    faces, edges : tuple of float
+        All faces and edges of the core (:mod:`bodies.contacts.features.polytope_tables`).
+    ends : tuple of float
+        Numbers of the two vertices of every edge.
+    sweep : float
+        Radius about the core [m].
+    place : tuple of float
+        The vertex in its body frame [m].
+    star : tuple of float
+        Unit vectors along the edges that leave it.
+    radius : float
+        Radius about it [m].
+    size : float
+        Size of the larger body [m].
+    name : str
+        What the vertex is called.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
+    swap: bool
+    faces: Numbers
+    edges: Numbers
+    ends: Numbers
+    sweep: float
+    place: tuple[float, float, float]
+    star: Numbers
+    radius: float
+    size: float
+    name: str
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[SweptVertex, ...]:
+        """Return the contacts of all vertices of the second, then those of the first."""
+        assert isinstance(first, SweptPolytope)
+        assert isinstance(second, SweptPolytope)
+        size = size_of(first, second)
+        return tuple(
+            contact
+            for swap, own, other in ((False, second, first), (True, first, second))
+            for contact in cls.over(
+                other,
+                [(place, star_of(own.core, i), f"vertex {i}") for i, place in enumerate(own.core.vertices)],
+                own.sweep,
+                size,
+                swap,
+            )
+        )
+
+    @classmethod
+    def over(
+        cls,
+        other: SweptPolytope,
+        vertices: Iterable[tuple[tuple[float, float, float], Numbers, str]],
+        radius: float,
+        size: float,
+        swap: bool,
+    ) -> tuple[SweptVertex, ...]:
+        """Return the contacts of vertices of one body, each a place, a star and a name, with the core of the other."""
+        core = other.core
+        tables = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)
+        return tuple(cls(swap, *tables, other.sweep, place, star, radius, size, name) for place, star, name in vertices)
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the tables."""
+        x, y, z = self.place
+        return {
+            "swap": float(self.swap),
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces,
+            "n_edges": float(len(self.edges) // EDGE),
+            "edges": self.edges,
+            "ends": self.ends,
+            "sweep": self.sweep,
+            "x_v": x,
+            "y_v": y,
+            "z_v": z,
+            "n_star": float(len(self.star) // 3),
+            "star": self.star,
+            "radius": self.radius,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """Faces, edges and vertices of the core; the edge of a segment is its side."""
+        edge = "edge" if self.faces else "side"
+        counts = ("face", len(self.faces) // FACE), (edge, len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
+        parts = [f"{kind} {i}" for kind, n in counts for i in range(n)]
+        return tuple(f"{self.name} and {part}" if self.swap else f"{part} and {self.name}" for part in parts)

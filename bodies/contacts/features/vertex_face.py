@@ -1,0 +1,136 @@
+"""A vertex of one polyhedron against the faces of another."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.features.polytope_tables import FACE
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.types import Floats
+
+REACH = 1e-9
+"""A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""
+
+BESIDE = 1e-2
+"""A vertex is next to a face up to this part of the size of the bodies."""
+
+DEEP = 1e-6
+"""Bodies overlap where they do by more than this part of their size; less may be the error of a step at rest."""
+
+
+@compiled
+def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[float, float, float]:
+    """Return the normal of a face in the axes of the other body."""
+    x, y, z = vector_in_world(frame, faces[face], faces[face + 1], faces[face + 2])
+    x, y, z = vector_in_body(other, x, y, z)
+    return x, y, z
+
+
+@compiled
+def plane_height(faces: Floats, face: int, x: float, y: float, z: float) -> float:
+    """Return the height of a point of the body over the plane of a face."""
+    return faces[face] * x + faces[face + 1] * y + faces[face + 2] * z - faces[face + 3]
+
+
+@compiled
+def _least(
+    frame: Floats, other: Floats, faces: Floats, face: int, n_vertices: float, vertices: Floats, enough: float
+) -> float:
+    """Return the least height of the other body over a face, or one below ``enough``."""
+    nx, ny, nz = _normal_in(frame, other, faces, face)
+    x, y, z = vector_in_body(
+        frame,
+        other[POSITION] - frame[POSITION],
+        other[POSITION + 1] - frame[POSITION + 1],
+        other[POSITION + 2] - frame[POSITION + 2],
+    )
+    base, least = plane_height(faces, face, x, y, z), 1e300
+    for i in range(int(n_vertices)):
+        height = base + nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2]
+        if height < least:
+            least = height
+            if least < enough:
+                break
+    return least
+
+
+@compiled
+def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
+    """Return how far the point under (x, y, z) on a face is past its edges, by the planes of the other faces."""
+    x, y, z = x - height * faces[face], y - height * faces[face + 1], z - height * faces[face + 2]
+    past = -1e300
+    for i in range(int(n_faces)):
+        if FACE * i != face:
+            past = max(past, plane_height(faces, FACE * i, x, y, z))
+    return past
+
+
+@compiled
+def _past_end(
+    faces: Floats, n_faces: float, face: int, height: float, deepest: float, x: float, y: float, z: float
+) -> float:
+    """Return how far a point is past the end of a face; under its plane only what lies inside the body touches it."""
+    beyond = past_face(faces, n_faces, FACE * face, height, x, y, z)
+    return float(max(beyond, deepest)) if height < 0.0 else float(beyond)
+
+
+@compiled
+def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
+    """Return the height of a point of the world over the highest of the planes of the faces: negative inside."""
+    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
+    highest = -1e300
+    for i in range(int(n_faces)):
+        highest = max(highest, plane_height(faces, FACE * i, x, y, z))
+    return highest
+
+
+@compiled
+def nearest_face(
+    frame: Floats,
+    other: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    vertex: float,
+    size: float,
+) -> tuple[float, float, float]:
+    """Return face, gap and way past the end of the vertex of a body against the polyhedron in ``frame``.
+
+    The face is the one that best separates the two bodies, so that all vertices are measured against the same; with
+    more than one, which the bodies touch at an edge, it is the one over which the vertex stands.  A vertex inside the
+    polyhedron is measured against the nearest face.  Past the end the gap is a positive number.
+    """
+    v = 3 * int(vertex)
+    px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])
+    x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
+    margin = REACH * size
+    best, deepest, inner = -1e300, -1e300, 0
+    for i in range(int(n_faces)):
+        best = max(best, _least(frame, other, faces, FACE * i, n_vertices, vertices, best))
+        height = plane_height(faces, FACE * i, x, y, z)
+        if height > deepest:
+            deepest, inner = height, i
+    beside = -DEEP * size <= deepest <= BESIDE * size
+    found, gap, past = -1, deepest, 1e300
+    for i in range(int(n_faces)):
+        height = plane_height(faces, FACE * i, x, y, z)
+        # next to a face a vertex that is farther under another touches the one, not the other
+        if height < best - margin or (beside and height < -max(deepest, DEEP * size)):
+            continue
+        least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)
+        if least < best - margin:
+            continue
+        beyond = _past_end(faces, n_faces, i, height, deepest, x, y, z) - margin
+        beyond = max(beyond, -least - 0.5 * faces[FACE * i + 4])
+        if beyond < past:
+            found, gap, past = i, height, beyond
+    if found < 0:
+        found, past = inner, _past_end(faces, n_faces, inner, deepest, deepest, x, y, z) - margin
+    if past > 0.0:
+        if deepest < -DEEP * size:
+            return float(inner), deepest, deepest
+        gap = math.hypot(max(0.0, gap), past)
+    return float(found), gap, past

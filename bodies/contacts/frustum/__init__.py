@@ -1,0 +1,1 @@
+"""Cylinders, cones and discs: their parts, and contacts of these with each other."""

@@ -1,0 +1,118 @@
+"""The apex of a cone as a sphere, or as a point, against a polyhedron or a segment at a distance."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.frames import vector_in_body, vector_in_world
+from bodies.contacts.features.nearest import nearest_feature
+from bodies.contacts.features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
+from bodies.contacts.features.swept_vertex import END, write_vertex_over
+from bodies.contacts.frustum.frustum import axis_in_world, center_in_world
+from bodies.contacts.frustum.frustum_edge import size_of_both
+from bodies.shapes.frustum import COS, HIGH, SIDE, SIN, SWEEP, Frustum
+from bodies.shapes.swept import SweptPolytope
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+@compiled
+def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> float:
+    """Return how far what is nearest to the apex is past it along the side.
+
+    It is along the outward normal from the apex, whose part along the axis is ``axial``; the side is nearer there.
+    """
+    radial = math.sqrt(max(1.0 - axial * axial, 0.0))
+    return float(max(distance * (frustum[SIN] * radial - frustum[COS] * axial), -size) - 2.0 * END * size)
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    first: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_edges: float,
+    edges: Floats,
+    ends: Floats,
+    sweep: float,
+    size: float,
+) -> None:
+    ax, ay, az = axis_in_world(a, first)
+    px, py, pz = center_in_world(a, first)
+    px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
+    x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    nx, ny, nz = vector_in_world(b, found[2], found[3], found[4])
+    past = past_apex(first, found[1], -nx * ax - ny * ay - nz * az, size)
+    write_vertex_over(a, b, out, 1.0, (px, py, pz), first[SWEEP], found, past, n_faces, n_edges, edges, sweep, size)
+
+
+@final
+@dataclass(frozen=True)
+class ApexSwept(ContactKinematics):
+    """The apex of a cone against the nearest face or edge of the second body; a vertex has a contact of its own.
+
+    Attributes
+    ----------
+    first : tuple of float
+        The cone (:func:`bodies.shapes.frustum.frustum_numbers`).
+    faces, edges, ends : tuple of float
+        The core of the second body (:mod:`bodies.contacts.features.polytope_tables`).
+    sweep : float
+        Radius about it [m].
+    size : float
+        Size of the bodies [m].
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
+
+    first: Numbers
+    faces: Numbers
+    edges: Numbers
+    ends: Numbers
+    sweep: float
+    size: float
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ApexSwept, ...]:
+        """Return the single contact of a cone; others have no apex."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, SweptPolytope)
+        numbers, core = first.frustum, second.core
+        if numbers[SIDE] == 0.0 or numbers[1] > 0.0:
+            return ()
+        edges = tuple(itertools.chain(*edge_rows(core)))
+        return (cls(numbers, face_table(core), edges, end_table(core), second.sweep, size_of_both(first, second)),)
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {
+            "first": self.first,
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces or (0.0,),
+            "n_edges": float(len(self.edges) // EDGE),
+            "edges": self.edges,
+            "ends": self.ends,
+            "sweep": self.sweep,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """Faces, edges and vertices of the second; the last never closed."""
+        counts = ("face", len(self.faces) // FACE), ("edge", len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
+        return tuple(f"apex and {name} {i}" for name, n in counts for i in range(n))

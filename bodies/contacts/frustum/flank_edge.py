@@ -1,0 +1,146 @@
+"""An edge across the side of a cylinder or a cone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.curvature import write_sweep
+from bodies.contacts.features.polytope_tables import FACE, Numbers, edge_rows, face_table
+from bodies.contacts.frustum.frustum import FLANK, center_in_world, write_part
+from bodies.contacts.frustum.frustum_edge import (
+    astray_of_edge,
+    edge_in_frustum,
+    overlap_at,
+    past_end,
+    size_of_both,
+    write_crossing,
+)
+from bodies.contacts.smooth.smooth_core import axes_in_world, forth
+from bodies.shapes.frustum import COS, LOW, SIDE, SIN, SWEEP, Frustum
+from bodies.shapes.swept import SweptPolytope
+from nonsmooth.engine.memory.blocks import SIDE_A
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def evaluate_flank_edge(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    edge: Floats,
+    radius: float,
+    n_faces: float,
+    faces: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of an edge, with a radius about it, across the side."""
+    axes = axes_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
+    cosine, sine = frustum[COS], frustum[SIN]
+    reach = cosine * frustum[0] + sine * frustum[LOW]
+    # the normals across the edge: cosine (d . e) + sine d_z = 0 for the direction e from the axis
+    across = math.sqrt(dx * dx + dy * dy)
+    if across > 0.0:
+        fx, fy = dx / across, dy / across
+        ratio = -sine * dz / (cosine * across)
+    else:
+        fx, fy, ratio = 1.0, 0.0, 0.0 if sine == 0.0 else -math.copysign(2.0, sine * dz)
+    part = min(max(ratio, -1.0), 1.0)
+    other = math.sqrt(1.0 - part * part)
+    gap, ex, ey = -1e300, 1.0, 0.0
+    for sign in (-1.0, 1.0):
+        gx, gy = part * fx - sign * other * fy, part * fy + sign * other * fx
+        found = cosine * (gx * vx + gy * vy) + sine * vz - reach
+        if found > gap:
+            gap, ex, ey = found, gx, gy
+    # where the edge is on that side of the axis
+    crossing = dy * ex - dx * ey
+    s = 0.5 * edge[6]
+    if abs(crossing) > 1e-6:
+        s = -(vy * ex - vx * ey) / crossing
+    px, py, pz = vx + s * dx, vy + s * dy, vz + s * dz
+    nx, ny, nz = cosine * ex, cosine * ey, sine
+    away = ex * px + ey * py - gap * cosine
+    up = cosine * (pz - gap * nz - frustum[LOW]) - sine * (away - frustum[0])
+    over = max(max(-s, s - edge[6]), max(-up, up - frustum[SIDE]))
+    past = past_end(gap, over, abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz), size)
+    if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
+        # no normal is across both
+        past, over = max(past, size), size
+    qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
+    overlap = 0.0
+    if past > 0.0:
+        overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, px, py, pz, cx, cy, cz)
+    qx, qy, qz = cx + qx, cy + qy, cz + qz
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, nx, ny, nz, qx, qy, qz, overlap, size)
+    ux, uy, uz = forth(axes, ex, ey, 0.0)
+    write_part(out, SIDE_A, FLANK, axes[2], axes[5], axes[8], ux, uy, uz, cosine, max(away, 0.0))
+    write_sweep(out, SIDE_A, frustum[SWEEP])
+
+
+@final
+@dataclass(frozen=True)
+class FlankEdge(ContactKinematics):
+    """Where an edge of the second body crosses the side of the first.
+
+    Attributes
+    ----------
+    frustum : tuple of float
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    edge : tuple of float
+        The edge, as :data:`bodies.contacts.features.polytope_tables.EDGE` numbers.
+    radius : float
+        Radius about it [m].
+    faces : tuple of float
+        All faces of the second body's core; none of a segment.
+    size : float
+        Size of the bodies [m].
+    name : str
+        What it is.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
+
+    frustum: Numbers
+    edge: Numbers
+    radius: float
+    faces: Numbers
+    size: float
+    name: str
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of all edges; a disc has no side."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, SweptPolytope)
+        if first.frustum[SIDE] == 0.0:
+            return ()
+        size, faces, rows = size_of_both(first, second), face_table(second.core), enumerate(edge_rows(second.core))
+        return tuple(cls(first.frustum, row, second.sweep, faces, size, f"edge {i}") for i, row in rows)
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {
+            "frustum": self.frustum,
+            "edge": self.edge,
+            "radius": self.radius,
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces or (0.0,),
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return evaluate_flank_edge
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return (f"side and {self.name}",)

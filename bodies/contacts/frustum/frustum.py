@@ -1,0 +1,131 @@
+"""What the evaluators of frustums share: which part is nearest to a point, and how a part is curved.
+
+A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`; its parts are numbered from the lower cap over
+rim, side and rim to the upper cap.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from bodies.contacts.features.curvature import write_flat, write_principal, write_round
+from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.plane.plane_rim import FLATTEST
+from bodies.shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
+"""The parts; the flank is the side."""
+
+
+def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
+    """Return the names of the parts that a frustum has, by :func:`part_number`."""
+    if numbers[SIDE] == 0.0:
+        return "face -", "rim", "face +"
+    if numbers[1] == 0.0:
+        return "base", "rim", "side", "apex"
+    return "cap -", "rim -", "side", "rim +", "cap +"
+
+
+@compiled
+def part_number(frustum: Floats, part: int) -> float:
+    """Return the number of a part among those that the frustum has: a disc has one rim and no side."""
+    return 2.0 if frustum[SIDE] == 0.0 and part == HIGH_CAP else float(part)
+
+
+@compiled
+def center_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
+    """Return where the centre stands [m]."""
+    x, y, z = point_in_world(frame, frustum[CENTER], frustum[CENTER + 1], frustum[CENTER + 2])
+    return x, y, z
+
+
+@compiled
+def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
+    """Return the unit axis."""
+    x, y, z = vector_in_world(frame, frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6])
+    return x, y, z
+
+
+@compiled
+def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, float, float, int]:
+    """Return signed distance, normal (across and along the axis) and part nearest to a point.
+
+    Parameters
+    ----------
+    frustum : Floats
+        Its numbers.
+    along, away : float
+        Height of the point over the centre along the axis, and its distance from the axis [m].
+    """
+    under, over = frustum[LOW] - along, along - frustum[HIGH]
+    dr, dz = away - frustum[0], along - frustum[LOW]
+    beside = frustum[COS] * dr + frustum[SIN] * dz
+    up = frustum[COS] * dz - frustum[SIN] * dr
+    if over > 0.0 and away < frustum[1]:
+        return over, 0.0, 1.0, HIGH_CAP
+    if under > 0.0 and away < frustum[0]:
+        return under, 0.0, -1.0, LOW_CAP
+    if under <= 0.0 and over <= 0.0 and beside <= 0.0:
+        # a point inside leaves by the nearest of side and caps
+        if beside >= under and beside >= over:
+            return beside, frustum[COS], frustum[SIN], FLANK
+        if over >= under:
+            return over, 0.0, 1.0, HIGH_CAP
+        return under, 0.0, -1.0, LOW_CAP
+    if 0.0 < up < frustum[SIDE]:
+        return beside, frustum[COS], frustum[SIN], FLANK
+    part = LOW_RIM if up <= 0.0 or frustum[SIDE] == 0.0 else HIGH_RIM
+    if part == HIGH_RIM:
+        dr, dz = away - frustum[1], over
+    distance = math.sqrt(dr * dr + dz * dz)
+    return distance, dr / distance, dz / distance, part
+
+
+@compiled
+def least_height(frustum: Floats, height: float, cosine: float) -> float:
+    """Return the least height over a plane of a frustum whose centre and axis have this height and cosine."""
+    sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
+    return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
+
+
+@compiled
+def write_part(
+    out: Floats,
+    side: int,
+    part: int,
+    ax: float,
+    ay: float,
+    az: float,
+    ex: float,
+    ey: float,
+    ez: float,
+    radial: float,
+    away: float,
+) -> None:
+    """Write the matrices of a part; normal and first tangent stand in ``out`` already.
+
+    Parameters
+    ----------
+    out, side : Floats, int
+        The geometry block, and where the matrices stand.
+    part : int
+        Which one.
+    ax, ay, az, ex, ey, ez : float
+        The axis, and the unit vector across it on whose side the point is.
+    radial : float
+        Part of the outward normal along the latter.
+    away : float
+        Distance of the point from the axis [m].
+    """
+    if part == LOW_CAP or part == HIGH_CAP:
+        write_flat(out, side)
+    elif part != FLANK and away == 0.0:
+        write_round(out, side, 0.0)
+    else:
+        # round the axis the normal turns by ``radial`` of the angle by which the point goes round
+        flank = 1.0 if part == FLANK else 0.0
+        x, y, z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
+        write_principal(out, side, x, y, z, max(radial, FLATTEST), away, 1.0 - flank, flank)

@@ -1,0 +1,200 @@
+"""Two cylinders, cones or discs: a rim, a foot or the apex of one over a cap of the other, and all other contacts."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, final
+
+from bodies.contacts.features.across import across
+from bodies.contacts.features.frames import point_in_world
+from bodies.contacts.features.polytope_tables import Numbers
+from bodies.contacts.features.vertex_face import REACH
+from bodies.contacts.frustum.apex_frustum import ApexFrustum
+from bodies.contacts.frustum.flank_flank import FlankFlank
+from bodies.contacts.frustum.frustum import (
+    HIGH_CAP,
+    LOW_CAP,
+    LOW_RIM,
+    axis_in_world,
+    center_in_world,
+    least_height,
+    nearest_part,
+)
+from bodies.contacts.frustum.frustum_writing import overlap_of, past_border, write_side, write_two
+from bodies.contacts.frustum.rim_flank import RimFlank
+from bodies.contacts.frustum.rim_rim import RimRim
+from bodies.contacts.plane.plane_rim import FLATTEST
+from bodies.shapes.cylinder import Cylinder
+from bodies.shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+_OTHERS: tuple[type[ContactKinematics], ...] = (FlankFlank, RimFlank, RimRim, ApexFrustum)
+_ON_SIDE = 0.01
+"""Of a body that is on one side of a disc no more than this part of the size is on the other."""
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
+    first: Floats,
+    radius: float,
+    x: float,
+    y: float,
+    z: float,
+    second: Floats,
+    cap: float,
+    size: float,
+) -> None:
+    own, other = (b, a) if swap == 1.0 else (a, b)
+    ax, ay, az = axis_in_world(own, first)
+    bx, by, bz = axis_in_world(other, second)
+    kx, ky, kz = center_in_world(other, second)
+    part = int(cap)
+    up, height, wide = -1.0, second[LOW], second[0]
+    if part == HIGH_CAP:
+        up, height, wide = 1.0, second[HIGH], second[1]
+    nx, ny, nz = -up * bx, -up * by, -up * bz
+    cx, cy, cz = point_in_world(own, x, y, z)
+    _, lean, ex, ey, ez = across(nx, ny, nz, ax, ay, az)
+    px, py, pz = cx + radius * ex, cy + radius * ey, cz + radius * ez
+    along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
+    gap = up * (along - height)
+    past = past_border(gap, away - wide, 0.0, size)
+    if gap < 0.0 and second[SIDE] == 0.0 and first[SWEEP] + second[SWEEP] > 0.0:
+        # at a distance from a disc on its other side
+        past = max(past, size)
+    elif gap < 0.0:
+        if second[SIDE] > 0.0:
+            # under a cap only what lies inside of the body can touch it
+            inside, _, _, _ = nearest_part(second, along, away)
+        else:
+            # of a disc, what has its point inside, or as near to it as the gap, and is on that side of it
+            qx, qy, qz = center_in_world(own, first)
+            high, far, _, _, _ = across(px + gap * nx - qx, py + gap * ny - qy, pz + gap * nz - qz, ax, ay, az)
+            inside, _, _, _ = nearest_part(first, high, far)
+            cosine = -nx * ax - ny * ay - nz * az
+            base = up * (bx * (qx - kx) + by * (qy - ky) + bz * (qz - kz) - height)
+            inside += gap
+            if first[SIDE] == 0.0:
+                # two discs overlap where the one comes through the other
+                back = gap / max(lean, FLATTEST)
+                _, far, _, _, _ = across(px + back * ex - kx, py + back * ey - ky, pz + back * ez - kz, bx, by, bz)
+                inside = far - wide
+            inside = max(inside, -least_height(first, base, cosine) - _ON_SIDE * size)
+        past = max(past, inside - REACH * size)
+    # deep in the body the other cap, or the side, is nearer
+    past = max(past, -gap - 0.5 * max(second[HIGH] - second[LOW], 0.1 * size))
+    overlap = 0.0
+    if past > 0.0 and away <= wide:
+        overlap = overlap_of(own, first, other, second, gap, size, (px, py, pz), (nx, ny, nz))
+    write_two(a, out, swap, first, second, gap, past, nx, ny, nz, px, py, pz, overlap)
+    write_side(out, swap, first, LOW_RIM, ax, ay, az, ex, ey, ez, nx, ny, nz, radius)
+    write_side(out, 1.0 - swap, second, part, bx, by, bz, fx, fy, fz, -nx, -ny, -nz, away)
+
+
+@final
+@dataclass(frozen=True)
+class FrustumFrustum(ContactKinematics):
+    """The lowest point of a rim over one cap of another body; a foot or an apex has no radius.
+
+    The others are the sides across each other, rims and apex against the other's side, and rims across rims.  Every one
+    of them has its number for ever; one whose features do not face each other is open.  Where one of the bodies is
+    rounded, an apex is a sphere, with one contact for all parts of the other.
+
+    Attributes
+    ----------
+    swap : bool
+        Whether the rim belongs to the second body.
+    first : tuple of float
+        The body with the rim (:func:`bodies.shapes.frustum.frustum_numbers`).
+    radius : float
+        Radius of the rim [m].
+    center : tuple of float
+        Its centre in the body frame [m].
+    second : tuple of float
+        The body with the cap.
+    cap : int
+        0 for the lower, 4 for the upper one.
+    size : float
+        Size of the bodies [m].
+    name : str
+        What it is.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Frustum)
+    departures: ClassVar[Mapping[str, str]] = MappingProxyType(
+        dict.fromkeys(
+            ("gap rate", "second-order terms"),
+            "a given rim is over a given cap in hardly any random pose; the tests make poses from features that touch",
+        )
+        | {"frame invariance": "a rim that lies flat over a cap has no lowest point, and which one is taken may change"}
+    )
+
+    swap: bool
+    first: Numbers
+    radius: float
+    center: tuple[float, float, float]
+    second: Numbers
+    cap: int
+    size: float
+    name: str
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return two cylinders."""
+        return {"first": Cylinder(0.01, 0.02), "second": Cylinder(0.008, 0.02)}
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of rims and feet with caps, of the sides, of rims with sides, and of rims."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, Frustum)
+        own = *cls._of(first, second, False), *cls._of(second, first, True)
+        return tuple(itertools.chain(own, *(kind.between(first, second) for kind in _OTHERS)))
+
+    @classmethod
+    def _of(cls, own: Frustum, other: Frustum, swap: bool) -> tuple[FrustumFrustum, ...]:
+        numbers, size = other.frustum, 2.0 * max(own.extent, other.extent)
+        named = [(*rim, f"rim {i}") for i, rim in enumerate(own.standing_rims) if rim[0] > 0.0]
+        if own.rounding + other.rounding == 0.0:
+            named += [(*rim, "apex") for rim in own.standing_rims if rim[0] == 0.0]
+        named += [(0.0, foot, f"foot {i}") for i, foot in enumerate(own.feet)]
+        caps = [LOW_CAP, HIGH_CAP] if numbers[1] > 0.0 else [LOW_CAP]
+        return tuple(
+            cls(swap, own.frustum, radius, center, numbers, cap, size, name)
+            for radius, center, name in named
+            for cap in caps
+        )
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        x, y, z = self.center
+        return {
+            "swap": float(self.swap),
+            "first": self.first,
+            "radius": self.radius,
+            "x": x,
+            "y": y,
+            "z": z,
+            "second": self.second,
+            "cap": float(self.cap),
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        cap = f"cap {'+' if self.cap == HIGH_CAP else '-'}"
+        return (f"{cap} and {self.name}" if self.swap else f"{self.name} and {cap}",)

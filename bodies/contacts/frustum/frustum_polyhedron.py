@@ -1,0 +1,228 @@
+"""A cylinder, a cone or a disc and a polyhedron: a vertex over caps and side, and all other contacts."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.blocks import put
+from bodies.contacts.features.across import across
+from bodies.contacts.features.curvature import write_round
+from bodies.contacts.features.disc_tip import tip_past_rim
+from bodies.contacts.features.frames import point_in_world, vector_in_body
+from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
+from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
+from bodies.contacts.frustum.flank_edge import FlankEdge
+from bodies.contacts.frustum.frustum import (
+    FLANK,
+    HIGH_CAP,
+    LOW_CAP,
+    axis_in_world,
+    center_in_world,
+    part_names,
+    part_number,
+    write_part,
+)
+from bodies.contacts.frustum.frustum_edge import size_of_both
+from bodies.contacts.frustum.frustum_swept import FrustumSwept, check_number
+from bodies.contacts.frustum.rim_edge import RimEdge
+from bodies.contacts.frustum.rim_face import RimFace
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from bodies.shapes.polyhedron import Polyhedron
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+@compiled
+def _least(
+    a: Floats,
+    b: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    nx: float,
+    ny: float,
+    nz: float,
+    x: float,
+    y: float,
+    z: float,
+) -> float:
+    """Return the least height of the second body's vertices over the plane through a point with the normal n."""
+    base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
+    nx, ny, nz = vector_in_body(b, nx, ny, nz)
+    least = 1e300
+    for i in range(int(n_vertices)):
+        least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
+    return base + least
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    vertex: float,
+    n_star: float,
+    star: Floats,
+    lengths: Floats,
+    n_faces: float,
+    faces: Floats,
+    size: float,
+) -> None:
+    ax, ay, az = axis_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    v = 3 * int(vertex)
+    px, py, pz = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
+    along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
+    cosine, sine = frustum[COS], frustum[SIN]
+    dr, dz = away - frustum[0], along - frustum[LOW]
+    margin = REACH * size
+    flat = frustum[SIDE] == 0.0
+    best, deepest, inner = -1e300, -1e300, LOW_CAP
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
+            continue
+        radial, axial, height = 0.0, -1.0, -dz
+        if part == HIGH_CAP:
+            axial, height = 1.0, along - frustum[HIGH]
+        elif part == FLANK:
+            radial, axial, height = cosine, sine, cosine * dr + sine * dz
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
+        best = max(best, _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz))
+        if height > deepest:
+            deepest, inner = height, part
+    found, gap, past = inner, deepest, 1e300
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
+            continue
+        radial, axial, height, beyond, depth = 0.0, -1.0, -dz, away - frustum[0], frustum[HIGH] - frustum[LOW]
+        if part == HIGH_CAP:
+            axial, height, beyond = 1.0, along - frustum[HIGH], away - frustum[1]
+        elif part == FLANK:
+            radial, axial, height = cosine, sine, cosine * dr + sine * dz
+            up = cosine * dz - sine * dr
+            beyond, depth = max(-up, up - frustum[SIDE]), 2.0 * frustum[0]
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
+        least = _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz)
+        if least < best - margin:
+            continue
+        if height < 0.0:
+            # behind a part only what lies inside of the body can touch it; of a disc, what has the disc inside of it
+            inside = deepest
+            if flat:
+                x, y, z = px - cx, py - cy, pz - cz
+                inside = tip_past_rim(b, n_star, star, lengths, x, y, z, nx, ny, nz, -height, frustum[0])
+                inside = min(inside, height_over(b, n_faces, faces, qx, qy, qz))
+            beyond = max(beyond, inside)
+        beyond -= margin
+        if not flat:
+            beyond = max(beyond, -least - 0.5 * depth)
+        if beyond < past:
+            found, gap, past = part, height, beyond
+    if past > 0.0:
+        if deepest < -DEEP * size:
+            found, gap, past = inner, deepest, deepest
+        else:
+            gap = math.sqrt(gap * gap + past * past)
+    radial, axial = 0.0, -1.0 if found == LOW_CAP else 1.0
+    if found == FLANK:
+        radial, axial = cosine, sine
+    out[GAP], out[FEATURE], out[PAST_END] = gap, part_number(frustum, found), past
+    put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
+    put(out, POINT_B, px, py, pz)
+    for i in range(3):
+        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
+    write_tangent(a, out)
+    write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
+    write_round(out, SIDE_B, 0.0)
+
+
+@final
+@dataclass(frozen=True)
+class FrustumPolyhedron(ContactKinematics):
+    """A vertex of the polyhedron over the part of the round body, cap or side, that best separates the bodies.
+
+    The others are the edges across the side and the rims, and the rims and feet over the faces.  Every one of them has
+    its number for ever; one whose features do not face each other is open.  So two rims hold what lies on its side, and
+    feet what stands.
+
+    Attributes
+    ----------
+    frustum : tuple of float
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    vertices : tuple of float
+        All vertices of the second [m].
+    vertex : int
+        Number of this one.
+    star, lengths : tuple of float
+        Unit vectors along its edges, and their lengths [m].
+    faces : tuple of float
+        All faces of the second body.
+    size : float
+        Size of the bodies [m].
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Polyhedron)
+
+    frustum: Numbers
+    vertices: Numbers
+    vertex: int
+    star: Numbers
+    lengths: Numbers
+    faces: Numbers
+    size: float
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of rims and feet over faces, of vertices, and of edges with side and rims.
+
+        Where one of the two is rounded, they are those of :class:`bodies.FrustumSwept`.
+        """
+        assert isinstance(first, Frustum)
+        assert isinstance(second, Polyhedron)
+        if first.frustum[SWEEP] > 0.0 or second.sweep > 0.0:
+            return FrustumSwept.between(first, second)
+        core, size = second.core, size_of_both(first, second)
+        check_number(len(core.edges))
+        vertices, faces = vertex_table(core), face_table(core)
+        own = (
+            cls(first.frustum, vertices, i, star_of(core, i), star_lengths(core, i), faces, size)
+            for i in range(len(vertices) // 3)
+        )
+        edges = FlankEdge.between(first, second), RimEdge.between(first, second)
+        return tuple(itertools.chain(RimFace.between(first, second), own, *edges))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {
+            "frustum": self.frustum,
+            "n_vertices": float(len(self.vertices) // 3),
+            "vertices": self.vertices,
+            "vertex": float(self.vertex),
+            "n_star": float(len(self.lengths)),
+            "star": self.star,
+            "lengths": self.lengths,
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The parts, rims among them, which this contact never has."""
+        return tuple(f"{part} and vertex {self.vertex}" for part in part_names(self.frustum))

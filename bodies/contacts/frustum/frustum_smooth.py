@@ -1,0 +1,373 @@
+"""A cylinder, a cone or a disc and a body with a smooth support function.
+
+The nearest points are unique, and the part of the frustum that has one is found by trial
+(:mod:`bodies.contacts.frustum.frustum_stops`): a stop on a part is a proof that bodies apart have no other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, TypeAlias, final
+
+from bodies.blocks import put
+from bodies.contacts.features.curvature import write_sweep
+from bodies.contacts.features.frames import point_in_world
+from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.frustum.frustum import (
+    FLANK,
+    HIGH_CAP,
+    HIGH_RIM,
+    LOW_CAP,
+    LOW_RIM,
+    center_in_world,
+    nearest_part,
+    part_names,
+    part_number,
+    write_part,
+)
+from bodies.contacts.frustum.frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
+from bodies.contacts.smooth.boxy_newton import Answer
+from bodies.contacts.smooth.gauge import gauge
+from bodies.contacts.smooth.inscribed import no_shorter_way
+from bodies.contacts.smooth.round_search import up_hills
+from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
+from bodies.contacts.smooth.smooth_newton import widest_of_round, write_surface
+from bodies.contacts.smooth.smooth_starts import starts_of, uphill
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from bodies.shapes.smooth_shape import SmoothShape
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, float, float, float, float]
+"""The frustum, its rims, a point, the core, its axes and its centre in those of the frustum, the size of both."""
+
+_SHALLOW, _SLIGHT = 1e-6, 1e-8
+"""Overlap, in units of the size, up to which the first stop is taken without a look at the others; of sharp bodies."""
+_CLOSE = 1e-12
+"""Distance of the centre from the axis that has no direction, in units of the size."""
+_SAMPLES, _PROJECTIONS = 8, 16
+"""Parts of the way between the points of a stop at whose ends a point of both is looked for, and further points."""
+_HIGHER = 1e-14
+"""By how much more the gap of another top is larger, in units of the size: less is round-off of the same one."""
+_NEARBY = 1e-3
+"""How close to a top steps go that tell only where the search begins [rad]."""
+_DEEP = 0.9
+"""Gauge of the frustum's point next to the core's centre, from which on bodies overlap more than a little."""
+_ON_SURFACE = 1e-12
+"""What the gauge of a point of the surface is off 1 at most."""
+_TURNS = 8
+"""Directions round the axis from which every part is tried where none was found from that of the centre."""
+
+
+@compiled
+def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> bool:
+    """Whether the frustum's point lies in the smooth body, whose centre is before the frustum."""
+    g, px, py, pz, nx, ny, nz = found
+    px, py, pz = px - g * nx - x, py - g * ny - y, pz - g * nz - z
+    if nx * px + ny * py + nz * pz >= 0.0:
+        return False
+    px, py, pz = back(turn, px, py, pz)
+    return bool(gauge(core, px, py, pz) < 1.0)
+
+
+@compiled
+def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found: Answer) -> bool:
+    """Whether the stop of a cap is proved to be the nearest, of all directions.
+
+    Of bodies apart it is.  Of an overlap d two points of the smooth body prove it, the lowest one at the depth d and
+    one at the height d on the way from there to the centre: in any direction one of them is at least d behind one of
+    the rim's, if both are d inside of it.
+    """
+    g, px, py, _, _, _, up = found
+    if g >= 0.0:
+        return True
+    radius, level = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])
+    height, inside = up * (z - level), radius + g
+    if g != g or height < -g or inside < 0.0:
+        return False
+    way = -2.0 * g / (height - g)
+    wx, wy = px + way * (x - px), py + way * (y - py)
+    return bool(max(px * px + py * py, wx * wx + wy * wy) <= inside * inside)
+
+
+@compiled
+def _has_room(frustum: Floats, part: int, found: Answer, near: float) -> bool:
+    """Whether the stop of a cap or the side is proved to be the nearest of an overlap.
+
+    A ball round the smooth body's point, whose radius is its depth, is of the frustum: no shorter way takes it out.
+    """
+    if part == LOW_RIM or part == HIGH_RIM:
+        return False
+    outside, _, _, _ = nearest_part(frustum, found[3], math.sqrt(found[1] * found[1] + found[2] * found[2]))
+    return bool(outside <= found[0] + near)
+
+
+@compiled
+def _into(frustum: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return the point of the frustum that is nearest to a point of its axes."""
+    away = math.sqrt(x * x + y * y)
+    outside, radial, axial, _ = nearest_part(frustum, z, away)
+    if outside <= 0.0:
+        return x, y, z
+    across = outside * radial / away if away > 0.0 else 0.0
+    return x - across * x, y - across * y, z - outside * axial
+
+
+@compiled
+def _share_a_point(
+    frustum: Floats, point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer
+) -> bool:
+    """Return whether a point is known that both bodies have, where a stop says that they overlap.
+
+    Looked at are the frustum's points next to some of the way between the points of the stop, and then next to the
+    core's centre, next to the core's point nearest to that, and so on.
+    """
+    g, qx, qy, qz, nx, ny, nz = found
+    px, py, pz = qx, qy, qz
+    for i in range(_SAMPLES + _PROJECTIONS):
+        if i <= _SAMPLES:
+            part = g * i / _SAMPLES
+            px, py, pz = qx - part * nx, qy - part * ny, qz - part * nz
+        elif i == _SAMPLES + 1:
+            px, py, pz = x, y, z
+        else:
+            # p is outside of the core: behind its surface, farther each time
+            wx, wy, wz = x - px, y - py, z - pz
+            off, wx, wy, wz, _, _, _ = widest_of_round(point, core, turn, wx, wy, wz, wx, wy, wz)
+            if not off > 0.0:
+                return False
+            part = float(i - _SAMPLES)
+            px, py, pz = px + part * wx, py + part * wy, pz + part * wz
+        px, py, pz = _into(frustum, px, py, pz)
+        bx, by, bz = back(turn, px - x, py - y, pz - z)
+        if gauge(core, bx, by, bz) <= 1.0 + _ON_SURFACE:
+            return True
+    return False
+
+
+@compiled
+def _nearest(
+    frustum: Floats,
+    low: Floats,
+    high: Floats,
+    point: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+) -> tuple[Answer, int]:
+    """Return gap of the cores, the smooth body's point and the normal in the frustum's axes, and the part.
+
+    The gap is nan where none was found.  One below 0 is told only with a point that both bodies have.
+    """
+    size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + frustum[0] + frustum[HIGH] - frustum[LOW]
+    bodies = frustum, low, high, point, core, turn, x, y, z, size
+    near = ON_BORDER * size
+    away = math.sqrt(x * x + y * y)
+    sx, sy = (x, y) if away > _CLOSE * size else (1.0, 0.0)
+    _, _, _, guess = nearest_part(frustum, z, away)
+    if z > frustum[HIGH] or z < frustum[LOW]:
+        part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
+        over: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
+        if is_over_cap(frustum, part, x, y, z, over):
+            return over, part
+    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    where = LOW_CAP
+    is_deep, is_sharp = False, max(core[3], core[4]) > 2.0
+    shallow = _SLIGHT * size if is_sharp else _SHALLOW * size
+    for start in range(_TURNS + 4):
+        if start == 1:
+            is_deep = _is_deep(frustum, core, turn, x, y, z)
+        # at first by the centre, then without a start, steep, flat, and last all round
+        tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
+        if start > 3:
+            # a stop on the far side is none of bodies that are apart
+            sx, sy = math.cos(2.0 * math.pi * start / _TURNS), math.sin(2.0 * math.pi * start / _TURNS)
+        for i in range(9):
+            # the part before which the centre is, and others the nearer first
+            part = guess + ((i + 1) // 2 if i % 2 == 1 else -(i // 2))
+            rim = part == LOW_RIM or part == HIGH_RIM
+            if part < LOW_CAP or part > HIGH_CAP or (frustum[SIDE] == 0.0 and (part == FLANK or part == HIGH_RIM)):
+                continue
+            if not rim and (start == 2 or start == 3):
+                continue
+            if start == 1:
+                if is_deep:
+                    # bodies that overlap so much have no one stop that a search could prove
+                    continue
+                found = by_search(frustum, point, core, turn, x, y, z, sx, sy, part, size)
+            elif part == LOW_CAP or part == HIGH_CAP:
+                found = on_cap(frustum, core, turn, x, y, z, part, near)
+            elif part == FLANK:
+                found = on_flank(frustum, core, turn, x, y, z, sx, sy, near)
+            else:
+                circle = low if part == LOW_RIM else high
+                found = on_rim(frustum, circle, core, turn, x, y, z, sx, sy, part, tilt)
+            if found[0] == found[0] and not found[0] <= best[0]:
+                best, where = found, part
+                if found[0] >= -shallow or _has_room(frustum, part, found, near):
+                    return best, where
+                if not is_sharp and _is_before(core, turn, x, y, z, found):
+                    return best, where
+        if is_sharp and (best[0] >= -_SHALLOW * size or _is_before(core, turn, x, y, z, best)):
+            # a tip or a ridge next to an edge or an apex may leave by another top
+            rim = where == LOW_RIM or where == HIGH_RIM
+            if rim and (is_deep or _is_deep(frustum, core, turn, x, y, z)):
+                return best, where
+            best, where = _higher(bodies, best, where)
+            return best, where
+    if is_sharp and not is_deep and best[0] < 0.0:
+        # the way out to another side, where the short one was missed
+        best, where = _higher(bodies, best, where)
+    if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
+        best, where = _on_hills(bodies)
+        if is_sharp and best[0] != best[0] and frustum[SIDE] > 0.0:
+            best, where = _beside_apex(bodies), FLANK
+    return best, where
+
+
+@compiled
+def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> bool:
+    """Return whether the frustum's point next to the core's centre is so far in that bodies overlap by much."""
+    px, py, pz = _into(frustum, x, y, z)
+    px, py, pz = back(turn, px - x, py - y, pz - z)
+    return bool(gauge(core, px, py, pz) < _DEEP)
+
+
+@compiled
+def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
+    """Return an answer and its part, or those with a larger gap, unless a ball in the smooth body proves it."""
+    frustum, _, _, point, core, turn, x, y, z, size = bodies
+    if not no_shorter_way(point, core, turn, x, y, z, best):
+        found, part = _on_hills(bodies)
+        if found[0] > best[0] + _HIGHER * size:
+            best, where = found, part
+        if frustum[SIDE] > 0.0:
+            found = _beside_apex(bodies)
+            if found[0] > best[0] + _HIGHER * size:
+                best, where = found, FLANK
+    return best, where
+
+
+@compiled
+def _beside_apex(bodies: Bodies) -> Answer:
+    """Return the stop of the side next to where tops over the apex alone lean too far for it, nan if there is none."""
+    frustum, _, high, _, core, turn, x, y, z, size = bodies
+    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
+        _, nx, ny, _ = uphill(high, core, turn, x, y, z - frustum[HIGH], start, _NEARBY)
+        if nx != 0.0 or ny != 0.0:
+            found = on_flank(frustum, core, turn, x, y, z, nx, ny, ON_BORDER * size)
+            if found[0] == found[0] and not found[0] <= best[0]:
+                best = found
+    return best
+
+
+@compiled
+def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
+    """Return the same by steps, of a rim or the apex."""
+    frustum, low, high, point, core, turn, x, y, z, size = bodies
+    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    where = LOW_RIM
+    for part in (LOW_RIM, HIGH_RIM):
+        if part == HIGH_RIM and frustum[SIDE] == 0.0:
+            continue
+        circle, height = (low, frustum[LOW]) if part == LOW_RIM else (high, frustum[HIGH])
+        up = 0.0 if frustum[SIDE] == 0.0 else 1.0 if part == HIGH_RIM else -1.0
+        found: Answer = up_hills(circle, core, turn, x, y, z - height, up, (frustum[COS], frustum[SIN], size))
+        if found[0] == found[0] and not found[0] <= best[0]:
+            best = found[0], found[1], found[2], found[3] + height, found[4], found[5], found[6]
+            where = part
+    if not best[0] >= 0.0 and not _share_a_point(frustum, point, core, turn, x, y, z, best):
+        best = math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
+    return best, where
+
+
+def _evaluate(
+    a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, high: Floats, point: Floats, second: Floats
+) -> None:
+    """Write the geometry block of a frustum, whose rims are the cores ``low`` and ``high``, and a core.
+
+    The gap is nan where no part can be proved to be the nearest.
+    """
+    axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
+    ax, ay, az = center_in_world(a, first)
+    bx, by, bz = point_in_world(b, second[6], second[7], second[8])
+    x, y, z = back(axes_a, bx - ax, by - ay, bz - az)
+    turn = between_axes(axes_a, axes_b)
+    (g, px, py, pz, nx, ny, nz), part = _nearest(first, low, high, point, second, turn, x, y, z)
+    out[GAP] = g - second[RADIUS] - first[SWEEP]
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes_a, nx, ny, nz)
+    qx, qy, qz = forth(axes_a, px, py, pz)
+    put(out, POINT_B, ax + qx, ay + qy, az + qz)
+    for i in range(3):
+        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
+        out[POINT_A + i] = out[POINT_B + i] - out[GAP] * out[NORMAL + i]
+    out[FEATURE] = part_number(first, part)
+    write_tangent(a, out)
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    qx, qy, qz = back(turn, px - x, py - y, pz - z)
+    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, qx, qy, qz)
+    radial = math.sqrt(nx * nx + ny * ny)
+    ex, ey = (nx / radial, ny / radial) if radial > 0.0 else (1.0, 0.0)
+    ux, uy, uz = forth(axes_a, ex, ey, 0.0)
+    away = max(ex * px + ey * py - g * radial, 0.0)
+    if part == LOW_RIM or part == HIGH_RIM:
+        away = first[0] if part == LOW_RIM else first[1]
+    write_part(out, SIDE_A, part, axes_a[2], axes_a[5], axes_a[8], ux, uy, uz, radial, away)
+    write_sweep(out, SIDE_A, first[SWEEP])
+
+
+@final
+@dataclass(frozen=True)
+class FrustumSmooth(ContactKinematics):
+    """One contact of a smooth body with a cap, a rim or the side of a cylinder, a cone or a disc, not with the feet.
+
+    Attributes
+    ----------
+    first : Frustum
+        The cylinder, cone or disc.
+    second : SmoothShape
+        The smooth body.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SmoothShape)
+
+    first: Frustum
+    second: SmoothShape
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FrustumSmooth, ...]:
+        """Return the single contact of the two."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, SmoothShape)
+        return (cls(first, second),)
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the numbers of the frustum, of its rims as flat cores, of a point, and of the support function."""
+        frustum = self.first.frustum
+        # a flat ellipsoid, or a point
+        low, high = ((radius, radius, 0.0, 2.0, 2.0, 0.0) for radius in frustum[:2])
+        return {
+            "first": frustum,
+            "low": low,
+            "high": high,
+            "point": (0.0, 0.0, 0.0, 2.0, 2.0, 0.0),
+            "second": self.second.core,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """A trial of the parts, with Newton's method on the support function."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """From the cap against the axis to the one along it."""
+        return tuple(f"{part} and smooth" for part in part_names(self.first.frustum))

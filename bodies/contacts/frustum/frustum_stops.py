@@ -1,0 +1,259 @@
+"""Where a smooth body is nearest to one part of a cylinder, a cone or a disc: gap, point and normal, or nan if nowhere.
+
+On a cap the normal is given.  On the side it has one angle, found by Newton's method on the support function, or for a
+boxy body by halving.  On a rim and at the apex it is that of a flat ellipsoid or of a point.  A stop belongs to its
+part: the point lies before it, and the normal is one of its own.
+"""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.frustum.frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
+from bodies.contacts.smooth.boxy_line import across_line
+from bodies.contacts.smooth.boxy_newton import Answer
+from bodies.contacts.smooth.round_search import next_to_axis, round_circle
+from bodies.contacts.smooth.smooth_core import Axes, back, bend, forth
+from bodies.contacts.smooth.smooth_newton import widest_of_round
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN
+from bodies.shapes.support_function import is_round, support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+ON_BORDER = 1e-14
+"""How far a point may be over the end of a part, in units of the size, and a normal over that of its cone."""
+_NEAR_BORDER = 1e-10
+"""The same where a search found it: it errs in the gap by no more than the square."""
+_LEAST_LEAN, _MOST_LEAN, _TURNS = 1e-16, 1e-7, 4
+"""Leans of a normal next to the axis [rad], and how often it is turned to where it goes over the end."""
+_STEPS, _HALVINGS = 60, 40
+_ROUND_OFF, _SEEN, _CLOSE, _RIGHT = 2e-16, 1e-14, 1e-12, 1e-13
+"""As in :mod:`bodies.contacts.smooth.dual_newton`."""
+
+
+@compiled
+def point_against(
+    core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
+) -> tuple[float, float, float]:
+    """Return the smooth body's farthest point against n, in the axes of the frustum."""
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    s = support_of(core, mx, my, mz)
+    px, py, pz = forth(turn, s[1], s[2], s[3])
+    return x + px, y + py, z + pz
+
+
+@compiled
+def on_cap(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float) -> Answer:
+    """Return the stop of a cap."""
+    up = 1.0 if part == HIGH_CAP else -1.0
+    radius = frustum[1] if part == HIGH_CAP else frustum[0]
+    px, py, pz = point_against(core, turn, x, y, z, 0.0, 0.0, up)
+    g = pz - frustum[HIGH] if part == HIGH_CAP else frustum[LOW] - pz
+    if radius == 0.0 or px * px + py * py > (radius + near) * (radius + near):
+        g = math.nan
+    return g, px, py, pz, 0.0, 0.0, up
+
+
+@compiled
+def _on_end_of_cap(
+    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float
+) -> Answer:
+    """Return the same where the smooth body is so flat that its lowest point, to round-off, is any next to the end.
+
+    The farther the normal leans out, the farther in is the lowest point.  Between two leans at which it is on either
+    side of the end, points of the body lie over the end on the way from one to the other.
+    """
+    found: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
+    radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])
+    up = found[6]
+    cx, cy = found[1], found[2]
+    if found[0] == found[0] or not 0.0 < radius * radius < cx * cx + cy * cy:
+        return found
+    for _ in range(_TURNS):
+        away = math.sqrt(cx * cx + cy * cy)
+        ex, ey = cx / away, cy / away
+        px, py, pz = found[1], found[2], found[3]
+        low, high, lean = 0.0, 0.0, _LEAST_LEAN
+        gap, below = 0.0, -math.inf
+        for _ in range(_HALVINGS):
+            qx, qy, qz = point_against(core, turn, x, y, z, lean * ex, lean * ey, up)
+            inside = radius * radius - qx * qx - qy * qy
+            if inside > 0.0:
+                high = lean
+                # where the way between them is over the end
+                wx, wy = px - qx, py - qy
+                along, across = qx * wx + qy * wy, wx * wx + wy * wy
+                share = inside / (along + math.sqrt(along * along + across * inside))
+                cx, cy = qx + share * wx, qy + share * wy
+                cz = qz + share * (pz - qz)
+                gap, below = up * (cz - height), lean * (ex * qx + ey * qy - radius) + up * (qz - height)
+                if gap - below <= near:
+                    return gap, cx, cy, cz, lean * ex, lean * ey, up
+            else:
+                low, px, py, pz = lean, qx, qy, qz
+            lean = 0.5 * (low + high) if high > 0.0 else 10.0 * lean
+            if lean > _MOST_LEAN:
+                return found
+    return found
+
+
+@compiled
+def _before_flank(frustum: Floats, near: float, found: Answer) -> bool:
+    """Return whether the point of a stop on the continued side lies before the side itself."""
+    g, px, py, pz, nx, ny, _ = found
+    cosine, sine = frustum[COS], frustum[SIN]
+    away = (nx * px + ny * py) / cosine
+    up = cosine * (pz - frustum[LOW]) - sine * (away - frustum[0])
+    return bool(away >= g * cosine and -near <= up <= frustum[SIDE] + near)
+
+
+@compiled
+def on_flank(
+    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, near: float
+) -> Answer:
+    """Return the stop of the side; begin at the direction (sx, sy)."""
+    cosine, sine = frustum[COS], frustum[SIN]
+    reach = cosine * frustum[0] + sine * frustum[LOW]
+    length = math.sqrt(sx * sx + sy * sy)
+    ex, ey = sx / length, sy / length
+    if not is_round(core):
+        g, px, py, pz, nx, ny, nz = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
+    else:
+        g, px, py, pz, nx, ny, nz = _on_round_flank(frustum, core, turn, x, y, z, ex, ey, near)
+    if not _before_flank(frustum, near, (g, px, py, pz, nx, ny, nz)):
+        g = math.nan
+    return g, px, py, pz, nx, ny, nz
+
+
+@compiled
+def _on_round_flank(
+    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, ex: float, ey: float, near: float
+) -> Answer:
+    """Return the stop of the continued side, by Newton's method on the angle."""
+    cosine, sine = frustum[COS], frustum[SIN]
+    reach = cosine * frustum[0] + sine * frustum[LOW]
+    size = near / ON_BORDER
+    lx, ly, step = ex, ey, 0.0
+    px, py, pz = x, y, z
+    g, before, halvings = -math.inf, math.inf, 0
+    for _ in range(_STEPS):
+        nx, ny = cosine * ex, cosine * ey
+        mx, my, mz = back(turn, -nx, -ny, -sine)
+        s = support_of(core, mx, my, mz)
+        px, py, pz = forth(turn, s[1], s[2], s[3])
+        px, py, pz = x + px, y + py, z + pz
+        found = nx * px + ny * py + sine * pz - reach
+        if found < g - _SEEN * size and halvings < _HALVINGS:
+            halvings += 1
+            step *= 0.5
+        else:
+            g, halvings = found, 0
+            lx, ly = ex, ey
+            rate = cosine * (ex * py - ey * px)
+            tx, ty, tz = back(turn, -ey, ex, 0.0)
+            second = -cosine * (ex * px + ey * py) - cosine * cosine * bend(s, tx, ty, tz, tx, ty, tz)
+            residual = abs(rate)
+            if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):
+                if residual > _RIGHT * size or second > 0.0:
+                    break
+                return g, px, py, pz, nx, ny, sine
+            before = residual
+            step = rate / max(abs(second), _ROUND_OFF * size)
+            step = min(max(step, -1.0), 1.0)
+        # the turn by an angle whose tangent is the step
+        ex, ey = lx - step * ly, ly + step * lx
+        length = math.sqrt(ex * ex + ey * ey)
+        ex, ey = ex / length, ey / length
+    return math.nan, px, py, pz, cosine * lx, cosine * ly, sine
+
+
+@compiled
+def on_rim(
+    frustum: Floats,
+    circle: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    sx: float,
+    sy: float,
+    part: int,
+    tilt: float,
+) -> Answer:
+    """Return the stop of a rim, or of the apex; begin on the side of the direction (sx, sy).
+
+    Begin at the part ``tilt`` of the way from the normal of the side to that of the cap, if it is below 0 at the way
+    from the rim to the centre, if that is between these normals.
+    """
+    up = 1.0 if part == HIGH_RIM else -1.0
+    radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_RIM else (frustum[0], frustum[LOW])
+    if radius > 0.0:
+        # where the centre of the cap is nearest, the normal of the circle is the axis
+        for sign in (-1.0, 1.0):
+            px, py, pz = point_against(core, turn, x, y, z, 0.0, 0.0, sign)
+            if sign * (pz - height) >= 0.0 and px * px + py * py <= radius * radius:
+                return math.nan, px, py, pz, 0.0, 0.0, sign
+    length = math.sqrt(sx * sx + sy * sy)
+    ex, ey = sx / length, sy / length
+    flat = frustum[SIDE] == 0.0
+    radial, axial = ex * x + ey * y - radius, z - height
+    if tilt >= 0.0 or radial <= 0.0 or not (flat or up * (frustum[COS] * axial - frustum[SIN] * radial) > 0.0):
+        tilt = abs(tilt)
+        cap = math.copysign(1.0, axial) if flat else up
+        radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
+    g, px, py, pz, nx, ny, nz = widest_of_round(circle, core, turn, x, y, z - height, radial * ex, radial * ey, axial)
+    lean = frustum[COS] * nz - frustum[SIN] * math.sqrt(nx * nx + ny * ny)
+    if not flat and up * lean < -ON_BORDER:
+        g = math.nan
+    return g, px, py, pz + height, nx, ny, nz
+
+
+@compiled
+def by_search(
+    frustum: Floats,
+    point: Floats,
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    sx: float,
+    sy: float,
+    part: int,
+    size: float,
+) -> Answer:
+    """Return the stop of a part by searches round the axis, where the others found none.
+
+    Next to where two parts meet either of them serves: there their gaps are the same to the square of the way.
+    """
+    near = _NEAR_BORDER * size
+    found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    if part == LOW_CAP or part == HIGH_CAP:
+        found = _on_end_of_cap(frustum, core, turn, x, y, z, part, near)
+    elif part == FLANK:
+        cosine, sine = frustum[COS], frustum[SIN]
+        reach, length = cosine * frustum[0] + sine * frustum[LOW], math.sqrt(sx * sx + sy * sy)
+        ex, ey = sx / length, sy / length
+        found = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
+        if not _before_flank(frustum, near, found):
+            found = math.nan, x, y, z, 0.0, 0.0, 1.0
+    else:
+        up = 1.0 if part == HIGH_RIM else -1.0
+        radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_RIM else (frustum[0], frustum[LOW])
+        flat = frustum[SIDE] == 0.0
+        over = math.copysign(1.0, z - height) if flat else up
+        px, py, _ = point_against(core, turn, x, y, z, 0.0, 0.0, over)
+        if px * px + py * py == 0.0:
+            px, py = sx, sy
+        found = math.nan, x, y, z, 0.0, 0.0, 1.0
+        if is_round(core) and radius > 0.0:
+            found = next_to_axis(core, turn, x, y, z - height, radius, px, py, over)
+        if found[0] != found[0]:
+            found = round_circle(point, core, turn, x, y, z - height, radius, px, py)
+        g, px, py, pz, nx, ny, nz = found
+        lean = frustum[COS] * nz - frustum[SIN] * math.sqrt(nx * nx + ny * ny)
+        if not flat and up * lean < -_NEAR_BORDER:
+            g = math.nan
+        found = g, px, py, pz + height, nx, ny, nz
+    return found

@@ -1,0 +1,137 @@
+"""A cylinder, a cone or a disc and a polyhedron or a segment, at a distance: one of the two has a radius about it."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.offset import place_sphere
+from bodies.contacts.features.polytope_tables import Numbers, star_of
+from bodies.contacts.features.swept_vertex import ended_gap, past_star
+from bodies.contacts.frustum.apex_swept import ApexSwept
+from bodies.contacts.frustum.flank_edge import FlankEdge
+from bodies.contacts.frustum.frustum import part_names
+from bodies.contacts.frustum.frustum_edge import size_of_both
+from bodies.contacts.frustum.frustum_sphere import write_frustum_ball
+from bodies.contacts.frustum.rim_edge import RimEdge
+from bodies.contacts.frustum.rim_face import RimFace
+from bodies.contacts.polyhedron.swept_swept import MOST_CONTACTS
+from bodies.shapes.frustum import Frustum, without_feet
+from bodies.shapes.swept import SweptPolytope
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    first: Floats,
+    radius: float,
+    x: float,
+    y: float,
+    z: float,
+    n_star: float,
+    star: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of a vertex, with a radius; parameters as the attributes of :class:`FrustumSwept`."""
+    x, y, z, distance = write_frustum_ball(a, b, out, first, radius, x, y, z)
+    past = past_star(b, star, n_star, distance, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2], size)
+    gap, out[PAST_END] = ended_gap(out[GAP], past, size)
+    place_sphere(a, out, x, y, z, gap + radius, radius)
+
+
+write_vertex_ball = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
+
+
+def check_number(edges: int) -> None:
+    """Raise InvalidInput if there are too many contacts."""
+    if 5 * edges > MOST_CONTACTS:
+        raise InvalidInput(
+            "contact of a polyhedron with a round body",
+            f"must have at most {MOST_CONTACTS} pairs of features",
+            f"{edges} edges make {5 * edges}",
+            "Take a polyhedron with fewer edges, or a smooth shape.",
+        )
+
+
+@final
+@dataclass(frozen=True)
+class FrustumSwept(ContactKinematics):
+    """A vertex of a polyhedron or an end of a capsule, as a sphere, against the nearest cap, rim or side, or the apex.
+
+    The two touch where their cores are the radii apart.  The other contacts are those of the edges across side and
+    rims, of the rims and feet over the faces, and of the apex, as a sphere.  Every one of them has its number for ever;
+    one whose features are not the nearest any more is past their end.  Vertices do not see the feet.  Corners of
+    meshes have these contacts, too (:class:`bodies.FrustumMesh`).
+
+    Attributes
+    ----------
+    first : tuple of float
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    radius : float
+        Radius about the core of the second [m].
+    place : tuple of float
+        The vertex of its core in the body frame [m].
+    star : tuple of float
+        Unit vectors along the edges that leave it.
+    size : float
+        Size of the bodies [m].
+    name : str
+        What the vertex is called.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
+
+    first: Numbers
+    radius: float
+    place: tuple[float, float, float]
+    star: Numbers
+    size: float
+    name: str
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of all vertices, of all edges with side and rims, and of rims, feet and apex."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, SweptPolytope)
+        core, size, numbers = second.core, size_of_both(first, second), without_feet(first.frustum)
+        check_number(len(core.edges))
+        vertices = (
+            cls(numbers, second.sweep, place, star_of(core, i), size, f"vertex {i}")
+            for i, place in enumerate(core.vertices)
+        )
+        others = (kind.between(first, second) for kind in (FlankEdge, RimEdge, RimFace, ApexSwept))
+        return tuple(itertools.chain(vertices, *others))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        x, y, z = self.place
+        return {
+            "first": self.first,
+            "radius": self.radius,
+            "x": x,
+            "y": y,
+            "z": z,
+            "n_star": float(len(self.star) // 3),
+            "star": self.star,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """From the cap against the axis to the one along it."""
+        return tuple(f"{part} and {self.name}" for part in part_names(self.first))

@@ -1,0 +1,274 @@
+"""An edge across a rim of a cylinder, a cone or a disc.
+
+Seen along the edge the rim is an ellipse and the edge a point; they are nearest at the foot of a normal to the ellipse.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.curvature import write_sweep
+from bodies.contacts.features.polytope_tables import FACE, Numbers, edge_rows, face_table
+from bodies.contacts.features.vertex_face import height_over
+from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, center_in_world, nearest_part, write_part
+from bodies.contacts.frustum.frustum_edge import (
+    astray_of_edge,
+    edge_in_frustum,
+    overlap_at,
+    past_end,
+    size_of_both,
+    write_crossing,
+)
+from bodies.contacts.smooth.smooth_core import axes_in_world, forth
+from bodies.contacts.surface.surface_search import THROUGH
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from bodies.shapes.swept import SweptPolytope
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import SIDE_A
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+_STEEP = 0.5
+"""Cosine of the angle between edge and axis beyond which only the nearer half of the rim is crossed."""
+_STEPS = 100
+
+
+@compiled
+def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[float, float, float]:
+    """Return cosine and sine of the foot of a normal to the upper half of an ellipse, and by how much there is none.
+
+    The semi-axis along x is not the smaller one.  A point below has a foot on the upper half where the distance is a
+    minimum if it lies within the evolute; the last number, 0 then, is else how far it is not.  The foot is the zero of
+    F = a x sin - b y cos - (a^2 - b^2) sin cos, between bounds of opposite sign, by Newton's method and by halves.
+    """
+    p, q = semi_x * abs(x), semi_y * y
+    focal = max(semi_x * semi_x - semi_y * semi_y, 0.0)
+    low, none = 0.0, 0.0
+    if q < 0.0:
+        third_p, third_q = p ** (1.0 / 3.0), (-q) ** (1.0 / 3.0)
+        reach = third_p * third_p + third_q * third_q
+        none = max(math.sqrt(reach * reach * reach) - focal, 0.0)
+        low = math.atan2(third_q, third_p)
+    high = 0.5 * math.pi
+    if none > 0.0:
+        angle = low
+    else:
+        angle = math.atan2(max(q, 0.0) * semi_x, p * semi_y) if p + max(q, 0.0) > 0.0 else high
+        if q <= 0.0:
+            angle = math.acos(min(p / focal, 1.0)) if focal > 0.0 else high
+        angle = min(max(angle, low), high)
+        for _ in range(_STEPS):
+            c, s = math.cos(angle), math.sin(angle)
+            value = p * s - q * c - focal * s * c
+            slope = p * c + q * s - focal * (c * c - s * s)
+            if value > 0.0:
+                high = angle
+            else:
+                low = angle
+            after = angle - value / slope if slope > 0.0 else 2.0 * math.pi
+            if after < low or after > high:
+                after = 0.5 * (low + high)
+            if abs(after - angle) <= 2e-16 * abs(angle):
+                break
+            angle = after
+    c, s = math.cos(angle), math.sin(angle)
+    return (c if x >= 0.0 else -c), s, none
+
+
+@compiled
+def _aside(
+    b: Floats,
+    frustum: Floats,
+    n_faces: float,
+    faces: Floats,
+    px: float,
+    py: float,
+    pz: float,
+    x: float,
+    y: float,
+    z: float,
+) -> bool:
+    """Return whether bodies that seem to overlap at a crossing are on the far sides of each other.
+
+    Then neither has the other's point: the frustum's in the world, the edge's in the axes of the frustum.  Of a sharp
+    rim across a sharp edge neither has it as well, so that it tells of deep overlaps only.
+    """
+    if height_over(b, n_faces, faces, px, py, pz) <= 0.0:
+        return False
+    outside, _, _, _ = nearest_part(frustum, z, math.sqrt(x * x + y * y))
+    return bool(outside > 0.0)
+
+
+def evaluate_rim_edge(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    rim: float,
+    half: float,
+    edge: Floats,
+    radius: float,
+    n_faces: float,
+    faces: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of an edge, with a radius about it, across one half of a rim."""
+    axes = axes_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
+    part = int(rim)
+    wide, height, up = frustum[0], frustum[LOW], -1.0
+    if part == HIGH_RIM:
+        wide, height, up = frustum[1], frustum[HIGH], 1.0
+    # g across the edge in the plane of the rim, f along it, h across both, to that side of f where h . f is positive
+    across = math.sqrt(dx * dx + dy * dy)
+    fx, fy = (dx / across, dy / across) if across > 0.0 else (1.0, 0.0)
+    gx, gy = -fy, fx
+    hx, hy, hz = -dz * gy, dz * gx, dx * gy - dy * gx
+    short = hx * fx + hy * fy
+    if short < 0.0:
+        hx, hy, hz, short = -hx, -hy, -hz, -short
+    along = vx * gx + vy * gy
+    over_rim = vx * hx + vy * hy + (vz - height) * hz
+    # the halves have a name of their own while the edge is nearly in the plane of the rim
+    side = half
+    if short > _STEEP:
+        side = half * (1.0 if over_rim >= 0.0 else -1.0)
+    cosine, sine, none = foot_on_ellipse(wide, wide * short, along, side * over_rim)
+    sine *= side
+    ex, ey = cosine * gx + sine * fx, cosine * gy + sine * fy
+    tx, ty = -ey, ex
+    # the normal is across the rim's tangent and the edge
+    nx, ny, nz = ty * dz, -tx * dz, tx * dy - ty * dx
+    crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
+    px, py, pz = wide * ex, wide * ey, height
+    s = (px - vx) * dx + (py - vy) * dy + (pz - vz) * dz
+    wx, wy, wz = vx + s * dx - px, vy + s * dy - py, vz + s * dz - pz
+    total = radius + frustum[SWEEP]
+    if total == 0.0 and crossing > 1e-6:
+        nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
+    else:
+        # of cores apart, and where the edge is along the tangent: the way between the two, or out of the frustum
+        apart = math.sqrt(wx * wx + wy * wy + wz * wz)
+        nx, ny, nz = (wx / apart, wy / apart, wz / apart) if apart > 1e-9 * size else (ex, ey, 0.0)
+    if total > 0.0:
+        # at a distance an edge along the tangent touches a rim at one point, too
+        crossing = 1.0
+    ahead = nx * wx + ny * wy + nz * wz
+    astray, flip = 2.0, 1.0
+    for sign in (-1.0, 1.0):
+        if total > 0.0 and sign * ahead < 0.0:
+            # with a radius about it an edge lies outside
+            continue
+        radial, axial = sign * (ex * nx + ey * ny), sign * nz
+        off = max(-radial, astray_of_edge(b, edge, axes, sign * nx, sign * ny, sign * nz))
+        if frustum[SIDE] > 0.0:
+            off = max(off, -up * (frustum[COS] * axial - frustum[SIN] * radial))
+        if off < astray:
+            astray, flip = off, sign
+    nx, ny, nz = flip * nx, flip * ny, flip * nz
+    gap = flip * ahead
+    over = max(-s, s - edge[6])
+    past = past_end(gap, over, crossing, astray, size)
+    if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
+        past, over = max(past, size), size
+    qx, qy, qz = forth(axes, px, py, pz)
+    if past <= 0.0 and total == 0.0 and n_faces > 0.0 and gap < -THROUGH * size:
+        wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
+        if _aside(b, frustum, n_faces, faces, cx + qx, cy + qy, cz + qz, wx, wy, wz):
+            past = -gap
+    overlap = 0.0
+    if past > 0.0:
+        wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
+        overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, wx, wy, wz, cx, cy, cz)
+    qx, qy, qz = cx + qx, cy + qy, cz + qz
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, nx, ny, nz, qx, qy, qz, overlap, size)
+    ux, uy, uz = forth(axes, ex, ey, 0.0)
+    write_part(out, SIDE_A, part, axes[2], axes[5], axes[8], ux, uy, uz, ex * nx + ey * ny, wide)
+    write_sweep(out, SIDE_A, frustum[SWEEP])
+
+
+@final
+@dataclass(frozen=True)
+class RimEdge(ContactKinematics):
+    """Where an edge of the second body crosses one half of a rim of the first.
+
+    An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.
+
+    Attributes
+    ----------
+    frustum : tuple of float
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    rim : int
+        1 for the lower rim, 3 for the upper one.
+    half : float
+        1 for the half of the rim to which the edge runs, or that is nearer to one along the axis, -1 for the other.
+    edge : tuple of float
+        The edge, as :data:`bodies.contacts.features.polytope_tables.EDGE` numbers.
+    radius : float
+        Radius about it [m].
+    faces : tuple of float
+        All faces of the second body's core; none of a segment.
+    size : float
+        Size of the bodies [m].
+    name : str
+        What it is.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
+
+    frustum: Numbers
+    rim: int
+    half: float
+    edge: Numbers
+    radius: float
+    faces: Numbers
+    size: float
+    name: str
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of all rims and edges."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, SweptPolytope)
+        numbers, faces, size = first.frustum, face_table(second.core), size_of_both(first, second)
+        return tuple(
+            contact
+            for i, row in enumerate(edge_rows(second.core))
+            for contact in cls.of_rims(numbers, row, second.sweep, faces, size, f"edge {i}")
+        )
+
+    @classmethod
+    def of_rims(
+        cls, frustum: Numbers, edge: Numbers, radius: float, faces: Numbers, size: float, name: str
+    ) -> tuple[RimEdge, ...]:
+        """Return the contacts of all rims with one edge; a disc has one rim, and an apex is none."""
+        rims = [LOW_RIM, HIGH_RIM] if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else [LOW_RIM]
+        return tuple(cls(frustum, rim, half, edge, radius, faces, size, name) for rim in rims for half in (1.0, -1.0))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {
+            "frustum": self.frustum,
+            "rim": float(self.rim),
+            "half": self.half,
+            "edge": self.edge,
+            "radius": self.radius,
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces or (0.0,),
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's method for one angle, between bounds."""
+        return evaluate_rim_edge
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return (f"rim {self.rim // 2} and {self.name}",)

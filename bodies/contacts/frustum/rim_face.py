@@ -1,0 +1,190 @@
+"""A rim or a foot of a cylinder, a cone or a disc, or the apex, over the faces of a polyhedron."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.blocks import put
+from bodies.contacts.features.across import across
+from bodies.contacts.features.curvature import write_flat, write_principal, write_round, write_sweep
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table
+from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.vertex_face import DEEP, REACH, past_face, plane_height
+from bodies.contacts.frustum.frustum import axis_in_world, center_in_world, least_height
+from bodies.contacts.frustum.frustum_edge import size_of_both
+from bodies.contacts.plane.plane_rim import FLATTEST
+from bodies.shapes.frustum import SWEEP, Frustum
+from bodies.shapes.swept import SweptPolytope
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+@compiled
+def _lowest(
+    a: Floats,
+    radius: float,
+    x: float,
+    y: float,
+    z: float,
+    ax: float,
+    ay: float,
+    az: float,
+    nx: float,
+    ny: float,
+    nz: float,
+) -> tuple[float, float, float, float, float, float, float]:
+    """Return the rim's farthest point of the world against n, the way to it from the centre, and its sine."""
+    _, sine, ex, ey, ez = across(-nx, -ny, -nz, ax, ay, az)
+    px, py, pz = point_in_world(a, x, y, z)
+    return px + radius * ex, py + radius * ey, pz + radius * ez, ex, ey, ez, sine
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    radius: float,
+    x: float,
+    y: float,
+    z: float,
+    n_faces: float,
+    faces: Floats,
+    sweep: float,
+    size: float,
+) -> None:
+    ax, ay, az = axis_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    ux, uy, uz = vector_in_body(b, ax, ay, az)
+    kx, ky, kz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
+    margin = REACH * size
+    best = -1e300
+    for i in range(int(n_faces)):
+        f = FACE * i
+        cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
+        best = max(best, least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine))
+    found, gap, past, deepest = 0, 0.0, 1e300, -1e300
+    for i in range(int(n_faces)):
+        f = FACE * i
+        cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
+        least = least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine)
+        if least < best - margin:
+            continue
+        nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
+        px, py, pz, _, _, _, _ = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
+        px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+        height = plane_height(faces, f, px, py, pz)
+        beyond = past_face(faces, n_faces, f, height, px, py, pz)
+        highest = height
+        for j in range(int(n_faces)):
+            highest = max(highest, plane_height(faces, FACE * j, px, py, pz))
+        if height < 0.0:
+            # under the plane of a face only what lies inside of the body can touch it
+            beyond = max(beyond, highest)
+        beyond = max(beyond - margin, -least - 0.5 * faces[f + 4])
+        if beyond < past:
+            found, gap, past, deepest = i, height, beyond, highest
+    own = frustum[SWEEP]
+    gap -= own + sweep
+    if past > 0.0:
+        # inside of the body it is no contact of its own, but a sign that they overlap
+        gap = deepest if deepest < -DEEP * size else math.sqrt(gap * gap + past * past)
+    f = FACE * found
+    nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
+    px, py, pz, ex, ey, ez, sine = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
+    out[GAP], out[FEATURE], out[PAST_END] = gap, float(found), past
+    put(out, NORMAL, -nx, -ny, -nz)
+    put(out, POINT_A, px - own * nx, py - own * ny, pz - own * nz)
+    for i in range(3):
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
+    write_tangent(a, out)
+    write_flat(out, SIDE_B)
+    if radius > 0.0:
+        rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
+        write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
+    else:
+        write_round(out, SIDE_A, 0.0)
+    write_sweep(out, SIDE_A, own)
+
+
+@final
+@dataclass(frozen=True)
+class RimFace(ContactKinematics):
+    """The lowest point of a rim over the face that best separates the bodies; a foot or an apex has no radius.
+
+    So two rims hold what lies on its side, and feet what stands.
+
+    Attributes
+    ----------
+    frustum : tuple of float
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    radius : float
+        Radius of the rim [m].
+    center : tuple of float
+        Its centre in the body frame [m].
+    faces : tuple of float
+        The faces of the second body's core (:func:`bodies.contacts.features.polytope_tables.face_table`).
+    sweep : float
+        Radius about that core [m].
+    size : float
+        Size of the bodies [m].
+    name : str
+        What it is.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
+
+    frustum: Numbers
+    radius: float
+    center: tuple[float, float, float]
+    faces: Numbers
+    sweep: float
+    size: float
+    name: str
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[RimFace, ...]:
+        """Return the contacts of all rims and feet, and of the apex of two sharp bodies; a segment has no faces."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, SweptPolytope)
+        numbers, faces, size = first.frustum, face_table(second.core), size_of_both(first, second)
+        if not faces:
+            return ()
+        named = [(*rim, f"rim {i}") for i, rim in enumerate(first.standing_rims) if rim[0] > 0.0]
+        if second.sweep + numbers[SWEEP] == 0.0:
+            # at a distance the apex is a sphere, which has a contact of its own
+            named += [(*rim, "apex") for rim in first.standing_rims if rim[0] == 0.0]
+        named += [(0.0, foot, f"foot {i}") for i, foot in enumerate(first.feet)]
+        return tuple(cls(numbers, radius, at, faces, second.sweep, size, name) for radius, at, name in named)
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of all."""
+        x, y, z = self.center
+        return {
+            "frustum": self.frustum,
+            "radius": self.radius,
+            "x": x,
+            "y": y,
+            "z": z,
+            "n_faces": float(len(self.faces) // FACE),
+            "faces": self.faces,
+            "sweep": self.sweep,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces."""
+        return tuple(f"{self.name} and face {i}" for i in range(len(self.faces) // FACE))

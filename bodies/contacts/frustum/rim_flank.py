@@ -1,0 +1,251 @@
+"""A rim of one frustum, or its apex, against the side of another.
+
+The height over a side is a convex function of the point; round a rim it has up to two minima.  They are found by
+looking at points of the rim, and then by Newton's method between bounds.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.polytope_tables import Numbers
+from bodies.contacts.frustum.frustum import FLANK, HIGH_RIM, LOW_RIM, center_in_world
+from bodies.contacts.frustum.frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
+from bodies.contacts.smooth.smooth_core import axes_in_world, back, forth
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+_STEEP = math.pi / 6.0
+"""Angle between the plane of the rim and the side beyond which only the nearest point of the rim is looked at."""
+_SAMPLES, _STEPS = 12, 60
+_BEYOND = 3e-8
+"""So far past its end, in units of the size, a side at a distance holds a rim."""
+_BENT = 1e-6
+"""Least curvature of the height round the rim for a minimum, in units of the radius."""
+
+
+@compiled
+def _height(
+    second: Floats,
+    cx: float,
+    cy: float,
+    cz: float,
+    gx: float,
+    gy: float,
+    gz: float,
+    hx: float,
+    hy: float,
+    hz: float,
+    angle: float,
+) -> tuple[float, float, float]:
+    """Return height over the side of the point c + g cos + h sin, all in the axes of the side, and two derivatives."""
+    c, s = math.cos(angle), math.sin(angle)
+    x, y = cx + c * gx + s * hx, cy + c * gy + s * hy
+    dx, dy, dz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
+    away = max(math.sqrt(x * x + y * y), 1e-300)
+    slope = (x * dx + y * dy) / away
+    bend = (dx * dx + dy * dy - x * (x - cx) - y * (y - cy) - slope * slope) / away
+    wide = cz + c * gz + s * hz
+    cosine, sine = second[COS], second[SIN]
+    value = cosine * (away - second[0]) + sine * (wide - second[LOW])
+    return value, cosine * slope + sine * dz, cosine * bend - sine * (wide - cz)
+
+
+@compiled
+def least_round(
+    second: Floats,
+    cx: float,
+    cy: float,
+    cz: float,
+    gx: float,
+    gy: float,
+    gz: float,
+    hx: float,
+    hy: float,
+    hz: float,
+    low: float,
+    high: float,
+) -> tuple[float, bool]:
+    """Return the angle between bounds at which the height is a minimum, and whether there is one."""
+    step = (high - low) / _SAMPLES
+    best, angle = 1e300, low
+    for i in range(_SAMPLES + 1):
+        value, _, _ = _height(second, cx, cy, cz, gx, gy, gz, hx, hy, hz, low + i * step)
+        if value < best:
+            best, angle = value, low + i * step
+    least, most = angle - step, angle + step
+    for _ in range(_STEPS):
+        _, slope, bend = _height(second, cx, cy, cz, gx, gy, gz, hx, hy, hz, angle)
+        if slope > 0.0:
+            most = angle
+        else:
+            least = angle
+        after = angle - slope / bend if bend > 0.0 else 1e300
+        if after < least or after > most:
+            after = 0.5 * (least + most)
+        if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):
+            break
+        angle = after
+    _, _, bend = _height(second, cx, cy, cz, gx, gy, gz, hx, hy, hz, angle)
+    size = math.sqrt(gx * gx + gy * gy + gz * gz)
+    # all round there is no end that a minimum could be past
+    within = low <= angle <= high or high - low > 1.5 * math.pi
+    return angle, within and bend > _BENT * size
+
+
+def _evaluate(
+    a: Floats, b: Floats, out: Floats, swap: float, first: Floats, rim: float, half: float, second: Floats, size: float
+) -> None:
+    own, other = (b, a) if swap == 1.0 else (a, b)
+    own_axes, axes = axes_in_world(own, first), axes_in_world(other, second)
+    cx, cy, cz = center_in_world(own, first)
+    kx, ky, kz = center_in_world(other, second)
+    part = int(rim)
+    radius, height, up = first[0], first[LOW], -1.0
+    if part == HIGH_RIM:
+        radius, height, up = first[1], first[HIGH], 1.0
+    # the centre of the rim and its axis, in the axes of the side
+    mx, my, mz = back(axes, cx - kx, cy - ky, cz - kz)
+    ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
+    mx, my, mz = mx + height * ax, my + height * ay, mz + height * az
+    # h in the plane of the rim towards the side's axis, g across both
+    hx, hy, hz = -az * ax, -az * ay, 1.0 - az * az
+    length = math.sqrt(hx * hx + hy * hy + hz * hz)
+    # a line of the side lies in the plane of the rim where the rim's axis leans as the side's normal does; the halves
+    # serve axes nearly at right angles as well, where one of them has no minimum
+    lean = math.asin(min(abs(az), 1.0))
+    steep = lean > _STEEP and abs(lean - math.asin(second[SIN])) > _STEEP
+    if length > 1e-9:
+        hx, hy, hz = hx / length, hy / length, hz / length
+    else:
+        hx, hy, hz = 1.0, 0.0, 0.0
+    gx, gy, gz = hy * az - hz * ay, hz * ax - hx * az, hx * ay - hy * ax
+    gx, gy, gz, hx, hy, hz = (
+        radius * gx,
+        radius * gy,
+        radius * gz,
+        radius * half * hx,
+        radius * half * hy,
+        radius * half * hz,
+    )
+    angle, found = 0.0, True
+    if radius > 0.0:
+        low, high = 0.0, math.pi
+        if steep:
+            # all round, from where it is farthest
+            low = math.atan2(mx * hx + my * hy, mx * gx + my * gy)
+            high = low + 2.0 * math.pi
+        angle, found = least_round(second, mx, my, mz, gx, gy, gz, hx, hy, hz, low, high)
+    c, s = math.cos(angle), math.sin(angle)
+    ox, oy, oz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
+    x, y, z = mx + ox, my + oy, mz + oz
+    away = math.sqrt(x * x + y * y)
+    ex, ey = (x / away, y / away) if away > 0.0 else (1.0, 0.0)
+    cosine, sine = second[COS], second[SIN]
+    gap = cosine * (away - second[0]) + sine * (z - second[LOW])
+    along = cosine * (z - second[LOW]) - sine * (away - second[0])
+    nx, ny, nz = -cosine * ex, -cosine * ey, -sine
+    # the normals of the rim
+    axial = nx * ax + ny * ay + nz * az
+    radial = (nx * ox + ny * oy + nz * oz) / radius if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
+    astray = astray_of_rim(first, up, radial, axial, first[SIDE] == 0.0)
+    over = max(-along, along - second[SIDE])
+    if first[SWEEP] + second[SWEEP] > 0.0:
+        # as far as the other rim takes over, along which the lowest point may go much farther
+        over -= _BEYOND * size
+    past = past_border(gap, over, astray, size)
+    if not found or (steep and half < 0.0):
+        past, over = max(past, size), size
+    # deep in the body a cap is nearer
+    past = max(past, -gap - 0.5 * second[0])
+    wx, wy, wz = forth(axes, nx, ny, nz)
+    px, py, pz = forth(axes, x, y, z)
+    ux, uy, uz = forth(axes, ox, oy, oz)
+    overlap = 0.0
+    if past > 0.0 and over <= 0.0:
+        point = (kx + px, ky + py, kz + pz)
+        overlap = overlap_of(own, first, other, second, gap, size, point, (wx, wy, wz))
+    write_two(a, out, swap, first, second, gap, past, wx, wy, wz, kx + px, ky + py, kz + pz, overlap)
+    write_side(out, swap, first, part, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
+    away = max(away - gap * cosine, 0.0)
+    write_side(out, 1.0 - swap, second, FLANK, axes[2], axes[5], axes[8], px, py, pz, -wx, -wy, -wz, away)
+
+
+@final
+@dataclass(frozen=True)
+class RimFlank(ContactKinematics):
+    """Where one half of a rim, or the apex, of one body touches the side of the other.
+
+    A side that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.
+
+    Attributes
+    ----------
+    swap : bool
+        Whether the rim belongs to the second body.
+    first : tuple of float
+        The body with the rim (:func:`bodies.shapes.frustum.frustum_numbers`).
+    rim : int
+        1 for the lower rim, 3 for the upper one or the apex.
+    half : float
+        1 for the half of the rim to which the other body's axis points, -1 for the other.
+    second : tuple of float
+        The body with the side.
+    size : float
+        Size of the bodies [m].
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Frustum)
+
+    swap: bool
+    first: Numbers
+    rim: int
+    half: float
+    second: Numbers
+    size: float
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of all rims of either with the side of the other, and of the apices of sharp ones."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, Frustum)
+        size = 2.0 * max(first.extent, second.extent)
+        one, two = first.frustum, second.frustum
+        pointed = one[SWEEP] + two[SWEEP] == 0.0
+        return *cls._of(one, two, size, False, pointed), *cls._of(two, one, size, True, pointed)
+
+    @classmethod
+    def _of(cls, own: Numbers, other: Numbers, size: float, swap: bool, pointed: bool) -> tuple[RimFlank, ...]:
+        if other[SIDE] == 0.0:
+            return ()
+        rims = [(LOW_RIM, 1.0), (LOW_RIM, -1.0)]
+        if own[SIDE] > 0.0:
+            rims += [(HIGH_RIM, 1.0), (HIGH_RIM, -1.0)] if own[1] > 0.0 else [(HIGH_RIM, 1.0)] * pointed
+        return tuple(cls(swap, own, rim, half, other, size) for rim, half in rims)
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {
+            "swap": float(self.swap),
+            "first": self.first,
+            "rim": float(self.rim),
+            "half": self.half,
+            "second": self.second,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's method for one angle, between bounds."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        rim = f"rim {self.rim // 2}"
+        return (f"side and {rim}" if self.swap else f"{rim} and side",)

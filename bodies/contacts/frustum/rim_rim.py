@@ -1,0 +1,325 @@
+"""The rims of two frustums across each other.
+
+The way from a point of one circle to the nearest point of the other is across the second circle; where it is across the
+first as well, the two are nearest.  Such points are found by looking at points of the first circle, and then by
+Newton's method between bounds.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.polytope_tables import Numbers
+from bodies.contacts.features.vertex_face import REACH
+from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, center_in_world, nearest_part
+from bodies.contacts.frustum.frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
+from bodies.contacts.smooth.smooth_core import axes_in_world, back, forth
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+_PARALLEL = 0.01
+"""Sine of the angle between tangents below which rims do not cross; then each holds over the other's side and cap."""
+_BOTH = 1e-9
+"""Angle round the rim, from the line of centres, within which both halves see the same crossing [rad]."""
+_ASIDE = 0.01
+"""Part of the reach by which the normal of two rims at a distance is beyond those of a side, at the least."""
+_LEAN = 0.02
+"""Sine of the angle by which the normal may leave those of the rims where they overlap."""
+_BESIDE, _NARROWINGS = 20.0, 40
+"""So many depths beside a crossing rims enter the other body at the farthest; steps of the search for the place."""
+_SAMPLES, _LEVELS, _STEPS = 16, 3, 60
+
+
+@compiled
+def _slope(
+    wide: float,
+    radius: float,
+    cx: float,
+    cy: float,
+    cz: float,
+    gx: float,
+    gy: float,
+    gz: float,
+    hx: float,
+    hy: float,
+    hz: float,
+    angle: float,
+) -> tuple[float, float, float]:
+    """Return the square of the distance from c + radius (g cos + h sin) to a circle about the third axis, and slopes.
+
+    They are half of its derivative by the angle, over the radius, and the derivative of that.
+    """
+    c, s = math.cos(angle), math.sin(angle)
+    ux, uy, uz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
+    tx, ty, tz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
+    x, y, z = cx + radius * ux, cy + radius * uy, cz + radius * uz
+    away = max(math.sqrt(x * x + y * y), 1e-300)
+    square = (away - wide) * (away - wide) + z * z
+    part = 1.0 - wide / away
+    around = x * tx + y * ty
+    slope = part * around + z * tz
+    bend = part * (radius * (tx * tx + ty * ty) - x * ux - y * uy) + radius * tz * tz - z * uz
+    return square, slope, bend + wide / (away * away * away) * radius * around * around
+
+
+@compiled
+def _linked(
+    wide: float,
+    radius: float,
+    cx: float,
+    cy: float,
+    cz: float,
+    gx: float,
+    gy: float,
+    gz: float,
+    hx: float,
+    hy: float,
+    hz: float,
+) -> bool:
+    """Whether one of the points where the first circle comes through the plane of the second lies in the latter."""
+    size = radius * math.sqrt(gz * gz + hz * hz)
+    if abs(cz) >= size:
+        return False
+    middle, turn = math.atan2(hz, gz), math.acos(-cz / size)
+    within = 0
+    for sign in (-1.0, 1.0):
+        c, s = radius * math.cos(middle + sign * turn), radius * math.sin(middle + sign * turn)
+        x, y = cx + c * gx + s * hx, cy + c * gy + s * hy
+        if x * x + y * y < wide * wide:
+            within += 1
+    return within == 1
+
+
+@compiled
+def _inside(frustum: Floats, radius: float, c: Point, g: Point, h: Point, axis: Point, reach: float) -> float:
+    """Return the least signed distance to a body of the points c + radius (g cos + h sin) of a rim, for small angles.
+
+    All of it is told from the centre of the body; beside a crossing the distance has one minimum.
+    """
+    least, most, found = -reach, reach, 1e300
+    for _ in range(_NARROWINGS):
+        middle = 0.5 * (least + most)
+        for angle in (middle - 0.1 * (most - least), middle + 0.1 * (most - least)):
+            cos, sin = radius * math.cos(angle), radius * math.sin(angle)
+            x, y, z = c[0] + cos * g[0] + sin * h[0], c[1] + cos * g[1] + sin * h[1], c[2] + cos * g[2] + sin * h[2]
+            along = x * axis[0] + y * axis[1] + z * axis[2]
+            away = math.sqrt(max(x * x + y * y + z * z - along * along, 0.0))
+            outside, _, _, _ = nearest_part(frustum, along, away)
+            if angle < middle:
+                before = outside
+            found = min(found, outside)
+        if before < outside:
+            most = middle + 0.1 * (most - least)
+        else:
+            least = middle - 0.1 * (most - least)
+    return found
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    first: Floats,
+    rim_a: float,
+    second: Floats,
+    rim_b: float,
+    half: float,
+    size: float,
+) -> None:
+    own_axes, axes = axes_in_world(a, first), axes_in_world(b, second)
+    ox, oy, oz = center_in_world(a, first)
+    kx, ky, kz = center_in_world(b, second)
+    up_a, up_b = (1.0 if rim_a > 2.0 else -1.0), (1.0 if rim_b > 2.0 else -1.0)
+    radius, height = (first[1], first[HIGH]) if rim_a > 2.0 else (first[0], first[LOW])
+    wide, level = (second[1], second[HIGH]) if rim_b > 2.0 else (second[0], second[LOW])
+    # the first rim's centre and axis, from the second's, in the axes of the second body
+    cx, cy, cz = back(axes, ox - kx, oy - ky, oz - kz)
+    ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
+    cx, cy, cz = cx + height * ax, cy + height * ay, cz + height * az - level
+    # g in the plane of the first rim towards the other's centre, h across
+    along = cx * ax + cy * ay + cz * az
+    gx, gy, gz = along * ax - cx, along * ay - cy, along * az - cz
+    length = math.sqrt(gx * gx + gy * gy + gz * gz)
+    if length <= 1e-12 * size:
+        gx, gy, gz = back(axes, own_axes[0], own_axes[3], own_axes[6])
+        length = 1.0
+    gx, gy, gz = gx / length, gy / length, gz / length
+    hx, hy, hz = half * (ay * gz - az * gy), half * (az * gx - ax * gz), half * (ax * gy - ay * gx)
+    low, high = -_BOTH, math.pi + _BOTH
+    begin, step, angle = low, (high - low) / _SAMPLES, low
+    for _ in range(_LEVELS):
+        best, curved, chosen = 1e300, 0.0, 0
+        for i in range(_SAMPLES + 1):
+            square, _, bend = _slope(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz, begin + i * step)
+            if square < best:
+                best, curved, chosen = square, bend, i
+        angle = begin + chosen * step
+        if curved > 0.0 or low + 0.5 * step < angle < high - 0.5 * step:
+            break
+        # circles that cross next to the line of centres are farthest on it
+        begin = low if angle < 1.0 else high - step
+        step /= _SAMPLES
+    least, most = angle - step, angle + step
+    for _ in range(_STEPS):
+        _, slope, bend = _slope(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz, angle)
+        if slope > 0.0:
+            most = angle
+        else:
+            least = angle
+        after = angle - slope / bend if bend > 0.0 else 1e300
+        if after < least or after > most:
+            after = 0.5 * (least + most)
+        if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):
+            break
+        angle = after
+    c, s = math.cos(angle), math.sin(angle)
+    ux, uy, uz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
+    tx, ty, tz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
+    x, y, z = cx + radius * ux, cy + radius * uy, cz + radius * uz
+    away = math.sqrt(x * x + y * y)
+    ex, ey = (x / away, y / away) if away > 0.0 else (1.0, 0.0)
+    wx, wy, wz = wide * ex - x, wide * ey - y, -z
+    # across both tangents; that of the second is (-ey, ex, 0)
+    nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
+    crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
+    total = first[SWEEP] + second[SWEEP]
+    apart = math.sqrt(wx * wx + wy * wy + wz * wz)
+    if total > 0.0 and apart > 1e-9 * size:
+        # cores apart touch where tangents are parallel, too
+        nx, ny, nz, crossing = wx / apart, wy / apart, wz / apart, 1.0
+    elif crossing > 1e-6:
+        nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
+    else:
+        nx, ny, nz = ux, uy, uz
+    astray, flip = 3.0, 1.0
+    for sign in (-1.0, 1.0):
+        if total > 0.0 and sign * (nx * wx + ny * wy + nz * wz) < 0.0:
+            continue
+        radial, axial = sign * (nx * ux + ny * uy + nz * uz), sign * (nx * ax + ny * ay + nz * az)
+        off = astray_of_rim(first, up_a, radial, axial, first[SIDE] == 0.0)
+        radial = -sign * (nx * ex + ny * ey)
+        off = max(off, astray_of_rim(second, up_b, radial, -sign * nz, second[SIDE] == 0.0))
+        if off < astray:
+            astray, flip = off, sign
+    nx, ny, nz = flip * nx, flip * ny, flip * nz
+    gap = nx * wx + ny * wy + nz * wz
+    past = max(past_border(gap, -size, astray, size), size * (_PARALLEL - crossing))
+    if total > 0.0:
+        # along sides it is the rims over the other's side that hold
+        lean = size
+        if first[SIDE] > 0.0:
+            radial, axial = nx * ux + ny * uy + nz * uz, nx * ax + ny * ay + nz * az
+            lean = up_a * (first[COS] * axial - first[SIN] * radial)
+        if second[SIDE] > 0.0:
+            lean = min(lean, -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)))
+        past = max(past, _ASIDE * REACH * size - apart * lean)
+    # no minimum within the half, or one that was not found
+    none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= 1e-6
+    if none:
+        past = max(past, size)
+    if gap < 0.0:
+        outside = size
+        # the first rim's centre over the second body's, and the second's over the first's, each in axes of the body
+        if second[SIDE] > 0.0:
+            outside, _, _, _ = nearest_part(second, z + level, away)
+        dx, dy, dz = height * ax - cx, height * ay - cy, height * az - cz
+        if first[SIDE] > 0.0:
+            qx, qy, qz = x + wx + dx, y + wy + dy, z + wz + dz
+            along = qx * ax + qy * ay + qz * az
+            far = math.sqrt(max(qx * qx + qy * qy + qz * qz - along * along, 0.0))
+            other, _, _, _ = nearest_part(first, along, far)
+            outside = min(outside, other)
+        if REACH * size < outside < size and outside + 0.9 * gap <= REACH * size:
+            # sharp bodies overlap beside the crossing, if they do
+            reach = min(0.5, _BESIDE * -gap / (crossing * min(radius, wide)))
+            outside = size
+            if second[SIDE] > 0.0:
+                outside = _inside(
+                    second, radius, (cx, cy, cz + level), (ux, uy, uz), (tx, ty, tz), (0.0, 0.0, 1.0), reach
+                )
+            if first[SIDE] > 0.0:
+                other = _inside(first, wide, (dx, dy, dz), (ex, ey, 0.0), (-ey, ex, 0.0), (ax, ay, az), reach)
+                outside = min(outside, other)
+        if first[SIDE] == 0.0 and second[SIDE] == 0.0 and _linked(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz):
+            outside = gap
+        # bodies that overlap next to the crossing have the normal among those of both rims
+        past = max(past, outside - REACH * size, size * (astray - _LEAN))
+    # deep in each other the rims are not what touches
+    past = max(past, -gap - 0.25 * min(radius, wide))
+    wx, wy, wz = forth(axes, nx, ny, nz)
+    px, py, pz = forth(axes, x, y, z + level)
+    ux, uy, uz = forth(axes, ux, uy, uz)
+    vx, vy, vz = forth(axes, ex, ey, 0.0)
+    px, py, pz = kx + px, ky + py, kz + pz
+    overlap = 0.0
+    if past > 0.0 and not none:
+        overlap = overlap_of(a, first, b, second, gap, size, (px, py, pz), (wx, wy, wz))
+    write_two(a, out, 0.0, first, second, gap, past, wx, wy, wz, px, py, pz, overlap)
+    write_side(out, 0.0, first, LOW_RIM, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
+    write_side(out, 1.0, second, LOW_RIM, axes[2], axes[5], axes[8], vx, vy, vz, -wx, -wy, -wz, wide)
+
+
+@final
+@dataclass(frozen=True)
+class RimRim(ContactKinematics):
+    """Where the rims of two bodies cross, on one side of the line of their centres.
+
+    Attributes
+    ----------
+    first, second : tuple of float
+        The bodies (:func:`bodies.shapes.frustum.frustum_numbers`).
+    rim_a, rim_b : int
+        1 for the lower rim, 3 for the upper one.
+    half : float
+        1 or -1, for either side.
+    size : float
+        Size of the bodies [m].
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Frustum)
+
+    first: Numbers
+    rim_a: int
+    second: Numbers
+    rim_b: int
+    half: float
+    size: float
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of all rims of the one with all rims of the other; an apex is none."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, Frustum)
+        one, two = first.frustum, second.frustum
+        rims = [
+            [LOW_RIM, HIGH_RIM] if numbers[SIDE] > 0.0 and numbers[1] > 0.0 else [LOW_RIM] for numbers in (one, two)
+        ]
+        size = 2.0 * max(first.extent, second.extent)
+        return tuple(cls(one, i, two, j, half, size) for i in rims[0] for j in rims[1] for half in (1.0, -1.0))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {
+            "first": self.first,
+            "rim_a": float(self.rim_a),
+            "second": self.second,
+            "rim_b": float(self.rim_b),
+            "half": self.half,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's method for one angle, between bounds."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return (f"rim {self.rim_a // 2} and rim {self.rim_b // 2}",)

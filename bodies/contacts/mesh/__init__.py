@@ -1,0 +1,1 @@
+"""Contacts with meshes, and the search for features of theirs that come near."""

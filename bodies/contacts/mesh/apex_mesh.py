@@ -1,0 +1,139 @@
+"""The apex of a rounded cone, a sphere, against a triangle mesh, convex or not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.blocks import put
+from bodies.contacts.features.curvature import write_round
+from bodies.contacts.features.frames import vector_in_body
+from bodies.contacts.features.swept_vertex import END, NEAR, OPEN
+from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.frustum.apex_swept import past_apex
+from bodies.contacts.frustum.frustum import axis_in_world, center_in_world
+from bodies.contacts.surface.surface_feature import out_of_surface, write_feature
+from bodies.contacts.surface.surface_search import FAR, ON_CORNER, ON_EDGE, Found, nearest_in_patch
+from bodies.contacts.surface.surface_tables import EDGE, EDGES, N_PATCHES, Numbers, surface_numbers
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_ball
+from bodies.shapes.frustum import HIGH, SIDE, SWEEP, Frustum
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Table, Value
+from nonsmooth.types import Floats
+
+
+@compiled
+def _within(surface: Floats, found: Found) -> float:
+    """Return how far the point that was found is from the nearer end of its edge [m]: 0 at a corner."""
+    _, _, kind, number, x, y, z = found
+    if kind == ON_CORNER:
+        return 0.0
+    if kind != ON_EDGE:
+        return math.inf
+    e = int(surface[EDGES]) + EDGE * number
+    x, y, z = x - surface[e], y - surface[e + 1], z - surface[e + 2]
+    along = x * surface[e + 3] + y * surface[e + 4] + z * surface[e + 5]
+    return float(min(along, surface[e + 6] - along))
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats, patch: float, size: float) -> None:
+    write_apex(a, b, out, first, surface, patch, size, FAR)
+
+
+@compiled
+def write_apex(
+    a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats, patch: float, size: float, reach: float
+) -> None:
+    """Write the geometry block of an apex, a sphere, and a patch of the second body, looked for up to a reach [m]."""
+    ax, ay, az = axis_in_world(a, first)
+    px, py, pz = center_in_world(a, first)
+    px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
+    x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+    found = nearest_in_patch(surface, patch, x, y, z, reach)
+    # the patch of a surface that has one only does not end
+    past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
+    nx, ny, nz = out_of_surface(b, surface, found, past, x, y, z)
+    radius = first[SWEEP]
+    gap = found[0] - radius
+    beyond = past_apex(first, found[0], -nx * ax - ny * ay - nz * az, size)
+    past = max(past, min(beyond, -END * size) if gap > NEAR * size else beyond)
+    # a corner has a contact of its own
+    shared = END * size - _within(surface, found)
+    past = max(past, shared)
+    if past > 0.0:
+        # so small a way past the end is written large, that nobody takes the open contact for one that touches
+        gap = math.hypot(max(gap, 0.0), max(past, OPEN * shared))
+    put(out, NORMAL, -nx, -ny, -nz)
+    put(out, POINT_A, px - radius * nx, py - radius * ny, pz - radius * nz)
+    out[GAP], out[PAST_END] = gap, past
+    for i in range(3):
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
+    write_tangent(a, out)
+    write_round(out, SIDE_A, radius)
+    write_feature(b, out, SIDE_B, surface, found[2], found[3])
+
+
+@final
+@dataclass(frozen=True)
+class ApexMesh(ContactKinematics):
+    """The round apex of a cone against the nearest face or edge of one patch; a corner has a contact of its own.
+
+    Attributes
+    ----------
+    first : tuple of float
+        The cone (:func:`bodies.shapes.frustum.frustum_numbers`).
+    surface : Table
+        The surface (:mod:`bodies.contacts.surface.surface_tables`).
+    patch : int
+        Number of the patch.
+    size : float
+        Size of the larger body [m].
+    counts : tuple of int
+        Numbers of faces, convex edges and corners.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
+
+    first: Numbers
+    surface: Table
+    patch: int
+    size: float
+    counts: tuple[int, int, int]
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ApexMesh, ...]:
+        """Return the contacts of a cone; others have no apex."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, TriangleMesh)
+        return cls.of_patches(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
+
+    @classmethod
+    def of_patches(cls, first: Numbers, second: Features, size: float) -> tuple[ApexMesh, ...]:
+        """Return the same."""
+        if first[SIDE] == 0.0 or first[1] > 0.0:
+            return ()
+        patches = patches_for_ball(second, first[SWEEP])
+        surface = surface_numbers(second, patches)
+        counts = len(second.planes), len(second.edges), len(second.corners)
+        return tuple(cls(first, surface, patch, size, counts) for patch in range(patches.count))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        return {"first": self.first, "surface": self.surface, "patch": float(self.patch), "size": self.size}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces, convex edges and corners by number; the last never closed."""
+        kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
+        return tuple(f"apex and {part} {i}" for part, n in kinds for i in range(n))

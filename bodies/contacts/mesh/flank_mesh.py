@@ -1,0 +1,80 @@
+"""A convex edge of a mesh across the side of a cylinder or a cone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.frustum.flank_edge import FlankEdge, evaluate_flank_edge
+from bodies.contacts.mesh.mesh_crossing import edges_of, judge_crossing
+from bodies.contacts.surface.surface_tables import Numbers
+from bodies.meshes.features import Features
+from bodies.shapes.frustum import SIDE, Frustum
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Table, Value
+from nonsmooth.types import Floats
+
+_cross = compiled(evaluate_flank_edge)
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
+    """Write the geometry block of an edge of a surface across the side."""
+    _cross(a, b, out, frustum, edge, 0.0, 0.0, edge, size)
+    judge_crossing(a, b, out, frustum, edge, surface, size)
+
+
+write_flank = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
+
+
+@final
+@dataclass(frozen=True)
+class FlankMesh(ContactKinematics):
+    """Where a convex edge of the second body crosses the side of the first.
+
+    Attributes
+    ----------
+    crossing : FlankEdge
+        That of side and edge, seen alone.
+    surface : Table
+        The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
+
+    crossing: FlankEdge
+    surface: Table
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FlankMesh, ...]:
+        """Return the contacts of all convex edges."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, TriangleMesh)
+        return cls.of_edges(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
+
+    @classmethod
+    def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[FlankMesh, ...]:
+        """Return the same; a disc has no side."""
+        if first[SIDE] == 0.0:
+            return ()
+        return tuple(
+            cls(FlankEdge(first, row, 0.0, (), size, name), surface) for row, surface, name in edges_of(second)
+        )
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        own = self.crossing.parameters()
+        return {**{key: own[key] for key in ("frustum", "edge", "size")}, "surface": self.surface}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form of a side and an edge."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return self.crossing.features

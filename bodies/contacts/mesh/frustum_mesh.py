@@ -1,0 +1,171 @@
+"""A cylinder, a cone or a disc and a triangle mesh, convex or not: a rim over a patch, and all other contacts."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
+
+from bodies.contacts.frustum.frustum_swept import FrustumSwept
+from bodies.contacts.mesh.apex_mesh import ApexMesh
+from bodies.contacts.mesh.flank_mesh import FlankMesh
+from bodies.contacts.mesh.frustum_corner import FrustumCorner
+from bodies.contacts.mesh.frustum_pairs import FrustumPairs
+from bodies.contacts.mesh.frustum_parts import apex_of, feet_of, set_back
+from bodies.contacts.mesh.mesh_mesh import are_many
+from bodies.contacts.mesh.rim_mesh import RimMesh
+from bodies.contacts.mesh.surface_rim import rim_in_surface, rim_under, write_rim
+from bodies.contacts.surface.mesh_point import PointMesh
+from bodies.contacts.surface.surface_tables import Numbers, star_of, surface_numbers
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_body
+from bodies.meshes.triangles import Triangles
+from bodies.shapes.cylinder import Cylinder
+from bodies.shapes.frustum import SIDE, SWEEP, Frustum, Point
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Table, Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    radius: float,
+    up: float,
+    x: float,
+    y: float,
+    z: float,
+    surface: Floats,
+    patch: float,
+) -> None:
+    pose = rim_in_surface(a, b, frustum, x, y, z)
+    face, gap, past = rim_under(surface, patch, frustum, radius, up, pose)
+    write_rim(a, b, out, frustum, radius, x, y, z, surface, face, gap, past)
+
+
+@final
+@dataclass(frozen=True)
+class FrustumMesh(ContactKinematics):
+    """The lowest point of a rim over a patch of a mesh.
+
+    The others are feet and apex over the patches, corners of the mesh over caps and side, and its convex edges across
+    the side and the rims.  Which of them is a contact at present is told by what is next to the points alone, so that
+    the mesh need not be convex.  A rounded body touches where its core is the radius away: with the apex as a sphere,
+    and under the corners with its rims and its apex, too.
+
+    Where all these are hundreds, :class:`bodies.contacts.mesh.frustum_pairs.FrustumPairs` are those near each other.
+
+    Attributes
+    ----------
+    frustum : tuple of float
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    radius : float
+        Radius of the rim [m].
+    center : tuple of float
+        Its centre in the body frame [m].
+    up : float
+        1 for the upper rim, else -1.
+    surface : Table
+        The surface (:mod:`bodies.contacts.surface.surface_tables`).
+    patch : int
+        Number of the patch.
+    n_faces : int
+        Number of the faces of the mesh.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
+
+    frustum: Numbers
+    radius: float
+    center: Point
+    up: float
+    surface: Table
+    patch: int
+    n_faces: int
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a cylinder, and a tetrahedron whose faces its rims meet."""
+        corners = ((1.0, 1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.0), (-1.0, -1.0, 1.0))
+        tetrahedron = Triangles(corners, ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)), "of the example")
+        return {"first": Cylinder(0.1, 0.2), "second": TriangleMesh(tetrahedron)}
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the contacts of rims, feet and apex over patches, of corners, and of edges with side and rims."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, TriangleMesh)
+        own, numbers = second.features, set_back(first)
+        sweep, size = first.frustum[SWEEP], max(own.size, 2.0 * first.extent)
+        if are_many(len(own.edges) * _crossings(numbers) + len(own.corners)):
+            return FrustumPairs.between(first, second)
+        rims = tuple(itertools.chain(*(cls._of_rim(first, numbers, i, own) for i in range(len(first.standing_rims)))))
+        feet = PointMesh.of_vertices(feet_of(first), own, sweep)
+        crossings = *FlankMesh.of_edges(numbers, own, size), *RimMesh.of_edges(numbers, own, size)
+        vertices = _rounded_vertices if sweep > 0.0 else _sharp_vertices
+        return *rims, *feet, *vertices(first, numbers, own, size), *crossings
+
+    @classmethod
+    def _of_rim(cls, first: Frustum, numbers: Numbers, number: int, second: Features) -> Iterator[FrustumMesh]:
+        radius, center = first.standing_rims[number]
+        if radius > 0.0:
+            patches = patches_for_body(second, 2.0 * (radius + numbers[SWEEP]))
+            surface = surface_numbers(second, patches)
+            # others have edges or corners only
+            for patch in sorted(set(patches.of_faces)):
+                yield cls(numbers, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        x, y, z = self.center
+        return {
+            "frustum": self.frustum,
+            "radius": self.radius,
+            "up": self.up,
+            "x": x,
+            "y": y,
+            "z": z,
+            "surface": self.surface,
+            "patch": float(self.patch),
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces."""
+        rim = "rim" if self.up < 0.0 else "upper rim"
+        return tuple(f"{rim} and face {i}" for i in range(self.n_faces))
+
+
+def _sharp_vertices(
+    first: Frustum, numbers: Numbers, second: Features, size: float
+) -> tuple[PointMesh | FrustumCorner, ...]:
+    """Return the contacts of the apex, a point, and of the corners of the second body."""
+    return *PointMesh.of_vertices(apex_of(first), second, 0.0), *FrustumCorner.of_corners(numbers, second, size)
+
+
+def _rounded_vertices(
+    _: Frustum, numbers: Numbers, second: Features, size: float
+) -> tuple[ApexMesh | FrustumSwept, ...]:
+    """Return the contacts of the apex, a sphere, and of the corners of the second body."""
+    places = second.vertices[list(second.corners)].tolist()
+    corners = (
+        FrustumSwept(numbers, 0.0, (x, y, z), tuple(star_of(second, i)), size, f"corner {i}")
+        for i, (x, y, z) in enumerate(places)
+    )
+    return *ApexMesh.of_patches(numbers, second, size), *corners
+
+
+def _crossings(numbers: Numbers) -> int:
+    """Return how many contacts an edge has with the side and the halves of the rims."""
+    if numbers[SIDE] == 0.0:
+        return 2
+    return 5 if numbers[1] > 0.0 else 3

@@ -1,0 +1,263 @@
+"""Which faces, edges and corners of a surface are near a cylinder, a cone or a disc, and may touch it."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from bodies.contacts.features.across import across
+from bodies.contacts.features.frames import vector_in_body
+from bodies.contacts.features.vertex_face import DEEP
+from bodies.contacts.frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
+from bodies.contacts.frustum.frustum_writing import astray_of_rim
+from bodies.contacts.mesh.frustum_corner import over_part
+from bodies.contacts.mesh.surface_rim import lowest_on_rim
+from bodies.contacts.mesh.swept_near import steepest
+from bodies.contacts.surface.surface_search import in_triangle
+from bodies.contacts.surface.surface_tables import CORNER, CORNERS, FACE, FACES
+from bodies.contacts.surface.surface_vertex import ASTRAY
+from bodies.shapes.frustum import LOW, SIDE, SIN, SWEEP
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.types import Floats
+
+FrustumPose: TypeAlias = tuple[float, float, float, float, float, float]
+"""Centre [m] and axis of a frustum in the axes of a surface."""
+_HALVINGS = 40
+_PIECES = 16
+"""Parts of an edge, at most, of which each is held against a rim."""
+_SHARP = 1e-3
+"""Sine by which normals that meet may leave each other because of round-off."""
+
+
+@compiled
+def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
+    """Return where the frustum of the first body is, in the axes of the second."""
+    ax, ay, az = axis_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    ax, ay, az = vector_in_body(b, ax, ay, az)
+    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
+    return cx, cy, cz, ax, ay, az
+
+
+@compiled
+def from_core(frustum: Floats, pose: FrustumPose, x: float, y: float, z: float) -> float:
+    """Return the signed distance of a point from the core [m]."""
+    cx, cy, cz, ax, ay, az = pose
+    along, away, _, _, _ = across(x - cx, y - cy, z - cz, ax, ay, az)
+    return float(nearest_part(frustum, along, away)[0])
+
+
+@compiled
+def _from_rim(frustum: Floats, upper: int, pose: FrustumPose, x: float, y: float, z: float) -> float:
+    """Return the distance of a point from the lower or the upper rim [m]."""
+    cx, cy, cz, ax, ay, az = pose
+    along, away, _, _, _ = across(x - cx, y - cy, z - cz, ax, ay, az)
+    return math.hypot(along - frustum[LOW + upper], away - frustum[upper])
+
+
+@compiled
+def _swing(radial: float, turn: float) -> float:
+    """Return how far the lowest point of a rim may go, in its radii, as a normal with a radial part turns."""
+    return 2.0 if turn >= radial else min(2.0, 0.5 * math.pi * turn / radial)
+
+
+@compiled
+def _lowest(
+    frustum: Floats, upper: int, pose: FrustumPose, nx: float, ny: float, nz: float
+) -> tuple[float, float, float, float, float]:
+    """Return the point of a rim that is farthest along a normal, the latter's part across the axis, and its astray."""
+    cx, cy, cz, ax, ay, az = pose
+    axial, radial, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, 1.0, 0.0, 0.0)
+    height, radius = frustum[LOW + upper], frustum[upper]
+    astray = astray_of_rim(frustum, 2.0 * upper - 1.0, radial, axial, frustum[SIDE] == 0.0)
+    x, y, z = cx + height * ax + radius * ex, cy + height * ay + radius * ey, cz + height * az + radius * ez
+    return x, y, z, radial, astray
+
+
+@compiled
+def rim_is_near(
+    surface: Floats, triangle: int, frustum: Floats, upper: int, pose: FrustumPose, reach: float, turn: float
+) -> bool:
+    """Return whether the lowest point of a rim over a triangle may touch it after a small move and turn.
+
+    Parameters
+    ----------
+    surface, triangle : Floats, int
+        The surface, and where the numbers of the triangle stand.
+    frustum, upper, pose : Floats, int, tuple
+        The frustum, 1 for its upper rim, else 0, and where it is.
+    reach, turn : float
+        Distance from the core [m] and angle.
+    """
+    t, f = triangle, int(surface[FACES]) + FACE * int(surface[triangle + 9])
+    x, y, z, radial, astray = _lowest(frustum, upper, pose, -surface[f], -surface[f + 1], -surface[f + 2])
+    if astray > ASTRAY + turn:
+        return False
+    px = (surface[t] + surface[t + 3] + surface[t + 6]) / 3.0
+    py = (surface[t + 1] + surface[t + 4] + surface[t + 7]) / 3.0
+    pz = (surface[t + 2] + surface[t + 5] + surface[t + 8]) / 3.0
+    wide = 0.0
+    for i in range(3):
+        dx, dy, dz = surface[t + 3 * i] - px, surface[t + 3 * i + 1] - py, surface[t + 3 * i + 2] - pz
+        wide = max(wide, math.sqrt(dx * dx + dy * dy + dz * dz))
+    if _from_rim(frustum, upper, pose, px, py, pz) > reach + wide:
+        return False
+    px, py, pz, _ = in_triangle(surface, t, x, y, z)
+    way = reach + frustum[upper] * _swing(radial, turn)
+    return bool((x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz) <= way * way)
+
+
+@compiled
+def _edge_comes_near(
+    frustum: Floats,
+    pose: FrustumPose,
+    x: float,
+    y: float,
+    z: float,
+    dx: float,
+    dy: float,
+    dz: float,
+    length: float,
+    reach: float,
+) -> bool:
+    """Return whether a part of an edge may be no farther from the core than a reach [m], which may be negative.
+
+    The distance from what is convex is convex along a line.
+    """
+    cx, cy, cz, ax, ay, az = pose
+    low, high = 0.0, length
+    for _ in range(_HALVINGS):
+        s, half = 0.5 * (low + high), 0.5 * (high - low)
+        along, away, ex, ey, ez = across(x + s * dx - cx, y + s * dy - cy, z + s * dz - cz, ax, ay, az)
+        distance, radial, axial, _ = nearest_part(frustum, along, away)
+        if distance <= reach:
+            return True
+        if distance - half > reach:
+            return False
+        slope = radial * (ex * dx + ey * dy + ez * dz) + axial * (ax * dx + ay * dy + az * dz)
+        if slope > 0.0:
+            high = s
+        else:
+            low = s
+    return True
+
+
+@compiled
+def edge_normal(surface: Floats, edge: int) -> tuple[float, float, float, float]:
+    """Return the unit vector against the mean of the outward normals of the faces at an edge, and half their angle."""
+    dx, dy, dz = surface[edge + 3], surface[edge + 4], surface[edge + 5]
+    ux, uy, uz = surface[edge + 7], surface[edge + 8], surface[edge + 9]
+    vx, vy, vz = surface[edge + 10], surface[edge + 11], surface[edge + 12]
+    lx, ly, lz = dy * uz - dz * uy, dz * ux - dx * uz, dx * uy - dy * ux
+    rx, ry, rz = vy * dz - vz * dy, vz * dx - vx * dz, vx * dy - vy * dx
+    nx, ny, nz = lx + rx, ly + ry, lz + rz
+    norm = math.sqrt(nx * nx + ny * ny + nz * nz)
+    if norm <= _SHARP:
+        return -lx, -ly, -lz, math.pi
+    return -nx / norm, -ny / norm, -nz / norm, math.acos(min(0.5 * norm, 1.0))
+
+
+@compiled
+def edge_is_near(
+    surface: Floats, edge: int, frustum: Floats, pose: FrustumPose, reach: float, turn: float, size: float
+) -> tuple[bool, bool, bool]:
+    """Return whether an edge may touch the side, the lower rim and the upper one after a small move and turn.
+
+    Arguments as of :func:`rim_is_near`; the numbers of the edge stand at ``edge``.  What goes through the frustum is a
+    sign that the bodies overlap and counts, whatever its normals.
+    """
+    e = edge
+    x, y, z, dx, dy, dz, length = (
+        surface[e],
+        surface[e + 1],
+        surface[e + 2],
+        surface[e + 3],
+        surface[e + 4],
+        surface[e + 5],
+        surface[e + 6],
+    )
+    has_upper = frustum[SIDE] > 0.0 and frustum[1] > 0.0
+    if not _edge_comes_near(frustum, pose, x, y, z, dx, dy, dz, length, reach):
+        return False, False, False
+    deep = 0.0 if frustum[SIDE] == 0.0 else -DEEP * size
+    if _edge_comes_near(frustum, pose, x, y, z, dx, dy, dz, length, deep):
+        return frustum[SIDE] > 0.0, True, has_upper
+    nx, ny, nz, half = edge_normal(surface, e)
+    off = half + turn + _SHARP
+    axial = nx * pose[3] + ny * pose[4] + nz * pose[5]
+    flank = frustum[SIDE] > 0.0 and abs(axial - frustum[SIN]) <= off
+    lower = _rim_crosses(frustum, 0, pose, nx, ny, nz, off, x, y, z, dx, dy, dz, length, reach)
+    upper = has_upper and _rim_crosses(frustum, 1, pose, nx, ny, nz, off, x, y, z, dx, dy, dz, length, reach)
+    return flank, lower, upper
+
+
+@compiled
+def _rim_crosses(
+    frustum: Floats,
+    upper: int,
+    pose: FrustumPose,
+    nx: float,
+    ny: float,
+    nz: float,
+    off: float,
+    x: float,
+    y: float,
+    z: float,
+    dx: float,
+    dy: float,
+    dz: float,
+    length: float,
+    reach: float,
+) -> bool:
+    """Return whether an edge may touch a rim where that is farthest along a normal, which may be off by an angle."""
+    px, py, pz, radial, astray = _lowest(frustum, upper, pose, nx, ny, nz)
+    if astray > off:
+        return False
+    way = reach + frustum[upper] * _swing(radial, off)
+    s = min(max((px - x) * dx + (py - y) * dy + (pz - z) * dz, 0.0), length)
+    px, py, pz = x + s * dx - px, y + s * dy - py, z + s * dz - pz
+    if px * px + py * py + pz * pz > way * way:
+        return False
+    pieces = min(_PIECES, 1 + int(4.0 * length / frustum[upper]))
+    half = 0.5 * length / pieces
+    for i in range(pieces):
+        s = (2 * i + 1) * half
+        if _from_rim(frustum, upper, pose, x + s * dx, y + s * dy, z + s * dz) <= reach + half:
+            return True
+    return False
+
+
+@compiled
+def corner_is_near(
+    surface: Floats, corner: int, frustum: Floats, pose: FrustumPose, reach: float, turn: float, size: float
+) -> bool:
+    """Return whether a corner may touch the frustum after a small move and turn; arguments as of others.
+
+    At a distance from the core what is nearest lies along none of the corner's edges.  The way there changes by no more
+    than the corner moves.
+    """
+    c = int(surface[CORNERS]) + CORNER * corner
+    cx, cy, cz, ax, ay, az = pose
+    along, away, ex, ey, ez = across(surface[c] - cx, surface[c + 1] - cy, surface[c + 2] - cz, ax, ay, az)
+    distance, radial, axial, _ = nearest_part(frustum, along, away)
+    if distance > reach:
+        return False
+    if distance < -DEEP * size:
+        return True
+    if frustum[SWEEP] > 0.0:
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        way = reach - frustum[SWEEP]
+        return bool(distance <= 0.0 or distance * steepest(surface, c, -nx, -ny, -nz) <= way + turn * distance)
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        if (part == FLANK and frustum[SIDE] == 0.0) or (part == HIGH_CAP and frustum[1] == 0.0):
+            continue
+        height, beyond, radial, axial = over_part(frustum, part, along, away)
+        slack = turn
+        if part == FLANK:
+            # the normal goes round the axis with the corner
+            slack += 2.0 if reach >= away else 0.5 * math.pi * reach / away
+        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
+        if abs(height) <= reach and beyond <= reach and steepest(surface, c, -nx, -ny, -nz) <= ASTRAY + slack:
+            return True
+    return False

@@ -1,0 +1,111 @@
+"""What the contacts of a frustum with the edges of a mesh share: whether what seems to overlap does."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from bodies.contacts.features.across import across
+from bodies.contacts.features.frames import vector_in_body
+from bodies.contacts.features.vertex_face import DEEP
+from bodies.contacts.frustum.frustum import center_in_world, nearest_part
+from bodies.contacts.frustum.frustum_edge import edge_in_frustum
+from bodies.contacts.smooth.smooth_core import Axes, axes_in_world
+from bodies.contacts.surface.surface_search import THROUGH, depth_inside
+from bodies.contacts.surface.surface_tables import Numbers, edge_row, surface_numbers
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_body
+from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION
+from nonsmooth.parameters import Table
+from nonsmooth.types import Floats
+
+_ASTRAY = 1e-6
+"""Sine of the angle by which the normal of a closed crossing may leave those of the edge: beyond, a face is nearer."""
+
+
+@compiled
+def _pierced(
+    b: Floats, frustum: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float, size: float
+) -> float:
+    """Return how deep an edge goes through a frustum [m], where it is deepest under the side between the caps, or 0."""
+    x, y, z, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
+    least, low, high = THROUGH * size, 0.0, edge[6]
+    if frustum[SIDE] > 0.0:
+        under, over = frustum[LOW] + 2.0 * least - z, frustum[HIGH] - 2.0 * least - z
+        if abs(dz) > 0.0:
+            low, high = max(low, min(under / dz, over / dz)), min(high, max(under / dz, over / dz))
+        square, slope = dx * dx + dy * dy, dz * frustum[SIN] / frustum[COS]
+        s = 0.5 * edge[6]
+        if square > slope * slope:
+            # where the distance from the axis changes by the slope
+            s = -(x * dx + y * dy) / square
+            nearest = math.hypot(x + s * dx, y + s * dy)
+            s -= slope * nearest / math.sqrt(square * (square - slope * slope))
+        elif slope != 0.0:
+            s = -math.copysign(size, slope)
+        s = min(max(s, low), high)
+        outside, _, _, _ = nearest_part(frustum, z + s * dz, math.hypot(x + s * dx, y + s * dy))
+        return -outside if low <= high and outside < -least else 0.0
+    under = frustum[LOW] - z
+    ends = -under, -under + dz * edge[6]
+    if ends[0] * ends[1] >= 0.0:
+        return 0.0
+    away = math.hypot(x + under / dz * dx, y + under / dz * dy)
+    depth = min(frustum[0] - away, min(abs(ends[0]), abs(ends[1])))
+    return depth if depth > least else 0.0
+
+
+@compiled
+def judge_crossing(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
+) -> None:
+    """Open a crossing, whose block is written, where a face is nearer, or where the bodies do not overlap as it seems.
+
+    A rim that rolls over an edge changes from the face to the edge where its normal becomes one of the edge's.  And
+    where neither point of what overlaps is inside of the other body, they lie on the far sides of each other.  But an
+    edge that goes through the frustum is a sign that they overlap.
+    """
+    x, y, z = vector_in_body(b, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2])
+    astray = max(-x * edge[7] - y * edge[8] - z * edge[9], -x * edge[10] - y * edge[11] - z * edge[12])
+    beyond = size * (astray - _ASTRAY)
+    if out[PAST_END] <= 0.0 < beyond and out[GAP] >= -DEEP * size:
+        apart = math.sqrt(out[GAP] * out[GAP] + beyond * beyond)
+        out[GAP], out[PAST_END] = apart, beyond
+        for i in range(3):
+            out[POINT_B + i] = out[POINT_A + i] + apart * out[NORMAL + i]
+    gap, past = out[GAP], out[PAST_END]
+    axes = axes_in_world(a, frustum)
+    cx, cy, cz = center_in_world(a, frustum)
+    if gap > 0.0:
+        depth = _pierced(b, frustum, edge, axes, cx, cy, cz, size)
+        if depth > 0.0:
+            out[GAP], out[PAST_END] = -depth, max(past, DEEP * size)
+            for i in range(3):
+                out[POINT_B + i] = out[POINT_A + i] - depth * out[NORMAL + i]
+        return
+    if past > 0.0 or gap >= -DEEP * size:
+        return
+    x, y, z = vector_in_body(
+        b, out[POINT_A] - b[POSITION], out[POINT_A + 1] - b[POSITION + 1], out[POINT_A + 2] - b[POSITION + 2]
+    )
+    if depth_inside(surface, x, y, z) > 0.0:
+        return
+    along, away, _, _, _ = across(
+        out[POINT_B] - cx, out[POINT_B + 1] - cy, out[POINT_B + 2] - cz, axes[2], axes[5], axes[8]
+    )
+    outside, _, _, _ = nearest_part(frustum, along, away)
+    if outside < frustum[SWEEP]:
+        return
+    apart = math.sqrt(2.0) * gap
+    out[GAP], out[PAST_END] = -apart, -gap
+    for i in range(3):
+        out[POINT_B + i] = out[POINT_A + i] - apart * out[NORMAL + i]
+
+
+def edges_of(second: Features) -> Iterator[tuple[Numbers, Table, str]]:
+    """Yield row, surface and name of the convex edges of a mesh."""
+    surface = surface_numbers(second, patches_for_body(second, 0.0))
+    for i in range(len(second.edges)):
+        yield edge_row(second, i), surface, f"edge {i}"

@@ -1,0 +1,159 @@
+"""Two surfaces that need not be convex: edges across edges, vertices over faces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import ClassVar, final
+
+from bodies.contacts.surface.mesh_point import MeshPoint, PointMesh
+from bodies.contacts.surface.surface_edges import evaluate_edges
+from bodies.contacts.surface.surface_pairs import SurfacePairs
+from bodies.contacts.surface.surface_tables import Numbers, edge_row, surface_numbers
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_ball, patches_for_body
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Table, Value
+
+MOST_EACH = 500
+"""Pairs of features of two surfaces up to which each of them is a contact of its own."""
+DEPARTURES = MappingProxyType(
+    dict.fromkeys(
+        ("gap rate", "second-order terms"),
+        "two given edges face each other in hardly any random pose; the tests make poses from edges that cross",
+    )
+)
+
+
+@dataclass(frozen=True)
+class MeshEdges:
+    """A convex edge of either body, the second with a radius about it, and their surfaces.
+
+    Attributes
+    ----------
+    edges : tuple
+        The edges (:func:`bodies.contacts.surface.surface_tables.edge_row`).
+    surfaces : tuple of Table
+        The surfaces (:mod:`bodies.contacts.surface.surface_tables`).
+    radius : float
+        Radius about the second edge [m].
+    size : float
+        Size of the larger body [m].
+    names : tuple of str
+        What the edges are called.
+    """
+
+    edges: tuple[Numbers, Numbers]
+    surfaces: tuple[Table, Table]
+    radius: float
+    size: float
+    names: tuple[str, str]
+
+    @classmethod
+    def crossings(
+        cls,
+        first: Features,
+        rows: Sequence[Numbers],
+        names: Sequence[str],
+        surface: Table,
+        radius: float,
+        size: float,
+    ) -> Iterator[MeshEdges]:
+        """Return all pairs of a convex edge of a mesh and an edge of another body."""
+        own = surface_numbers(first, patches_for_body(first, 0.0))
+        for i in range(len(first.edges)):
+            row = edge_row(first, i)
+            for other, name in zip(rows, names, strict=True):
+                yield cls((row, other), (own, surface), radius, size, (f"edge {i}", name))
+
+    def values(self) -> dict[str, Value]:
+        """Return the parameters of the evaluator."""
+        return {
+            "edge_a": self.edges[0],
+            "edge_b": self.edges[1],
+            "surface_a": self.surfaces[0],
+            "surface_b": self.surfaces[1],
+            "radius": self.radius,
+            "size": self.size,
+        }
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return (f"{self.names[0]} and {self.names[1]}",)
+
+
+@final
+@dataclass(frozen=True)
+class MeshMesh(ContactKinematics):
+    """Where a convex edge of a mesh crosses one of another mesh.
+
+    Every corner over each patch of the other's faces and every pair of convex edges is a contact of its own.  Which of
+    them is one at present is told by what is next to the points alone, so that neither body need be convex.  Where they
+    are hundreds, :class:`bodies.contacts.surface.surface_pairs.SurfacePairs` are those near each other.
+
+    Attributes
+    ----------
+    edges : MeshEdges
+        The edges.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, TriangleMesh)
+    departures: ClassVar[Mapping[str, str]] = DEPARTURES
+    edges: MeshEdges
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the pairs of edges, then the corners of the second body, then those of the first."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, TriangleMesh)
+        return sharp_contacts(cls, first.features, second.features, (first.extent, second.extent))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return edges, surfaces and size."""
+        return self.edges.values()
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return evaluate_edges
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return self.edges.features
+
+
+def sharp_contacts(
+    kind: Callable[[MeshEdges], ContactKinematics], one: Features, two: Features, extents: tuple[float, float]
+) -> tuple[ContactKinematics, ...]:
+    """Return the contacts of two surfaces: of edges, and of the corners of the second, then the first.
+
+    Where they are more than :data:`MOST_EACH`, those of the features that are near each other at present.
+
+    Parameters
+    ----------
+    kind : callable
+        What makes a contact of two edges.
+    one, two : Features
+        The surfaces.
+    extents : tuple of float
+        Radii about the frames of the bodies [m].
+    """
+    crossings = len(one.edges) * len(two.edges)
+    patches = (patches_for_ball(features, 0.0).count for features in (two, one))
+    corners = sum(len(own.corners) * count for own, count in zip((one, two), patches, strict=True))
+    if are_many(crossings + corners):
+        return SurfacePairs.of_surfaces(one, two, extents)
+    rows = [edge_row(two, j) for j in range(len(two.edges))]
+    names = [f"edge {j}" for j in range(len(two.edges))]
+    surface = surface_numbers(two, patches_for_body(two, 0.0))
+    edges = MeshEdges.crossings(one, rows, names, surface, 0.0, max(one.size, two.size))
+    return *map(kind, edges), *MeshPoint.of_corners(one, two), *PointMesh.of_corners(one, two)
+
+
+def are_many(contacts: int) -> bool:
+    """Return whether so many contacts of given features are those near each other instead."""
+    return contacts > MOST_EACH

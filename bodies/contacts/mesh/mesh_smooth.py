@@ -1,0 +1,76 @@
+"""A smooth body against a triangle mesh, convex or not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.mesh.mesh_smooth_near import POINT, MeshSmoothNear
+from bodies.contacts.surface.patch_near import are_many
+from bodies.contacts.surface.surface_search import FAR
+from bodies.contacts.surface.surface_smooth import write_surface_smooth
+from bodies.contacts.surface.surface_tables import surface_numbers
+from bodies.meshes.patches import patches_for_body
+from bodies.shapes.smooth import extent
+from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Table, Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, point: Floats) -> None:
+    write_surface_smooth(a, b, out, surface, patch, second, point, FAR)
+
+
+@final
+@dataclass(frozen=True)
+class MeshSmooth(ContactKinematics):
+    """The contact of a smooth body with the nearest face, convex edge or corner of one patch of a mesh.
+
+    Attributes
+    ----------
+    surface : Table
+        The surface (:mod:`bodies.contacts.surface.surface_tables`), in patches for a body of this size.
+    patch : int
+        Number of the patch.
+    second : SmoothShape
+        The smooth body.
+    counts : tuple of int
+        Numbers of faces, convex edges and corners.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SmoothShape)
+    surface: Table
+    patch: int
+    second: SmoothShape
+    counts: tuple[int, int, int]
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return one contact for each patch; of many patches for those near the body."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, SmoothShape)
+        own = first.features
+        patches = patches_for_body(own, 2.0 * extent(second.core))
+        if are_many(patches):
+            return MeshSmoothNear.between(first, second)
+        surface = surface_numbers(own, patches)
+        counts = len(own.planes), len(own.edges), len(own.corners)
+        return tuple(cls(surface, patch, second, counts) for patch in range(patches.count))
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the surface, the patch and the numbers of the support function."""
+        return {"surface": self.surface, "patch": float(self.patch), "second": self.second.core, "point": POINT}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """A search over the features, with Newton's method on the support function."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces, convex edges and corners by number."""
+        kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
+        return tuple(f"{name} {i} and smooth" for name, n in kinds for i in range(n))

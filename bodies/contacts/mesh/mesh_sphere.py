@@ -1,0 +1,130 @@
+"""A sphere against a triangle mesh, convex or not, in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.mesh.mesh_sphere_near import MeshSphereNear
+from bodies.contacts.surface.patch_near import are_many
+from bodies.contacts.surface.surface_ball import write_ball
+from bodies.contacts.surface.surface_search import FAR
+from bodies.contacts.surface.surface_tables import Numbers, surface_numbers
+from bodies.meshes.features import Features
+from bodies.meshes.patches import patches_for_ball
+from bodies.shapes.sphere import Sphere
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Table, Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    surface: Floats,
+    patch: float,
+    radius: float,
+    x_b: float,
+    y_b: float,
+    z_b: float,
+    n_star: float,
+    star: Floats,
+    size: float,
+) -> None:
+    write_ball(a, b, out, surface, patch, radius, x_b, y_b, z_b, n_star, star, size, FAR)
+
+
+@final
+@dataclass(frozen=True)
+class MeshSphere(ContactKinematics):
+    """The contact of a sphere with the nearest face, convex edge or corner of one patch of a mesh.
+
+    The surface is divided into patches of which a sphere of this size touches one feature at a time
+    (:mod:`bodies.meshes.patches`): one of a convex mesh, two or more where it has inner corners.
+
+    Attributes
+    ----------
+    surface : Table
+        The surface (:mod:`bodies.contacts.surface.surface_tables`).
+    patch : int
+        Number of the patch.
+    center : tuple of float
+        Centre of the sphere in its body frame [m].
+    radius : float
+        Its radius [m].
+    star : tuple of float
+        Unit vectors along the edges that leave its centre, if that is a vertex of a body with a radius about it.
+    size : float
+        Size of the larger body [m].
+    counts : tuple of int
+        Numbers of faces, convex edges and corners.
+    name : str
+        What the sphere is called.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
+    surface: Table
+    patch: int
+    center: tuple[float, float, float]
+    radius: float
+    star: Numbers
+    size: float
+    counts: tuple[int, int, int]
+    name: str
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return one contact for each patch; of many patches for those near the sphere."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, Sphere)
+        own = first.features
+        if are_many(patches_for_ball(own, second.radius)):
+            return MeshSphereNear.between(first, second)
+        return cls.of_balls(own, [((second.x, second.y, second.z), (), "sphere")], second.radius, own.size)
+
+    @classmethod
+    def of_balls(
+        cls,
+        first: Features,
+        vertices: Iterable[tuple[tuple[float, float, float], Numbers, str]],
+        radius: float,
+        size: float,
+    ) -> tuple[MeshSphere, ...]:
+        """Return the contacts of balls of one radius [m], each a place, a star and a name, with all patches."""
+        patches = patches_for_ball(first, radius)
+        surface = surface_numbers(first, patches)
+        counts = len(first.planes), len(first.edges), len(first.corners)
+        return tuple(
+            cls(surface, patch, place, radius, star, size, counts, name)
+            for place, star, name in vertices
+            for patch in range(patches.count)
+        )
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the surface, the patch and the sphere."""
+        x, y, z = self.center
+        return {
+            "surface": self.surface,
+            "patch": float(self.patch),
+            "radius": self.radius,
+            "x_b": x,
+            "y_b": y,
+            "z_b": z,
+            "n_star": float(len(self.star) // 3),
+            "star": self.star,
+            "size": self.size,
+        }
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The faces, convex edges and corners by number."""
+        kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
+        return tuple(f"{part} {i} and {self.name}" for part, n in kinds for i in range(n))

@@ -1,0 +1,75 @@
+"""A polyhedron, sharp or rounded, or a capsule against a triangle mesh, convex or not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.polytope_tables import edge_rows
+from bodies.contacts.features.polytope_tables import star_of as star_of_vertex
+from bodies.contacts.features.swept_vertex import SweptVertex
+from bodies.contacts.mesh.mesh_mesh import DEPARTURES, MeshEdges, are_many, sharp_contacts
+from bodies.contacts.mesh.mesh_sphere import MeshSphere
+from bodies.contacts.mesh.swept_pairs import SweptPairs, surface_of_core
+from bodies.contacts.surface.surface_edges import evaluate_edges
+from bodies.contacts.surface.surface_pairs import features_of_core
+from bodies.contacts.surface.surface_tables import star_of
+from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+
+
+@final
+@dataclass(frozen=True)
+class MeshSwept(ContactKinematics):
+    """Where a convex edge of a mesh crosses an edge of a polyhedron, with its radius, or the side of a capsule.
+
+    The others are the vertices of the second body, as spheres over each patch of the mesh, and the corners of the mesh
+    over faces, edges and vertices of the second body; of a sharp one, as of two meshes (:class:`bodies.MeshMesh`).
+    Where they are hundreds, :class:`bodies.contacts.mesh.swept_pairs.SweptPairs` are those near each other.
+
+    Attributes
+    ----------
+    edges : MeshEdges
+        The edges.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SweptPolytope)
+    departures: ClassVar[Mapping[str, str]] = DEPARTURES
+    edges: MeshEdges
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the pairs of edges, then the vertices of the second body, then the corners of the first."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, SweptPolytope)
+        own, core = first.features, second.core
+        if second.sweep == 0.0:
+            return sharp_contacts(cls, own, features_of_core(core), (first.extent, second.extent))
+        size = max(own.size, core.size + 2.0 * second.sweep)
+        if are_many(len(own.edges) * len(core.edges) + len(own.corners)):
+            return SweptPairs.between(first, second)
+        own_star = [(place, star_of_vertex(core, i), f"vertex {i}") for i, place in enumerate(core.vertices)]
+        balls = MeshSphere.of_balls(own, own_star, second.sweep, size)
+        tips = own.vertices[list(own.corners)].tolist()
+        stars = [((x, y, z), tuple(star_of(own, i)), f"corner {i}") for i, (x, y, z) in enumerate(tips)]
+        corners = SweptVertex.over(second, stars, 0.0, size, True)
+        names = [f"edge {j}" for j in range(len(core.edges))] if core.faces else ["side"]
+        crossings = MeshEdges.crossings(own, edge_rows(core), names, surface_of_core(core), second.sweep, size)
+        return *(cls(pair) for pair in crossings), *balls, *corners
+
+    def parameters(self) -> dict[str, Value]:
+        """Return edges, surfaces, radius and size."""
+        return self.edges.values()
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return evaluate_edges
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return self.edges.features

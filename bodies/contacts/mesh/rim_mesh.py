@@ -1,0 +1,90 @@
+"""A convex edge of a mesh across a rim of a cylinder, a cone or a disc."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.frustum.rim_edge import RimEdge, evaluate_rim_edge
+from bodies.contacts.mesh.mesh_crossing import edges_of, judge_crossing
+from bodies.contacts.surface.surface_tables import Numbers
+from bodies.meshes.features import Features
+from bodies.shapes.frustum import Frustum
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.compiled import compiled
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Table, Value
+from nonsmooth.types import Floats
+
+_cross = compiled(evaluate_rim_edge)
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    rim: float,
+    half: float,
+    edge: Floats,
+    surface: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of an edge of a surface across one half of a rim."""
+    _cross(a, b, out, frustum, rim, half, edge, 0.0, 0.0, edge, size)
+    judge_crossing(a, b, out, frustum, edge, surface, size)
+
+
+write_half_rim = compiled(_evaluate)
+"""The same, for evaluators that call it among others."""
+
+
+@final
+@dataclass(frozen=True)
+class RimMesh(ContactKinematics):
+    """Where a convex edge of the second body crosses one half of a rim of the first.
+
+    Attributes
+    ----------
+    crossing : RimEdge
+        That of rim and edge, seen alone.
+    surface : Table
+        The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
+
+    crossing: RimEdge
+    surface: Table
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[RimMesh, ...]:
+        """Return the contacts of all rims and convex edges."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, TriangleMesh)
+        return cls.of_edges(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
+
+    @classmethod
+    def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[RimMesh, ...]:
+        """Return the same."""
+        return tuple(
+            cls(crossing, surface)
+            for row, surface, name in edges_of(second)
+            for crossing in RimEdge.of_rims(first, row, 0.0, (), size, name)
+        )
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the numbers of both."""
+        own = self.crossing.parameters()
+        return {**{key: own[key] for key in ("frustum", "rim", "half", "edge", "size")}, "surface": self.surface}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's method for one angle, that of a rim and an edge."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return self.crossing.features

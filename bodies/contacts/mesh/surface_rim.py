@@ -1,0 +1,232 @@
+"""A rim of a cylinder, a cone or a disc against a patch of the surface of another body, which need not be convex."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from bodies.blocks import put
+from bodies.contacts.features.across import across
+from bodies.contacts.features.curvature import write_flat, write_principal, write_sweep
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.features.offset import gap_at_distance
+from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.vertex_face import REACH
+from bodies.contacts.frustum.frustum import axis_in_world
+from bodies.contacts.frustum.frustum_writing import astray_of_rim
+from bodies.contacts.plane.plane_rim import FLATTEST
+from bodies.contacts.surface.surface_search import box_square, face_height, has_patch, pierced
+from bodies.contacts.surface.surface_tables import (
+    FACE,
+    FACES,
+    MEMBERS,
+    N_NODES,
+    N_TRIANGLES,
+    NODE,
+    NODES,
+    SIZE,
+    TRIANGLE,
+    TRIANGLES,
+)
+from bodies.contacts.surface.surface_vertex import ASTRAY, over_face, touched_face
+from bodies.shapes.frustum import AXIS, HIGH, LOW, SIDE, SWEEP
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.types import Floats
+
+_FLAT = 1e-12
+"""Sine of the angle between rim and face below which the lowest point of the rim is round-off."""
+RimPose: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
+"""Centre of a rim [m], its axis, and the direction across it that counts for a face along it."""
+
+
+@compiled
+def lowest_on_rim(
+    nx: float, ny: float, nz: float, ax: float, ay: float, az: float, fx: float, fy: float, fz: float
+) -> tuple[float, float, float, float, float]:
+    """Return the parts along and across the axis a of a normal, and its direction across: f where it has none."""
+    axial, radial, ex, ey, ez = across(nx, ny, nz, ax, ay, az)
+    if radial < _FLAT:
+        return axial, radial, fx, fy, fz
+    return axial, radial, ex, ey, ez
+
+
+@compiled
+def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z: float) -> RimPose:
+    """Return where the rim about a point of the first body is, in the axes of the second."""
+    ax, ay, az = axis_in_world(a, frustum)
+    fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
+    cx, cy, cz = point_in_world(a, x, y, z)
+    ax, ay, az = vector_in_body(b, ax, ay, az)
+    fx, fy, fz = vector_in_body(b, fx, fy, fz)
+    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
+    return cx, cy, cz, ax, ay, az, fx, fy, fz
+
+
+@compiled
+def _gap_beyond(
+    surface: Floats, frustum: Floats, radius: float, up: float, pose: RimPose, gap: float, x: float, y: float, z: float
+) -> float:
+    """Return a gap, or a negative one where the body goes through the surface next to a point of its rim."""
+    cx, cy, cz, ax, ay, az, _, _, _ = pose
+    # to the other side of the core, or of the disc
+    onward, far = up * (frustum[LOW] - frustum[HIGH]), frustum[0] + frustum[1] - radius
+    ex, ey, ez = (cx - x) / radius, (cy - y) / radius, (cz - z) / radius
+    ex, ey, ez = cx + onward * ax + far * ex, cy + onward * ay + far * ey, cz + onward * az + far * ez
+    depth = pierced(surface, x, y, z, ex, ey, ez)
+    return -depth if depth > 0.0 else gap
+
+
+@compiled
+def rim_under(
+    surface: Floats,
+    patch: float,
+    frustum: Floats,
+    radius: float,
+    up: float,
+    pose: RimPose,
+) -> tuple[int, float, float]:
+    """Return face, gap and way past the end of a rim against a patch of a surface, as of a vertex.
+
+    Over every face it is another point of the rim that counts, the lowest.  Past the end a body that goes through the
+    surface has a negative gap.
+
+    Parameters
+    ----------
+    surface, patch : Floats, float
+        The surface, and the number of the patch.
+    frustum : Floats
+        The body with the rim.
+    radius : float
+        Of the rim [m].
+    up : float
+        1 for the upper rim, else -1.
+    pose : tuple of float
+        Where the rim is (:func:`rim_in_surface`).
+    """
+    cx, cy, cz, ax, ay, az, fx, fy, fz = pose
+    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
+    size = surface[SIZE]
+    margin = REACH * size
+    best, height_best, apart, past, found = 1e300, 0.0, 0.0, 1e300, 0
+    under, under_past, under_face = 1e300, 0.0, -1
+    x, y, z, u, v, w = cx, cy, cz, cx, cy, cz
+    node = 0
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * node
+        apart_at_least = math.sqrt(box_square(surface, at, cx, cy, cz)) - radius
+        if apart_at_least > math.sqrt(best) or not has_patch(surface, at, patch):
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            if member >= n_triangles:
+                continue
+            t = int(surface[TRIANGLES]) + TRIANGLE * member
+            face = int(surface[t + 9])
+            f = int(surface[FACES]) + FACE * face
+            if surface[f + 4] != patch:
+                continue
+            axial, radial, ex, ey, ez = lowest_on_rim(
+                -surface[f], -surface[f + 1], -surface[f + 2], ax, ay, az, fx, fy, fz
+            )
+            px, py, pz = cx + radius * ex, cy + radius * ey, cz + radius * ez
+            height = face_height(surface, f, px, py, pz)
+            if height * height > best:
+                continue
+            lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
+            over, inside, ends, square = over_face(surface, t, height, lean, margin, px, py, pz)
+            if over <= 0.0 and height < 0.0 and -height < under:
+                under, under_past, under_face = -height, inside, face
+                u, v, w = px, py, pz
+            key = square + max(ends, 0.0) * max(ends, 0.0)
+            if key < best:
+                best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
+                x, y, z = px, py, pz
+        node += 1
+    if under * under < best:
+        x, y, z = u, v, w
+    face, gap, past = touched_face(
+        surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
+    )
+    if past > 0.0 and gap > 0.0:
+        gap = _gap_beyond(surface, frustum, radius, up, pose, gap, x, y, z)
+    return face, gap, past
+
+
+@compiled
+def rim_over(
+    surface: Floats, face: int, frustum: Floats, radius: float, up: float, pose: RimPose, reach: float
+) -> tuple[float, float]:
+    """Return gap and way past the end of a rim over one face, as of a patch that has no other.
+
+    Where no part of the face is nearer than a reach [m], that is the distance and the way past the end.
+    """
+    cx, cy, cz, ax, ay, az, fx, fy, fz = pose
+    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
+    size, f = surface[SIZE], int(surface[FACES]) + FACE * face
+    axial, radial, ex, ey, ez = lowest_on_rim(-surface[f], -surface[f + 1], -surface[f + 2], ax, ay, az, fx, fy, fz)
+    x, y, z = cx + radius * ex, cy + radius * ey, cz + radius * ez
+    height = face_height(surface, f, x, y, z)
+    lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
+    best, height_best, apart, past = reach * reach, 0.0, reach, reach
+    under, under_past, under_face = 1e300, 0.0, -1
+    node = 0
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * node
+        if box_square(surface, at, x, y, z) > best:
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            t = int(surface[TRIANGLES]) + TRIANGLE * member
+            if member >= n_triangles or int(surface[t + 9]) != face:
+                continue
+            over, inside, ends, square = over_face(surface, t, height, lean, REACH * size, x, y, z)
+            if over <= 0.0 and height < 0.0 and -height < under:
+                under, under_past, under_face = -height, inside, face
+            key = square + max(ends, 0.0) * max(ends, 0.0)
+            if key < best:
+                best, height_best, apart, past = key, height, math.sqrt(square), ends
+        node += 1
+    _, gap, past = touched_face(surface, face, best, height_best, apart, past, under_face, under, under_past, x, y, z)
+    if past > 0.0 and gap > 0.0:
+        gap = _gap_beyond(surface, frustum, radius, up, pose, gap, x, y, z)
+    return gap, past
+
+
+@compiled
+def write_rim(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    radius: float,
+    x: float,
+    y: float,
+    z: float,
+    surface: Floats,
+    face: int,
+    gap: float,
+    past: float,
+) -> None:
+    """Write the geometry block of a rim of the first body about a point, by gap and way past the end over a face."""
+    ax, ay, az = axis_in_world(a, frustum)
+    fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
+    cx, cy, cz = point_in_world(a, x, y, z)
+    sweep = frustum[SWEEP]
+    gap = gap_at_distance(gap, past, sweep)
+    f = int(surface[FACES]) + FACE * face
+    nx, ny, nz = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
+    _, sine, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, fx, fy, fz)
+    out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, cx + radius * ex, cy + radius * ey, cz + radius * ez)
+    for i in range(3):
+        out[POINT_A + i] += sweep * out[NORMAL + i]
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
+    write_tangent(a, out)
+    rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
+    write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
+    write_sweep(out, SIDE_A, sweep)
+    write_flat(out, SIDE_B)

@@ -1,0 +1,191 @@
+"""A rounded polyhedron or a capsule and a surface of so many features that those near each other are contacts."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.apart import NO_CANDIDATE, write_apart
+from bodies.contacts.features.polytope_tables import EDGE as CORE_EDGE
+from bodies.contacts.features.polytope_tables import edge_rows, end_table, face_table, star_of
+from bodies.contacts.features.swept_vertex import write_vertex
+from bodies.contacts.mesh.swept_near import corners_over
+from bodies.contacts.surface.edges_near import edges_across
+from bodies.contacts.surface.surface_ball import write_ball
+from bodies.contacts.surface.surface_edges import write_edges
+from bodies.contacts.surface.surface_near import NARROW, patches_near, room_ahead, seen_from
+from bodies.contacts.surface.surface_pairs import MOST_NEAR, features_of_core
+from bodies.contacts.surface.surface_tables import CORNER, CORNERS, EDGE, EDGES, NOTHING, STARS, surface_numbers
+from bodies.meshes.patches import patches_for_ball, patches_for_body
+from bodies.shapes.polytope import Polytope
+from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.compiled import block_at
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
+from nonsmooth.parameters import Table, Value
+from nonsmooth.types import Floats
+
+BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
+"""A patch and a vertex of the core, as a ball over it, a corner of the surface, and edges of both: the first of the
+three numbers of a candidate, which the others follow."""
+_ROW = 5
+"""Numbers of a vertex of the core: place, number of its edges, and where the unit vectors along these begin."""
+
+
+def _find(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    surface: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_edges: float,
+    edges: Floats,
+    ends: Floats,
+    sweep: float,
+    most: float,
+    turning: float,
+    narrow: float,
+) -> None:
+    """Find patches under vertices, corners, and edges across edges.
+
+    ``turning`` is as of two surfaces, ``narrow`` of :func:`bodies.contacts.surface.surface_near.room_ahead`.
+    """
+    reach, limit, n = out[0], room_ahead(out[0], narrow, int(most)), 0
+    turn = turning * reach
+    for i in range(int(n_vertices)):
+        v = _ROW * i
+        x, y, z = seen_from(a, b, vertices[v], vertices[v + 1], vertices[v + 2])
+        n = patches_near(surface, x, y, z, sweep + reach, BALL, float(i), out, n, limit)
+    n = corners_over(a, b, surface, n_faces, faces, n_edges, edges, ends, sweep, reach, turn, UNDER, out, n, limit)
+    for j in range(int(n_edges)):
+        n = edges_across(a, b, surface, edges, CORE_EDGE * j, float(j), sweep + reach, turn, ACROSS, out, n, limit)
+    out[0] = float(n) if n <= limit else most + 1.0
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    candidate: Floats,
+    surface: Floats,
+    core: Floats,
+    vertices: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_edges: float,
+    edges: Floats,
+    ends: Floats,
+    sweep: float,
+    size: float,
+) -> None:
+    kind, i, j = candidate[0], int(candidate[1]), int(candidate[2])
+    if kind == BALL:
+        v = _ROW * j
+        x, y, z, length = vertices[v], vertices[v + 1], vertices[v + 2], vertices[v + 3]
+        star = block_at(vertices, int(vertices[v + 4]))
+        write_ball(a, b, out, surface, float(i), sweep, x, y, z, length, star, size, sweep + candidate[3])
+    elif kind == UNDER:
+        c = int(surface[CORNERS]) + CORNER * i
+        x, y, z, length = surface[c], surface[c + 1], surface[c + 2], surface[c + 5]
+        star = block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
+        write_vertex(a, b, out, 1.0, n_faces, faces, n_edges, edges, ends, sweep, x, y, z, length, star, 0.0, size)
+    elif kind == ACROSS:
+        one, two = int(surface[EDGES]) + EDGE * i, CORE_EDGE * j
+        write_edges(a, b, out, surface, one, edges, two, surface, core, sweep, size)
+    else:
+        write_apart(a, out, size)
+
+
+@final
+@dataclass(frozen=True)
+class SweptPairs(ContactKinematics):
+    """A pair of features of a surface and of a swept core that are near each other at present.
+
+    Attributes
+    ----------
+    search : CandidateSearch
+        What finds them.
+    surfaces : tuple of Table
+        The surface, and that of the core (:mod:`bodies.contacts.surface.surface_tables`).
+    size : float
+        Size of the larger body [m].
+    n_features : int
+        How many features the surface or the core have, of that with more of them.
+    number : int
+        Which of the contacts of the two bodies it is.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SweptPolytope)
+    search: CandidateSearch
+    surfaces: tuple[Table, Table]
+    size: float
+    n_features: int
+    number: int
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[SweptPairs, ...]:
+        """Return the contacts of a mesh and a shape with a radius."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, SweptPolytope)
+        own, extents = first.features, (first.extent, second.extent)
+        core, sweep = second.core, second.sweep
+        numbers = surface_numbers(own, patches_for_ball(own, sweep))
+        values: dict[str, Value] = {
+            "surface": numbers,
+            "n_vertices": float(len(core.vertices)),
+            "vertices": _vertices(core),
+            "n_faces": float(len(core.planes)),
+            "faces": Table(face_table(core) or (0.0,)),
+            "n_edges": float(len(core.edges)),
+            "edges": Table(tuple(itertools.chain(*edge_rows(core)))),
+            "ends": Table(end_table(core)),
+            "sweep": sweep,
+            "most": float(MOST_NEAR),
+            "turning": 0.5 / extents[0] + 0.5 / extents[1],
+            "narrow": NARROW * min(extents),
+        }
+        counts = [len(own.planes) + len(own.edges) + len(own.corners)]
+        counts.append(len(core.planes) + len(core.edges) + len(core.vertices))
+        search = CandidateSearch(_find, values)
+        surfaces, size = (numbers, surface_of_core(core)), max(own.size, core.size + 2.0 * sweep)
+        return tuple(cls(search, surfaces, size, max(counts), number) for number in range(MOST_NEAR))
+
+    @property
+    def candidates(self) -> CandidateSearch:
+        """What finds the features."""
+        return self.search
+
+    def parameters(self) -> dict[str, Value]:
+        """Return both shapes, and no features."""
+        return {**self.search.values, "candidate": NO_CANDIDATE, "core": self.surfaces[1], "size": self.size}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed forms of all kinds of features."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The features of either, by number."""
+        return tuple(f"feature {i}" for i in range(self.n_features))
+
+
+def _vertices(core: Polytope) -> Table:
+    """Return a row of each vertex of a core, and behind all rows the unit vectors along their edges."""
+    stars = [star_of(core, i) for i in range(len(core.vertices))]
+    begins = itertools.accumulate((len(star) for star in stars), initial=_ROW * len(stars))
+    rows = [(*place, len(star) // 3, begin) for place, star, begin in zip(core.vertices, stars, begins, strict=False)]
+    return Table([*itertools.chain(*rows), *itertools.chain(*stars)])
+
+
+def surface_of_core(core: Polytope) -> Table:
+    """Return the surface of a core; a segment has none."""
+    if not core.faces:
+        return NOTHING
+    features = features_of_core(core)
+    return surface_numbers(features, patches_for_body(features, 0.0))

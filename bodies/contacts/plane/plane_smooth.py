@@ -1,0 +1,72 @@
+"""A smooth body over a plane, in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.contacts.features.frames import point_in_world
+from bodies.contacts.plane.plane_point import place_over_plane
+from bodies.contacts.smooth.smooth_core import RADIUS, axes_in_world, back, forth
+from bodies.contacts.smooth.smooth_newton import write_surface
+from bodies.shapes.ground import Ground
+from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.support_function import support_of
+from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) -> None:
+    axes = axes_in_world(b, second)
+    x, y, z = point_in_world(b, second[6], second[7], second[8])
+    mx, my, mz = back(axes, -a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8])
+    s = support_of(second, mx, my, mz)
+    px, py, pz = forth(axes, s[1], s[2], s[3])
+    r = second[RADIUS]
+    place_over_plane(
+        a, out, x + px - r * a[ROTATION + 2], y + py - r * a[ROTATION + 5], z + pz - r * a[ROTATION + 8], height
+    )
+    write_surface(out, SIDE_B, second, axes, mx, my, mz, s[1], s[2], s[3])
+
+
+@final
+@dataclass(frozen=True)
+class PlaneSmooth(ContactKinematics):
+    """The point of a smooth body that a plane supports.
+
+    Attributes
+    ----------
+    first : Ground
+        The plane.
+    second : SmoothShape
+        The smooth body.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, SmoothShape)
+
+    first: Ground
+    second: SmoothShape
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[PlaneSmooth, ...]:
+        """Return the single contact of a plane and a smooth shape."""
+        assert isinstance(first, Ground)
+        assert isinstance(second, SmoothShape)
+        return (cls(first, second),)
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the height of the plane and the numbers of the support function."""
+        return {"height": self.first.height, "second": self.second.core}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("plane-smooth",)

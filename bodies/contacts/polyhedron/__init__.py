@@ -1,0 +1,1 @@
+"""Boxes and hulls, sharp and rounded."""

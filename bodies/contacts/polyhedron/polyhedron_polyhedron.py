@@ -1,0 +1,205 @@
+"""Two polyhedra: an edge of one across an edge of the other, and the vertices of either over the other's faces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import ClassVar, final
+
+from bodies.blocks import put
+from bodies.contacts.features.curvature import write_principal
+from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.features.polytope_tables import FACE, Numbers, edge_rows, face_table
+from bodies.contacts.features.tangents import tangent_of
+from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
+from bodies.contacts.polyhedron.polyhedron_point import PointPolyhedron, PolyhedronPoint
+from bodies.contacts.polyhedron.swept_swept import MOST_CONTACTS, SweptSwept
+from bodies.contacts.surface.surface_pairs import SurfacePairs, features_of_core
+from bodies.shapes.polyhedron import Polyhedron
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+_PARALLEL = 0.01
+"""Sine of the angle between two edges below which they do not cross; then the faces' vertices hold all the same."""
+_ASTRAY = 0.25
+"""Sine of the angle by which the normal may leave the normals that an edge has: what may soon close is followed."""
+
+
+_INSIDE = 4.0
+"""Where no point is found inside, edges overlap only where they cross so many depths away from their ends."""
+_BLUNT = 8.0
+"""Slope, in depths over lengths of an edge, by which bodies that do not overlap may lean over a wedge."""
+
+
+@compiled
+def _astray(frame: Floats, edge: Floats, sign: float, x: float, y: float, z: float) -> float:
+    """Return the sine of the angle by which a vector across an edge, times ``sign``, leaves the normals of the body."""
+    ux, uy, uz = vector_in_world(frame, edge[7], edge[8], edge[9])
+    vx, vy, vz = vector_in_world(frame, edge[10], edge[11], edge[12])
+    one, other = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz
+    return float(max(sign * one, sign * other))
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    edge_b: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    size: float,
+) -> None:
+    ax, ay, az = point_in_world(a, edge_a[0], edge_a[1], edge_a[2])
+    bx, by, bz = point_in_world(b, edge_b[0], edge_b[1], edge_b[2])
+    ex, ey, ez = vector_in_world(a, edge_a[3], edge_a[4], edge_a[5])
+    fx, fy, fz = vector_in_world(b, edge_b[3], edge_b[4], edge_b[5])
+    wx, wy, wz = bx - ax, by - ay, bz - az
+    nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
+    sine = math.sqrt(nx * nx + ny * ny + nz * nz)
+    margin = REACH * size
+    if sine > 1e-3 * _PARALLEL:
+        nx, ny, nz = nx / sine, ny / sine, nz / sine
+        # where the lines are nearest: (w x f) . n / sine along the first, (w x e) . n / sine along the second
+        s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
+        t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
+        over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6]))
+        past = max(over - margin, size * (_PARALLEL - sine))
+    else:
+        along = wx * ex + wy * ey + wz * ez
+        nx, ny, nz = wx - along * ex, wy - along * ey, wz - along * ez
+        apart = math.sqrt(nx * nx + ny * ny + nz * nz)
+        if apart > 0.0:
+            nx, ny, nz = nx / apart, ny / apart, nz / apart
+        else:
+            nx, ny, nz = tangent_of(ex, ey, ez)
+        s, over, past = 0.0, 0.0, size * _PARALLEL
+    gap = wx * nx + wy * ny + wz * nz
+    overlap = 0.0
+    # a contact may close up to the gap tolerance past its end: there the normal must be that of the edges, too
+    if past <= margin:
+        plus = max(_astray(a, edge_a, 1.0, nx, ny, nz), _astray(b, edge_b, -1.0, nx, ny, nz))
+        minus = max(_astray(a, edge_a, -1.0, nx, ny, nz), _astray(b, edge_b, 1.0, nx, ny, nz))
+        if minus < plus:
+            nx, ny, nz, gap = -nx, -ny, -nz, -gap
+            plus, minus = minus, plus
+        outside = 0.0
+        if gap < 0.0 or plus > _ASTRAY:
+            # the bodies overlap where the point of one edge lies in the other body
+            px, py, pz = ax + s * ex, ay + s * ey, az + s * ez
+            outside = height_over(b, n_faces_b, faces_b, px, py, pz)
+            px, py, pz = bx + t * fx, by + t * fy, bz + t * fz
+            outside = min(outside, height_over(a, n_faces_a, faces_a, px, py, pz))
+        deep = outside < -DEEP * size
+        if not deep and gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
+            # edges of thin wedges are as well on the other side of each other
+            nx, ny, nz, gap = -nx, -ny, -nz, -gap
+            past = max(past, size * (minus - _ASTRAY))
+        else:
+            past = max(past, size * (plus - _ASTRAY))
+            if gap < 0.0:
+                past = max(past, over - _INSIDE * gap - margin)
+        if deep and past > 0.0:
+            # they overlap elsewhere: no contact of these edges, but a sign that another one was passed
+            overlap = max(-abs(gap), outside)
+    if past > 0.0:
+        gap = overlap if overlap < 0.0 else math.sqrt(gap * gap + past * past)
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, ax + s * ex, ay + s * ey, az + s * ez)
+    for i in range(3):
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
+    # fixed to a body even where the edge lies in a face and the normal is that of the face but for round-off
+    put(out, TANGENT, ex, ey, ez)
+    write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
+    write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)
+
+
+@final
+@dataclass(frozen=True)
+class PolyhedronPolyhedron(ContactKinematics):
+    """Where an edge of the first polyhedron crosses one of the second.
+
+    Two polyhedra touch with a vertex on a face or with crossing edges, and a face on a face or an edge on a face is
+    several of these at once.  So every vertex over the other's faces and every pair of edges is a contact of its own,
+    whose number is that of the features for ever; a contact whose features do not face each other is open.
+
+    Attributes
+    ----------
+    edge_a, edge_b : tuple of float
+        The edges, as :data:`bodies.contacts.features.polytope_tables.EDGE` numbers.
+    faces_a, faces_b : tuple of float
+        All faces of either body.
+    number_a, number_b : int
+        Their numbers.
+    size : float
+        Size of the bodies [m].
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Polyhedron, Polyhedron)
+    departures: ClassVar[Mapping[str, str]] = MappingProxyType(
+        dict.fromkeys(
+            ("gap rate", "second-order terms"),
+            "two given edges face each other in hardly any random pose; the tests make poses from edges that cross",
+        )
+    )
+    edge_a: Numbers
+    edge_b: Numbers
+    faces_a: Numbers
+    faces_b: Numbers
+    number_a: int
+    number_b: int
+    size: float
+
+    def parameters(self) -> dict[str, Value]:
+        """Return edges, faces and size."""
+        return {
+            "edge_a": self.edge_a,
+            "edge_b": self.edge_b,
+            "n_faces_a": float(len(self.faces_a) // FACE),
+            "faces_a": self.faces_a,
+            "n_faces_b": float(len(self.faces_b) // FACE),
+            "faces_b": self.faces_b,
+            "size": self.size,
+        }
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the pairs of edges, then the vertices of the second, then those of the first.
+
+        Where one of the two is rounded, they are those of :class:`bodies.SweptSwept`; where they are thousands, those
+        near each other (:class:`bodies.contacts.surface.surface_pairs.SurfacePairs`).
+        """
+        assert isinstance(first, Polyhedron)
+        assert isinstance(second, Polyhedron)
+        if first.rounding > 0.0 or second.rounding > 0.0:
+            return SweptSwept.between(first, second)
+        one, two = first.core, second.core
+        size = max(one.size, two.size)
+        n = len(one.edges) * len(two.edges) + len(one.vertices) + len(two.vertices)
+        if n > MOST_CONTACTS:
+            return SurfacePairs.of_surfaces(features_of_core(one), features_of_core(two), (first.extent, second.extent))
+        faces = face_table(one), face_table(two)
+        crossings = (
+            cls(row_a, row_b, *faces, i, j, size)
+            for i, row_a in enumerate(edge_rows(one))
+            for j, row_b in enumerate(edge_rows(two))
+        )
+        return *crossings, *PolyhedronPoint.of_vertices(one, two), *PointPolyhedron.of_vertices(one, two)
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return (f"edge {self.number_a} and edge {self.number_b}",)

@@ -1,0 +1,184 @@
+"""Two polyhedra or segments swept by spheres: an edge of one across an edge of the other, and all vertices."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.blocks import put
+from bodies.contacts.features.curvature import write_principal
+from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.features.polytope_tables import FACE, Numbers, edge_rows, face_table
+from bodies.contacts.features.swept_vertex import END, SweptVertex, size_of
+from bodies.contacts.features.tangents import tangent_of, write_tangent
+from bodies.contacts.features.vertex_face import height_over
+from bodies.shapes.swept import SweptPolytope
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+MOST_CONTACTS = 4000
+"""Two shapes with more potential contacts are refused."""
+_PARALLEL = 1e-5
+"""Sine of the angle between two edges below which they do not cross; the spheres at their ends hold all the same."""
+_ASTRAY = 0.25
+"""Sine of the angle by which the normal may leave the normals that the edges have where the cores overlap."""
+
+
+@compiled
+def _astray(frame: Floats, edge: Floats, x: float, y: float, z: float) -> float:
+    """Return the sine of the angle by which a vector across an edge leaves the outward normals of the body."""
+    ux, uy, uz = vector_in_world(frame, edge[7], edge[8], edge[9])
+    vx, vy, vz = vector_in_world(frame, edge[10], edge[11], edge[12])
+    return float(max(x * ux + y * uy + z * uz, x * vx + y * vy + z * vz))
+
+
+def _evaluate(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    edge_b: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    radius_a: float,
+    radius_b: float,
+    size: float,
+) -> None:
+    ax, ay, az = point_in_world(a, edge_a[0], edge_a[1], edge_a[2])
+    bx, by, bz = point_in_world(b, edge_b[0], edge_b[1], edge_b[2])
+    ex, ey, ez = vector_in_world(a, edge_a[3], edge_a[4], edge_a[5])
+    fx, fy, fz = vector_in_world(b, edge_b[3], edge_b[4], edge_b[5])
+    wx, wy, wz = bx - ax, by - ay, bz - az
+    cx, cy, cz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
+    sine = math.sqrt(cx * cx + cy * cy + cz * cz)
+    s = t = 0.0
+    if sine > 0.01 * _PARALLEL:
+        cx, cy, cz = cx / sine, cy / sine, cz / sine
+        # where the lines are nearest: (w x f) . c / sine along the first, (w x e) . c / sine along the second
+        s = (cx * (wy * fz - wz * fy) + cy * (wz * fx - wx * fz) + cz * (wx * fy - wy * fx)) / sine
+        t = (cx * (wy * ez - wz * ey) + cy * (wz * ex - wx * ez) + cz * (wx * ey - wy * ex)) / sine
+        over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6])) + END * size
+        past = max(over, size * (_PARALLEL - sine))
+    else:
+        s = wx * ex + wy * ey + wz * ez
+        cx, cy, cz = tangent_of(ex, ey, ez)
+        past = size * _PARALLEL
+    px, py, pz = ax + s * ex, ay + s * ey, az + s * ez
+    qx, qy, qz = bx + t * fx, by + t * fy, bz + t * fz
+    nx, ny, nz = qx - px, qy - py, qz - pz
+    distance = math.sqrt(nx * nx + ny * ny + nz * nz)
+    if distance > 0.0:
+        nx, ny, nz = nx / distance, ny / distance, nz / distance
+    else:
+        nx, ny, nz = cx, cy, cz
+    if past <= 0.0:
+        inside = 0.0
+        if n_faces_b > 0.0:
+            inside = height_over(b, n_faces_b, faces_b, px, py, pz)
+        if n_faces_a > 0.0:
+            inside = min(inside, height_over(a, n_faces_a, faces_a, qx, qy, qz))
+        # the cores overlap where the point of one edge lies in the other body: the way out is against that to it
+        if inside < 0.0 and max(_astray(a, edge_a, -nx, -ny, -nz), _astray(b, edge_b, nx, ny, nz)) <= _ASTRAY:
+            distance, nx, ny, nz = -distance, -nx, -ny, -nz
+    gap = distance - radius_a - radius_b
+    if past > 0.0:
+        gap = math.sqrt(gap * gap + past * past)
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, px + radius_a * nx, py + radius_a * ny, pz + radius_a * nz)
+    for i in range(3):
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
+    write_tangent(a, out)
+    write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, radius_a)
+    write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, radius_b)
+
+
+@final
+@dataclass(frozen=True)
+class SweptSwept(ContactKinematics):
+    """Where an edge of the first shape crosses one of the second, each with its radius.
+
+    Shapes with a radius touch where their cores are the radii apart: with a vertex over a face, an edge or a vertex, or
+    with two edges that cross, all of which are a sphere or a cylinder of one against something of the other.  So every
+    vertex and every pair of edges is a contact of its own, whose number is that of the features for ever; a face on a
+    face, or an edge on a face, is several of these at once.  A contact whose features are not the nearest any more is
+    past their end.
+
+    Attributes
+    ----------
+    edge_a, edge_b : tuple of float
+        The edges, as :data:`bodies.contacts.features.polytope_tables.EDGE` numbers.
+    faces_a, faces_b : tuple of float
+        All faces of either core.
+    number_a, number_b : int
+        Their numbers.
+    radius_a, radius_b : float
+        Radii about them [m].
+    size : float
+        Size of the bodies [m].
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
+    edge_a: Numbers
+    edge_b: Numbers
+    faces_a: Numbers
+    faces_b: Numbers
+    number_a: int
+    number_b: int
+    radius_a: float
+    radius_b: float
+    size: float
+
+    def parameters(self) -> dict[str, Value]:
+        """Return edges, faces, radii and size."""
+        return {
+            "edge_a": self.edge_a,
+            "edge_b": self.edge_b,
+            "n_faces_a": float(len(self.faces_a) // FACE),
+            "faces_a": self.faces_a,
+            "n_faces_b": float(len(self.faces_b) // FACE),
+            "faces_b": self.faces_b,
+            "radius_a": self.radius_a,
+            "radius_b": self.radius_b,
+            "size": self.size,
+        }
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+        """Return the pairs of edges, then the vertices of the second, then those of the first."""
+        assert isinstance(first, SweptPolytope)
+        assert isinstance(second, SweptPolytope)
+        one, two = first.core, second.core
+        n = len(one.edges) * len(two.edges) + len(one.vertices) + len(two.vertices)
+        if n > MOST_CONTACTS:
+            raise InvalidInput(
+                "contact of two polyhedra",
+                f"must have at most {MOST_CONTACTS} pairs of features",
+                f"{len(one.edges)} edges against {len(two.edges)} make {n}",
+                "Take polyhedra with fewer edges, or a smooth shape.",
+            )
+        faces, radii, size = (face_table(one), face_table(two)), (first.sweep, second.sweep), size_of(first, second)
+        crossings = (
+            cls(row_a, row_b, *faces, i, j, *radii, size)
+            for i, row_a in enumerate(edge_rows(one))
+            for j, row_b in enumerate(edge_rows(two))
+        )
+        return *crossings, *SweptVertex.between(first, second)
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return (f"edge {self.number_a} and edge {self.number_b}",)

@@ -1,0 +1,1 @@
+"""Spheres and capsules in closed form."""

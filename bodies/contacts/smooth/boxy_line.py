@@ -1,0 +1,168 @@
+"""A boxy body and a straight line, the continuation of an edge: one angle, and no second derivative.
+
+The normal n goes round the line, at a right angle or, about the axis of a cone, at another.  With p the body's
+farthest point against it, the derivative of the gap g(n) is that of the normal times p; between two directions where it
+has opposite signs a search halves what is left until the directions are the same to round-off, however flat the body
+is.
+"""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.smooth.boxy_newton import Answer
+from bodies.contacts.smooth.smooth_core import Axes, back, forth
+from bodies.shapes.support_function import support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_LOOKS = 8
+"""Directions of the first look."""
+_STEPS = 200
+_CLOSED = 4e-16
+"""Angle between directions that are the same [rad]."""
+
+_ROUND_OFF = 4e-16
+"""Derivative that is none, in units of the size."""
+_PATIENCE = 3
+"""Steps that leave more than half of the angle, one after the other."""
+
+
+@compiled
+def across_line(
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    ex: float,
+    ey: float,
+    ez: float,
+    nx: float,
+    ny: float,
+    nz: float,
+    cosine: float,
+    sine: float,
+    reach: float,
+) -> Answer:
+    """Return the largest gap of a line through the origin and a boxy core, the core's point and the line's normal.
+
+    All in the axes of the line's body; the gap is nan where none was found.  With a reach it is the gap of the cylinder
+    about the line, with a sine as well that of the cone whose normals lean so much along the line.
+
+    Parameters
+    ----------
+    core : Floats
+        The boxy core; its radius is left out.
+    turn : Axes
+        Rotation from the axes of the core to those of the line's body.
+    x, y, z : float
+        The core's centre [m].
+    ex, ey, ez : float
+        Direction of the line, a unit vector.
+    nx, ny, nz : float
+        A unit vector across it, in whose half the normal is sought.
+    cosine, sine : float
+        Part of the normal across the line, 1 but for a cone, and along it, 0 but for a cone.
+    reach : float
+        Height of the surface about the line over the origin along its normals [m], 0 of the line itself.
+    """
+    spread = math.pi / _LOOKS
+    found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, 0.0)
+    # uphill from the given direction, and from the best of all where the surface is not outside of the body there
+    at, low, high, rising, falling, most = 0, 0.0, 0.0, found[7], found[7], found[0]
+    way = 1 if found[7] > 0.0 else -1
+    for i in range(1, _LOOKS // 2 + 2):
+        look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, way * i * spread)
+        most = max(most, look[0])
+        low, high = (high, i * spread) if way > 0 else (-i * spread, low)
+        rising, falling = (falling, look[7]) if way > 0 else (look[7], rising)
+        if rising > 0.0 > falling:
+            break
+    if most <= reach:
+        best, last, slope = -math.inf, math.nan, 0.0
+        for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
+            look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, i * spread)
+            if look[0] > best and abs(i) <= _LOOKS // 2:
+                best, at, rising, slope = look[0], i, last, look[7]
+            elif at == i - 1:
+                falling = look[7]
+            last = look[7]
+        low, high = (at - 1) * spread, (at + 1) * spread
+        # two tops between the neighbours: of an overlap the gap has more than one; that uphill from the best look
+        for _ in range(_LOOKS):
+            if rising > 0.0 > falling:
+                break
+            middle = at * spread
+            if slope > 0.0:
+                low, rising = middle, slope
+            else:
+                high, falling = middle, slope
+            if rising > 0.0 > falling:
+                break
+            middle = 0.5 * (low + high)
+            look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, middle)
+            if slope > 0.0:
+                high, falling = middle, look[7]
+            else:
+                low, rising = middle, look[7]
+    if not (rising > 0.0 > falling):
+        return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
+    none = _ROUND_OFF * (abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]))
+    side, slow = 0, 0
+    for _ in range(_STEPS):
+        width = high - low
+        # where the derivative jumps, as it nearly does at a flat place, the secant does not get on
+        middle = (low * falling - high * rising) / (falling - rising)
+        if slow >= _PATIENCE or not (low < middle < high):
+            middle, slow = 0.5 * (low + high), 0
+        found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, middle)
+        if abs(found[7]) <= none:
+            return found[0] - reach, found[1], found[2], found[3], found[4], found[5], found[6]
+        if width <= _CLOSED or middle == low or middle == high:
+            # a flat place turns to the line: over it is a point between those of both sides
+            one = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, low)
+            two = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, high)
+            part = min(max(one[7] / (one[7] - two[7]), 0.0), 1.0) if one[7] > two[7] else 0.5
+            px, py = one[1] + part * (two[1] - one[1]), one[2] + part * (two[2] - one[2])
+            pz = one[3] + part * (two[3] - one[3])
+            return found[0] - reach, px, py, pz, found[4], found[5], found[6]
+        if found[7] > 0.0:
+            low, rising = middle, found[7]
+            falling = 0.5 * falling if side == 1 else falling
+            side = 1
+        else:
+            high, falling = middle, found[7]
+            rising = 0.5 * rising if side == -1 else rising
+            side = -1
+        slow = slow + 1 if high - low > 0.5 * width else 0
+    return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
+
+
+@compiled
+def _look(
+    core: Floats,
+    turn: Axes,
+    x: float,
+    y: float,
+    z: float,
+    ex: float,
+    ey: float,
+    ez: float,
+    nx: float,
+    ny: float,
+    nz: float,
+    cosine: float,
+    sine: float,
+    angle: float,
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Return gap, point, normal and the gap's derivative at an angle."""
+    ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
+    c, s = cosine * math.cos(angle), cosine * math.sin(angle)
+    ax, ay, az = c * nx + s * ux + sine * ex, c * ny + s * uy + sine * ey, c * nz + s * uz + sine * ez
+    mx, my, mz = back(turn, -ax, -ay, -az)
+    f = support_of(core, mx, my, mz)
+    px, py, pz = forth(turn, f[1], f[2], f[3])
+    px, py, pz = x + px, y + py, z + pz
+    slope = (c * ux - s * nx) * px + (c * uy - s * ny) * py + (c * uz - s * nz) * pz
+    return ax * px + ay * py + az * pz, px, py, pz, ax, ay, az, slope

@@ -1,0 +1,173 @@
+"""Newton's method for a boxy body (:func:`bodies.shapes.support_function.is_boxy`) and another one.
+
+At its flat points the second derivative of a boxy body's support function is infinite, that of its gauge f is not: the
+unknown is the point p of its surface, f(p) = 1, instead of the normal.  There the normal is n = f' / |f'|, the shape
+operator K = f'' / |f'| in the tangent plane, 0 where it is flat.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from bodies.contacts.features.tangents import tangent_of
+from bodies.contacts.smooth.smooth_core import RADIUS, Axes, back, bend, forth
+from bodies.shapes.support_function import boxy_gauge_of, support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
+from nonsmooth.types import Floats
+
+_STEPS = 200
+_HALVINGS = 40
+_ROUND_OFF = 2e-16
+_SEEN = 1e-14
+"""What evaluations of d differ by for round-off alone, in units of the size."""
+_CLOSE = 1e-12
+"""Residual below which a step that does not lower it has met round-off, in units of the size."""
+_RIGHT = 1e-13
+"""Residual of an answer, in units of the size."""
+_ENOUGH = 1e-4
+"""Part of the decrease that a step promises and has to bring."""
+_LONGEST = 0.5
+"""Longest step, in units of the size of the boxy body."""
+_FLATTEST = 1e-12
+"""Least curvature that is told, in units of one over the size: the engine divides by that of a body on a plane."""
+
+Norm: TypeAlias = tuple[float, float, float, float, float]
+"""Semi-axes and powers of a core; without semi-axes a point."""
+Point: TypeAlias = tuple[float, float, float]
+Answer: TypeAlias = tuple[float, float, float, float, float, float, float]
+"""Gap, point, normal."""
+Place: TypeAlias = tuple[
+    float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
+]
+"""A point of a surface, the normal, two tangents, and K along them: 11, 12, 22."""
+
+
+@compiled
+def place_on(core: Floats, x: float, y: float, z: float) -> Place:
+    """Return the point of a boxy core's surface in the direction (x, y, z), with normal and shape operator."""
+    f = boxy_gauge_of(core, x, y, z)
+    length = math.sqrt(f[1] * f[1] + f[2] * f[2] + f[3] * f[3])
+    nx, ny, nz = f[1] / length, f[2] / length, f[3] / length
+    tx, ty, tz = tangent_of(nx, ny, nz)
+    ux, uy, uz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
+    # the second derivative goes with 1 / f
+    scale = f[0] / length
+    tt = scale * bend(f, tx, ty, tz, tx, ty, tz)
+    tu = scale * bend(f, tx, ty, tz, ux, uy, uz)
+    uu = scale * bend(f, ux, uy, uz, ux, uy, uz)
+    return x / f[0], y / f[0], z / f[0], nx, ny, nz, tx, ty, tz, ux, uy, uz, tt, tu, uu
+
+
+@compiled
+def climb_boxy(
+    core: Floats, other: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
+) -> Answer:
+    """Return the gap of a boxy core and one that is not, the point on the former, and the normal from it, in its axes.
+
+    The gap is nan where none was found.
+
+    With q the other's farthest point against n and d = q - p, the residual is d along the tangents; a step is
+    (1 + (H + g) K) delta = residual with g = n . d.  Half the square of d falls on the way: its least value is the
+    answer for bodies apart.
+
+    Parameters
+    ----------
+    core : Floats
+        The boxy core; its radius is left out.
+    other : Floats
+        The core of the other, or its semi-axes and powers.
+    turn : Axes
+        Rotation from the axes of the other to those of the boxy one.
+    x, y, z : float
+        The other's centre from that of the boxy one [m].
+    sx, sy, sz : float
+        Direction of the point to begin with, of any length.
+    """
+    extent = max(core[0], core[1], core[2])
+    size = abs(x) + abs(y) + abs(z) + extent + max(other[0], other[1], other[2])
+    px, py, pz = sx, sy, sz
+    lx, ly, lz, step_x, step_y, step_z = px, py, pz, 0.0, 0.0, 0.0
+    merit, promise, before = math.inf, 0.0, math.inf
+    halvings = 0
+    for _ in range(_STEPS):
+        s = place_on(core, px, py, pz)
+        px, py, pz, nx, ny, nz = s[0], s[1], s[2], s[3], s[4], s[5]
+        tx, ty, tz, ux, uy, uz = s[6], s[7], s[8], s[9], s[10], s[11]
+        mx, my, mz = back(turn, -nx, -ny, -nz)
+        b = support_of(other, mx, my, mz)
+        dx, dy, dz = forth(turn, b[1], b[2], b[3])
+        dx, dy, dz = x + dx - px, y + dy - py, z + dz - pz
+        found = 0.5 * (dx * dx + dy * dy + dz * dz)
+        seen = _SEEN * size * (_SEEN * size + math.sqrt(found))
+        if found > merit - promise + seen and halvings < _HALVINGS:
+            halvings += 1
+            step_x, step_y, step_z, promise = 0.5 * step_x, 0.5 * step_y, 0.5 * step_z, 0.5 * promise
+        else:
+            merit, halvings = found, 0
+            lx, ly, lz = px, py, pz
+            g = nx * dx + ny * dy + nz * dz
+            r, t = tx * dx + ty * dy + tz * dz, ux * dx + uy * dy + uz * dz
+            residual = math.sqrt(r * r + t * t)
+            vx, vy, vz = back(turn, tx, ty, tz)
+            wx, wy, wz = back(turn, ux, uy, uz)
+            h11, h12, h22 = bend(b, vx, vy, vz, vx, vy, vz), bend(b, vx, vy, vz, wx, wy, wz), 0.0
+            h22 = bend(b, wx, wy, wz, wx, wy, wz)
+            k11, k12, k22 = s[12], s[13], s[14]
+            m11, m12 = 1.0 + (h11 + g) * k11 + h12 * k12, (h11 + g) * k12 + h12 * k22
+            m21, m22 = h12 * k11 + (h22 + g) * k12, 1.0 + h12 * k12 + (h22 + g) * k22
+            determinant = m11 * m22 - m12 * m21
+            if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):
+                # a stationary point that is no maximum has a way out that is shorter
+                if residual > _RIGHT * size or determinant <= 0.0 or m11 + m22 <= 0.0:
+                    return math.nan, px, py, pz, nx, ny, nz
+                return g, px, py, pz, nx, ny, nz
+            before = residual
+            # the derivative of the merit is -(1 + K H) (r, t)
+            slope_r = r + k11 * (h11 * r + h12 * t) + k12 * (h12 * r + h22 * t)
+            slope_t = t + k12 * (h11 * r + h12 * t) + k22 * (h12 * r + h22 * t)
+            along, across = r, t
+            if determinant > 0.0:
+                along, across = (m22 * r - m12 * t) / determinant, (m11 * t - m21 * r) / determinant
+            promise = slope_r * along + slope_t * across
+            if promise <= 0.0:
+                along, across = slope_r, slope_t
+                promise = along * along + across * across
+            length = math.sqrt(along * along + across * across)
+            if length > _LONGEST * extent:
+                shorter = _LONGEST * extent / length
+                along, across, promise = along * shorter, across * shorter, promise * shorter
+            promise *= _ENOUGH
+            if residual <= 1e-6 * size:
+                # less than what the merit shows
+                promise = 0.0
+            step_x, step_y, step_z = along * tx + across * ux, along * ty + across * uy, along * tz + across * uz
+        px, py, pz = lx + step_x, ly + step_y, lz + step_z
+    return math.nan, px, py, pz, 0.0, 0.0, 1.0
+
+
+@compiled
+def write_boxy(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: float, z: float) -> None:
+    """Write slide K and turn 1, without the radius, at the point (x, y, z) of a boxy core's surface, in its own axes.
+
+    Normal and first tangent stand in ``out`` already; ``axes`` are those of the core in the world.
+    """
+    s = place_on(core, x, y, z)
+    tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])
+    ux, uy, uz = back(
+        axes,
+        out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
+        out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
+        out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
+    )
+    c11, c12 = tx * s[6] + ty * s[7] + tz * s[8], tx * s[9] + ty * s[10] + tz * s[11]
+    c21, c22 = ux * s[6] + uy * s[7] + uz * s[8], ux * s[9] + uy * s[10] + uz * s[11]
+    least = _FLATTEST / max(core[0], core[1], core[2])
+    k11, k12, k22 = s[12] + least, s[13], s[14] + least
+    out[side] = c11 * (k11 * c11 + k12 * c12) + c12 * (k12 * c11 + k22 * c12)
+    out[side + 1] = out[side + 2] = c11 * (k11 * c21 + k12 * c22) + c12 * (k12 * c21 + k22 * c22)
+    out[side + 3] = c21 * (k11 * c21 + k12 * c22) + c22 * (k12 * c21 + k22 * c22)
+    # with a radius r the turn grows by r times the slide
+    out[side + 4], out[side + 7] = 1.0 + core[RADIUS] * out[side], 1.0 + core[RADIUS] * out[side + 3]
+    out[side + 5] = out[side + 6] = core[RADIUS] * out[side + 1]

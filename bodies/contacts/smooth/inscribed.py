@@ -1,0 +1,71 @@
+"""A proof that two bodies that overlap have no shorter way out: balls inside of both, at the points of an answer.
+
+A ball inside of a body has no wider gap than the body itself, in any direction n.  Of two balls that touch the bodies'
+surfaces from within at the points of a stationary answer -d, their gap along n is largest along the answer's normal,
+where it is -d, if their radii are d or more together.
+
+The radius is by a bound of the second derivative L of the function that is 1 on the surface, within a ball of the
+radius d: from its gradient G at the point on, a ball of the radius G / L stays below 1.
+"""
+
+from __future__ import annotations
+
+from bodies.contacts.smooth.smooth_core import Axes, back
+from bodies.shapes.support_function import OF_FUNCTION
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+
+@compiled
+def no_shorter_way(
+    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, found: tuple[float, ...]
+) -> bool:
+    """Return whether an overlap is proved to be the shortest way out, by balls inside of both cores.
+
+    Parameters
+    ----------
+    first, second : Floats
+        The cores; their radii are left out.
+    turn : Axes
+        Rotation from the axes of the second core to those of the first.
+    x, y, z : float
+        The second core's centre from the first's [m].
+    found : tuple
+        The gap, below 0, the second's point and the normal, in the axes of the first and from its centre.
+    """
+    g, qx, qy, qz, nx, ny, nz = found
+    depth = -g
+    radius = _ball_in(first, depth, qx - g * nx, qy - g * ny, qz - g * nz, nx, ny, nz)
+    if radius >= depth:
+        return True
+    bx, by, bz = back(turn, qx - x, qy - y, qz - z)
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    return bool(radius + _ball_in(second, depth, bx, by, bz, mx, my, mz) >= depth)
+
+
+@compiled
+def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float, ny: float, nz: float) -> float:
+    """Return a radius up to ``most`` of a ball in a core that touches its surface at a point with the normal n."""
+    a, b, c = core[0], core[1], core[2]
+    height = nx * x + ny * y + nz * z
+    if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
+        return 0.0
+    # below is r^j + |z / c|^j with r^k = |x / a|^k + |y / b|^k; first the least and the greatest part of each in r^k
+    j, k = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
+    x, y, z = abs(x - most * nx), abs(y - most * ny), abs(z - most * nz)
+    low_x, low_y, low_z = (max(x - most, 0.0) / a) ** k, (max(y - most, 0.0) / b) ** k, max(z - most, 0.0) / c
+    high_x, high_y, high_z = ((x + most) / a) ** k, ((y + most) / b) ** k, (z + most) / c
+    low_s, low_t = low_x / (low_x + high_y), low_y / (high_x + low_y)
+    high_s, high_t = 1.0 - low_t, 1.0 - low_s
+    r, w = high_x + high_y, high_z
+    if j < 2.0:
+        r, w = low_x + low_y, low_z
+    s, t = (high_s, high_t) if k >= 2.0 else (low_s, low_t)
+    if min(min(r, w), min(s, t)) == 0.0:
+        # next to a sharp place
+        return 0.0
+    bend = 1.0 - 2.0 / k
+    along = (j - 1.0) * (high_s ** (bend + 1.0) / (a * a) + high_t ** (bend + 1.0) / (b * b))
+    round_it = (k - 1.0) * (s**bend * high_t / (a * a) + t**bend * high_s / (b * b))
+    across, up = r ** ((j - 2.0) / k) * (along + round_it), (j - 1.0) * w ** (j - 2.0) / (c * c)
+    return float(min(most, 1.0 / (height * max(across, up))))

@@ -1,0 +1,363 @@
+"""A polytope and a body with a smooth support function.
+
+The signed distance of a point to a convex body is a convex function, so that over the polytope it has one least value.
+A walk over faces, edges and vertices goes there: on every feature it takes the least value on its plane or line, by
+Newton's method on the support function, and leaves to the feature where the way there meets its border, or to a
+neighbour in which the distance still falls.  Every stop is lower than the one before, and the last one is a proof.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from bodies.contacts.features.curvature import write_flat, write_principal, write_round
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.features.tangents import tangent_of, write_tangent
+from bodies.contacts.smooth.boxy_newton import Answer
+from bodies.contacts.smooth.gauge import gauge
+from bodies.contacts.smooth.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
+from bodies.contacts.smooth.round_search import along_segment, up_hills
+from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
+from bodies.contacts.smooth.smooth_newton import widest_from, write_surface
+from bodies.shapes.support_function import is_round, support_of
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.types import Floats
+
+_HERE, _VERTEX, _EDGE, _FACE = -1, 0, 1, 2
+"""Kinds of features; nowhere else to go."""
+_ON_BORDER = 1e-14
+"""How far a point may be over a border, in units of the size, and a normal over that of its cone."""
+_SHALLOW = 1e-6
+"""Overlap of the cores, in units of the size, up to which it is not asked for a proof."""
+_ROUND = 8
+"""Directions round a segment from which its side is looked at."""
+
+Point: TypeAlias = tuple[float, float, float]
+Stop: TypeAlias = tuple[float, float, float, float, int, int, Point]
+Nearest: TypeAlias = tuple[float, float, float, float, int, Point]
+
+
+@compiled
+def _vertex(hull: Floats, i: int) -> tuple[float, float, float]:
+    at = int(hull[VERTICES]) + 3 * i
+    return hull[at], hull[at + 1], hull[at + 2]
+
+
+@compiled
+def _edge(hull: Floats, i: int) -> tuple[float, float, float, float]:
+    """Return the unit vector from the first to the second vertex of an edge, and its length."""
+    at = int(hull[EDGES]) + EDGE * i
+    ax, ay, az = _vertex(hull, int(hull[at]))
+    bx, by, bz = _vertex(hull, int(hull[at + 1]))
+    x, y, z = bx - ax, by - ay, bz - az
+    length = math.sqrt(x * x + y * y + z * z)
+    return x / length, y / length, z / length, length
+
+
+@compiled
+def _point_along(
+    core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
+) -> tuple[float, float, float]:
+    """Return the smooth body's farthest point against n, in the axes of the polytope."""
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    s = support_of(core, mx, my, mz)
+    px, py, pz = forth(turn, s[1], s[2], s[3])
+    return x + px, y + py, z + pz
+
+
+@compiled
+def _exit(
+    hull: Floats, face: int, near: float, fx: float, fy: float, fz: float, tx: float, ty: float, tz: float
+) -> int:
+    """Return the edge over which the way from the point f of a face to t in its plane leaves it; -1 if none."""
+    at = int(hull[FACES]) + FACE * face
+    nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
+    loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
+    found, least = -1, 2.0
+    for i in range(count):
+        vx, vy, vz = _vertex(hull, int(hull[loop + 2 * i]))
+        wx, wy, wz = _vertex(hull, int(hull[loop + 2 * ((i + 1) % count)]))
+        ex, ey, ez = wx - vx, wy - vy, wz - vz
+        length = math.sqrt(ex * ex + ey * ey + ez * ez)
+        ox, oy, oz = (ey * nz - ez * ny) / length, (ez * nx - ex * nz) / length, (ex * ny - ey * nx) / length
+        before = (fx - vx) * ox + (fy - vy) * oy + (fz - vz) * oz
+        after = (tx - vx) * ox + (ty - vy) * oy + (tz - vz) * oz
+        if after > near and after > before:
+            part = max(-before, 0.0) / (after - before)
+            if part < least:
+                found, least = int(hull[loop + 2 * i + 1]), part
+    return found
+
+
+@compiled
+def _best_face(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> int:
+    """Return the face that the smooth body is farthest off, -1 without faces."""
+    best, widest = -1, -math.inf
+    for i in range(int(hull[COUNTS + 2])):
+        at = int(hull[FACES]) + FACE * i
+        nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
+        px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
+        wide = nx * px + ny * py + nz * pz - hull[at + 3]
+        if wide > widest:
+            best, widest = i, wide
+    return best
+
+
+@compiled
+def _look_at_face(
+    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float, number: int, way: Point
+) -> Stop:
+    at = int(hull[FACES]) + FACE * number
+    nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
+    px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
+    g = nx * px + ny * py + nz * pz - hull[at + 3]
+    edge = _exit(hull, number, near, way[0], way[1], way[2], px - g * nx, py - g * ny, pz - g * nz)
+    return g, nx, ny, nz, _HERE if edge < 0 else _EDGE, edge, way
+
+
+@compiled
+def _look_at_edge(
+    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float, number: int, begin: Point
+) -> Stop:
+    at = int(hull[EDGES]) + EDGE * number
+    one, two = int(hull[at]), int(hull[at + 1])
+    vx, vy, vz = _vertex(hull, one)
+    ex, ey, ez, length = _edge(hull, number)
+    g, px, py, pz, nx, ny, nz = widest_from(
+        hull, core, turn, x - vx, y - vy, z - vz, ex, ey, ez, begin[0], begin[1], begin[2]
+    )
+    s = px * ex + py * ey + pz * ez
+    if s < -near or s > length + near:
+        return g, nx, ny, nz, _VERTEX, one if s < 0.0 else two, begin
+    side, most = -1, _ON_BORDER
+    for i in range(2):
+        face = int(hull[at + 2 + i])
+        if face >= 0:
+            # into the face, whose loop runs along the edge on its left, against it on its right
+            f = int(hull[FACES]) + FACE * face
+            fx, fy, fz = hull[f], hull[f + 1], hull[f + 2]
+            into = nx * (fy * ez - fz * ey) + ny * (fz * ex - fx * ez) + nz * (fx * ey - fy * ex)
+            into = into if i == 0 else -into
+            if into > most:
+                side, most = face, into
+    return g, nx, ny, nz, _HERE if side < 0 else _FACE, side, (vx + s * ex, vy + s * ey, vz + s * ez)
+
+
+@compiled
+def _look_at_vertex(
+    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, number: int, begin: Point
+) -> Stop:
+    vx, vy, vz = _vertex(hull, number)
+    g, _, _, _, nx, ny, nz = widest_from(
+        hull, core, turn, x - vx, y - vy, z - vz, 0.0, 0.0, 0.0, begin[0], begin[1], begin[2]
+    )
+    star = int(hull[STARS]) + 2 * number
+    steepest, most = -1, _ON_BORDER
+    for i in range(int(hull[star + 1])):
+        edge = int(hull[int(hull[LISTS]) + int(hull[star]) + i])
+        ex, ey, ez, _ = _edge(hull, edge)
+        away = nx * ex + ny * ey + nz * ez
+        if int(hull[int(hull[EDGES]) + EDGE * edge]) != number:
+            away = -away
+        if away > most:
+            steepest, most = edge, away
+    return g, nx, ny, nz, _HERE if steepest < 0 else _EDGE, steepest, (vx, vy, vz)
+
+
+@compiled
+def _middle(hull: Floats, face: int) -> Point:
+    at = int(hull[FACES]) + FACE * face
+    loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
+    x = y = z = 0.0
+    for i in range(count):
+        vx, vy, vz = _vertex(hull, int(hull[loop + 2 * i]))
+        x, y, z = x + vx / count, y + vy / count, z + vz / count
+    return x, y, z
+
+
+@compiled
+def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> Nearest:
+    """Return gap of the cores, normal, the number of the feature: faces first, then edges, then vertices, and a point.
+
+    The point is that of the edge or the vertex.
+
+    All in the frame of the polytope; (x, y, z) is the centre of the core.  The gap is nan where none was found.
+    """
+    n_edges, n_faces = int(hull[COUNTS + 1]), int(hull[COUNTS + 2])
+    vx, vy, vz = _vertex(hull, 0)
+    size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + abs(vx) + abs(vy) + abs(vz)
+    near = _ON_BORDER * size
+    kind, number, way = _EDGE, 0, (vx, vy, vz)
+    if n_faces > 0:
+        kind, number = _FACE, _best_face(hull, core, turn, x, y, z)
+        way = _middle(hull, number)
+    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, way
+    # on edges and vertices Newton's method begins at the line to the centre
+    for _ in range(n_edges + 4):
+        if kind == _FACE:
+            g, nx, ny, nz, after, where, way = _look_at_face(hull, core, turn, x, y, z, near, number, way)
+        elif kind == _EDGE:
+            vx, vy, vz = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * number]))
+            begin = (x - vx, y - vy, z - vz)
+            g, nx, ny, nz, after, where, way = _look_at_edge(hull, core, turn, x, y, z, near, number, begin)
+        else:
+            vx, vy, vz = _vertex(hull, number)
+            begin = (x - vx, y - vy, z - vz)
+            g, nx, ny, nz, after, where, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
+        if after == _HERE and g >= -_SHALLOW * size:
+            return g, nx, ny, nz, _feature(hull, kind, number), way
+        # a plane that the centre has passed is no face that the body is before
+        if after == _HERE and nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0:
+            # the point of the polytope lies in the smooth body: they do overlap
+            px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
+            px, py, pz = back(turn, px - g * nx - x, py - g * ny - y, pz - g * nz - z)
+            if gauge(core, px, py, pz) < 1.0:
+                return g, nx, ny, nz, _feature(hull, kind, number), way
+            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, kind, number), way
+        if g != g or after == _HERE:
+            break
+        kind, number = after, where
+    found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    on_segment = way
+    if n_faces == 0:
+        # a segment, by a search along it
+        vx, vy, vz = _vertex(hull, 0)
+        ex, ey, ez, length = _edge(hull, 0)
+        found, s = along_segment(core, turn, x - vx, y - vy, z - vz, ex, ey, ez, length)
+        number = n_edges if s == 0.0 else n_edges + 1 if s == length else 0
+        on_segment = vx + s * ex, vy + s * ey, vz + s * ez
+        if found[0] >= 0.0:
+            return found[0], found[4], found[5], found[6], number, on_segment
+    g, nx, ny, nz, feature_of_all, way = _best_of_all(hull, core, turn, x, y, z, near)
+    if best == best and not g > best:
+        return best, bx, by, bz, feature, base
+    if g != g and found[0] == found[0]:
+        # a point of the segment in the smooth body: they do overlap
+        return found[0], found[4], found[5], found[6], number, on_segment
+    if g != g and n_faces == 0:
+        end: Nearest = _deep_segment(hull, core, turn, x, y, z, size)
+        return end
+    return g, nx, ny, nz, feature_of_all, way
+
+
+@compiled
+def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, size: float) -> Nearest:
+    """Return the same for a segment deep in the body: its ends by steps, its side from all round."""
+    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
+    for end in range(2):
+        vx, vy, vz = _vertex(hull, end)
+        ex, ey, ez, _ = _edge(hull, 0)
+        lean = (1.0, 0.0, size)
+        g, _, _, _, nx, ny, nz = up_hills((0.0, 0.0, 0.0, 2.0, 2.0, 0.0), core, turn, x - vx, y - vy, z - vz, 0.0, lean)
+        ahead = nx * ex + ny * ey + nz * ez
+        if (ahead <= 0.0 if end == 0 else ahead >= 0.0) and g == g and not g <= best:
+            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, _VERTEX, end), (vx, vy, vz)
+    ex, ey, ez, _ = _edge(hull, 0)
+    tx, ty, tz = tangent_of(ex, ey, ez)
+    for i in range(_ROUND):
+        c, s = math.cos(2.0 * math.pi * i / _ROUND), math.sin(2.0 * math.pi * i / _ROUND)
+        begin = (
+            c * tx + s * (ey * tz - ez * ty),
+            c * ty + s * (ez * tx - ex * tz),
+            c * tz + s * (ex * ty - ey * tx),
+        )
+        g, nx, ny, nz, after, _, way = _look_at_edge(hull, core, turn, x, y, z, _ON_BORDER * size, 0, begin)
+        if after == _HERE and g == g and not g <= best:
+            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, _EDGE, 0), way
+    return best, bx, by, bz, feature, base
+
+
+@compiled
+def _best_of_all(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float) -> Nearest:
+    """Return the same for bodies that overlap, where planes and lines through the smooth one lead astray.
+
+    Of all features that are a stop that of the widest gap; Newton's method begins in the middle of their normals.
+    """
+    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
+    for kind in (_FACE, _EDGE, _VERTEX):
+        for number in range(int(hull[COUNTS + kind])):
+            if kind == _FACE:
+                way = _middle(hull, number)
+                g, nx, ny, nz, after, _, way = _look_at_face(hull, core, turn, x, y, z, near, number, way)
+            elif kind == _EDGE:
+                begin = _outward_of_edge(hull, number, x, y, z)
+                g, nx, ny, nz, after, _, way = _look_at_edge(hull, core, turn, x, y, z, near, number, begin)
+            else:
+                begin = _outward_of_vertex(hull, number)
+                g, nx, ny, nz, after, _, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
+            if after == _HERE and g == g and not g <= best:
+                best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, kind, number), way
+    return best, bx, by, bz, feature, base
+
+
+@compiled
+def _outward_of_edge(hull: Floats, number: int, x: float, y: float, z: float) -> Point:
+    """Return a normal between those of the faces, without faces the way to (x, y, z)."""
+    at = int(hull[EDGES]) + EDGE * number
+    if hull[at + 2] < 0.0:
+        vx, vy, vz = _vertex(hull, int(hull[at]))
+        return x - vx, y - vy, z - vz
+    x = y = z = 0.0
+    for i in range(2):
+        face = int(hull[at + 2 + i])
+        if face >= 0:
+            f = int(hull[FACES]) + FACE * face
+            x, y, z = x + hull[f], y + hull[f + 1], z + hull[f + 2]
+    return x, y, z
+
+
+@compiled
+def _outward_of_vertex(hull: Floats, number: int) -> Point:
+    x = y = z = 0.0
+    star = int(hull[STARS]) + 2 * number
+    for i in range(int(hull[star + 1])):
+        edge = int(hull[int(hull[LISTS]) + int(hull[star]) + i])
+        ex, ey, ez, _ = _edge(hull, edge)
+        sign = -1.0 if int(hull[int(hull[EDGES]) + EDGE * edge]) == number else 1.0
+        x, y, z = x + sign * ex, y + sign * ey, z + sign * ez
+    return x, y, z
+
+
+@compiled
+def _feature(hull: Floats, kind: int, number: int) -> int:
+    if kind == _FACE:
+        return number
+    return number + int(hull[COUNTS + 2]) + (int(hull[COUNTS + 1]) if kind == _VERTEX else 0)
+
+
+def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
+    """Write the geometry block of a polytope (:mod:`bodies.contacts.smooth.polytope`) and a core.
+
+    The gap is nan where no feature can be proved to be the nearest.
+    """
+    axes_a, axes_b = axes_of(a), axes_in_world(b, second)
+    bx, by, bz = point_in_world(b, second[6], second[7], second[8])
+    x, y, z = vector_in_body(a, bx - a[POSITION], by - a[POSITION + 1], bz - a[POSITION + 2])
+    turn = between_axes(axes_a, axes_b)
+    g, nx, ny, nz, feature, base = _nearest(first, second, turn, x, y, z)
+    px, py, pz = _point_along(second, turn, x, y, z, nx, ny, nz)
+    n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
+    if feature >= n_faces and not is_round(second):
+        # along a flat place the normal says little of the point
+        px, py, pz = base[0] + g * nx, base[1] + g * ny, base[2] + g * nz
+    out[GAP] = g - first[RADIUS] - second[RADIUS]
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)
+    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(a, px, py, pz)
+    for i in range(3):
+        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
+        out[POINT_A + i] = out[POINT_B + i] - out[GAP] * out[NORMAL + i]
+    out[FEATURE] = feature
+    write_tangent(a, out)
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    px, py, pz = back(turn, px - x, py - y, pz - z)
+    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, px, py, pz)
+    if feature < n_faces:
+        write_flat(out, SIDE_A)
+    elif feature < n_faces + n_edges:
+        ex, ey, ez, _ = _edge(first, feature - n_faces)
+        ex, ey, ez = vector_in_world(a, ex, ey, ez)
+        write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, first[RADIUS])
+    else:
+        write_round(out, SIDE_A, first[RADIUS])

@@ -1,0 +1,102 @@
+"""Two bodies with smooth support functions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+from bodies.blocks import put
+from bodies.contacts.features.frames import point_in_world
+from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.smooth.smooth_core import RADIUS, axes_in_world, back, between_axes, forth
+from bodies.contacts.smooth.smooth_newton import widest, write_surface
+from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.support_function import OF_FUNCTION
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+
+def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
+    """Write the geometry block of two cores, the tuples of :mod:`bodies.contacts.smooth.smooth_core`; one is no point.
+
+    The gap is nan where Newton's method does not end with a residual of round-off.
+    """
+    axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
+    ax, ay, az = point_in_world(a, first[6], first[7], first[8])
+    bx, by, bz = point_in_world(b, second[6], second[7], second[8])
+    x, y, z = back(axes_a, bx - ax, by - ay, bz - az)
+    turn = between_axes(axes_a, axes_b)
+    g, qx, qy, qz, nx, ny, nz = widest(first, second, turn, x, y, z)
+    px, py, pz = qx - g * nx, qy - g * ny, qz - g * nz
+    out[GAP] = g - first[RADIUS] - second[RADIUS]
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes_a, nx, ny, nz)
+    wx, wy, wz = forth(axes_a, px, py, pz)
+    put(out, POINT_A, ax + wx, ay + wy, az + wz)
+    wx, wy, wz = forth(axes_a, qx, qy, qz)
+    put(out, POINT_B, ax + wx, ay + wy, az + wz)
+    for i in range(3):
+        out[POINT_A + i] += first[RADIUS] * out[NORMAL + i]
+        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
+    write_tangent(a, out)
+    write_surface(out, SIDE_A, first, axes_a, nx, ny, nz, px, py, pz)
+    mx, my, mz = back(turn, -nx, -ny, -nz)
+    qx, qy, qz = back(turn, qx - x, qy - y, qz - z)
+    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, qx, qy, qz)
+
+
+@final
+@dataclass(frozen=True)
+class SmoothSmooth(ContactKinematics):
+    """One contact of two smooth bodies; its normal is the one that separates them most.
+
+    Attributes
+    ----------
+    first : SmoothShape
+        The one.
+    second : SmoothShape
+        The other.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SmoothShape, SmoothShape)
+
+    first: SmoothShape
+    second: SmoothShape
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[SmoothSmooth, ...]:
+        """Return the single contact of two smooth shapes.
+
+        Raises
+        ------
+        InvalidInput
+            If one is known by its farthest points only and the other is flat one way and sharp the other.
+        """
+        assert isinstance(first, SmoothShape)
+        assert isinstance(second, SmoothShape)
+        for one, other in ((first, second), (second, first)):
+            if one.mixed and other.core[3] == OF_FUNCTION:
+                raise InvalidInput(
+                    f"contact of {type(one).__name__} and {type(other).__name__}",
+                    "needs exponents both up to 1, or both from 1 on",
+                    [2.0 - 2.0 / power for power in one.core[3:5]],
+                    "Next to flat and sharp places at once the search needs the powers of both bodies.",
+                )
+        return (cls(first, second),)
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the numbers of both support functions."""
+        return {"first": self.first.core, "second": self.second.core}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """Newton's method on the support functions."""
+        return _evaluate
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The only pair."""
+        return ("smooth-smooth",)

@@ -1,0 +1,154 @@
+"""Which edges of two bodies are near each other and may touch, by the trees of their surfaces."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.features.frames import vector_in_body, vector_in_world
+from bodies.contacts.surface.surface_edges import edge_astray
+from bodies.contacts.surface.surface_near import is_node_near, seen_from
+from bodies.contacts.surface.surface_tables import EDGE, EDGES, MEMBERS, N_EDGES, N_NODES, N_TRIANGLES, NODE, NODES
+from bodies.contacts.surface.surface_vertex import ASTRAY
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_ALONG = 1e-3
+"""Sine of the angle between edges below which nothing is said of their normals."""
+
+
+@compiled
+def _passes_box(
+    surface: Floats, at: int, px: float, py: float, pz: float, dx: float, dy: float, dz: float, reach: float
+) -> bool:
+    """Return whether a line from p by d is nearer to the box of a node than a reach [m] along each axis."""
+    low, high = 0.0, 1.0
+    for i in range(3):
+        p, d = (px, dx) if i == 0 else (py, dy) if i == 1 else (pz, dz)
+        one, two = surface[at + i] - reach - p, surface[at + 3 + i] + reach - p
+        if d < 0.0:
+            one, two, d = -two, -one, -d
+        if one > d or two < 0.0:
+            return False
+        if one > 0.0:
+            low = max(low, one / d)
+        if two < d:
+            high = min(high, two / d)
+    return low <= high
+
+
+@compiled
+def _square_of_lines(
+    wx: float,
+    wy: float,
+    wz: float,
+    ex: float,
+    ey: float,
+    ez: float,
+    p: float,
+    fx: float,
+    fy: float,
+    fz: float,
+    q: float,
+) -> float:
+    """Return the square of the distance of two segments: along e by up to p, and from w along f by up to q."""
+    across = ex * fx + ey * fy + ez * fz
+    along_e, along_f = wx * ex + wy * ey + wz * ez, wx * fx + wy * fy + wz * fz
+    sine = 1.0 - across * across
+    s = min(max((along_e - across * along_f) / sine, 0.0), p) if sine > 0.0 else 0.0
+    t = min(max(s * across - along_f, 0.0), q)
+    s = min(max(along_e + t * across, 0.0), p)
+    x, y, z = wx + t * fx - s * ex, wy + t * fy - s * ey, wz + t * fz - s * ez
+    return x * x + y * y + z * z
+
+
+@compiled
+def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Floats, two: int, turn: float) -> bool:
+    """Return whether the normals of two edges face each other, or may after a small turn."""
+    ex, ey, ez = vector_in_world(a, surface_a[one + 3], surface_a[one + 4], surface_a[one + 5])
+    fx, fy, fz = vector_in_world(b, surface_b[two + 3], surface_b[two + 4], surface_b[two + 5])
+    x, y, z = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
+    sine = math.sqrt(x * x + y * y + z * z)
+    if sine <= _ALONG:
+        return True
+    x, y, z = x / sine, y / sine, z / sine
+    plus = max(edge_astray(a, surface_a, one, 1.0, x, y, z), edge_astray(b, surface_b, two, -1.0, x, y, z))
+    minus = max(edge_astray(a, surface_a, one, -1.0, x, y, z), edge_astray(b, surface_b, two, 1.0, x, y, z))
+    # the normal turns with either edge, the faster the less they cross
+    return bool(min(plus, minus) <= ASTRAY + turn * (1.0 + 2.0 / sine))
+
+
+@compiled
+def edges_across(
+    a: Floats,
+    b: Floats,
+    surface: Floats,
+    edges: Floats,
+    two: int,
+    number: float,
+    reach: float,
+    turn: float,
+    kind: float,
+    out: Floats,
+    n: int,
+    most: int,
+) -> int:
+    """Write the edges of the surface of the first body near one of the second; return how many candidates there are.
+
+    Arguments as of :func:`edges_near`; the numbers of that edge stand at ``two``, and its own is the third of these.
+    """
+    first, members = int(surface[N_TRIANGLES]), int(surface[MEMBERS])
+    px, py, pz = seen_from(a, b, edges[two], edges[two + 1], edges[two + 2])
+    fx, fy, fz = vector_in_world(b, edges[two + 3], edges[two + 4], edges[two + 5])
+    fx, fy, fz = vector_in_body(a, fx, fy, fz)
+    q = edges[two + 6]
+    node = 0
+    while node < int(surface[N_NODES]) and n <= most:
+        at = int(surface[NODES]) + NODE * node
+        if not _passes_box(surface, at, px, py, pz, q * fx, q * fy, q * fz, reach):
+            node = int(surface[at + 6])
+            continue
+        for m in range(int(surface[at + 8])):
+            e = int(surface[members + int(surface[at + 7]) + m]) - first
+            if e < 0 or e >= int(surface[N_EDGES]) or n > most:
+                continue
+            one = int(surface[EDGES]) + EDGE * e
+            wx, wy, wz = px - surface[one], py - surface[one + 1], pz - surface[one + 2]
+            ex, ey, ez, p = surface[one + 3], surface[one + 4], surface[one + 5], surface[one + 6]
+            square = _square_of_lines(wx, wy, wz, ex, ey, ez, p, fx, fy, fz, q)
+            if square <= reach * reach and _may_cross(a, b, surface, one, edges, two, turn):
+                out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, float(e), number
+                n += 1
+        node += 1
+    return n
+
+
+@compiled
+def edges_near(
+    a: Floats,
+    b: Floats,
+    surface_a: Floats,
+    surface_b: Floats,
+    reach: float,
+    turn: float,
+    kind: float,
+    out: Floats,
+    n: int,
+    most: int,
+) -> int:
+    """Write the edges of both bodies that are near each other behind ``n``; return how many candidates there are.
+
+    Arguments as of :func:`bodies.contacts.surface.surface_near.corners_near`.
+    """
+    first, members, node = int(surface_b[N_TRIANGLES]), int(surface_b[MEMBERS]), 0
+    while node < int(surface_b[N_NODES]) and n <= most:
+        at = int(surface_b[NODES]) + NODE * node
+        if not is_node_near(a, b, surface_a, surface_b, at, reach):
+            node = int(surface_b[at + 6])
+            continue
+        for i in range(int(surface_b[at + 8])):
+            j = int(surface_b[members + int(surface_b[at + 7]) + i]) - first
+            if 0 <= j < int(surface_b[N_EDGES]):
+                two = int(surface_b[EDGES]) + EDGE * j
+                n = edges_across(a, b, surface_a, surface_b, two, float(j), reach, turn, kind, out, n, most)
+        node += 1
+    return n

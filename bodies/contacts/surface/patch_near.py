@@ -1,0 +1,101 @@
+"""A round body against a surface of many patches, of which those near it are contacts."""
+
+from __future__ import annotations
+
+from abc import ABC
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Self
+
+from bodies.contacts.features.apart import NO_CANDIDATE
+from bodies.contacts.features.frames import point_in_world, vector_in_body
+from bodies.contacts.surface.surface_near import patches_near
+from bodies.contacts.surface.surface_tables import N_PATCHES, surface_numbers
+from bodies.meshes.features import Features
+from bodies.meshes.patches import Patches
+from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+MOST_EACH = 8
+"""Patches up to which each of them is a contact of its own."""
+
+
+def _find(
+    a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, x_b: float, y_b: float, z_b: float
+) -> None:
+    """Find the patches with a feature near the ball that holds the second body."""
+    x, y, z = point_in_world(b, x_b, y_b, z_b)
+    x, y, z = vector_in_body(a, x - a[POSITION], y - a[POSITION + 1], z - a[POSITION + 2])
+    most = int(surface[N_PATCHES])
+    out[0] = float(patches_near(surface, x, y, z, extent + out[0], 1.0, 0.0, out, 0, most))
+
+
+def are_many(patches: Patches) -> bool:
+    """Return whether so many patches are searched for, rather than each a contact."""
+    return patches.count > MOST_EACH
+
+
+@dataclass(frozen=True)
+class PatchNear(ContactKinematics, ABC):
+    """The contact of a round body with one of the patches of a surface that are near it.
+
+    The evaluator takes the patch from the second number of the candidate.
+
+    Attributes
+    ----------
+    search : CandidateSearch
+        What finds them.
+    values : mapping
+        The parameters of the evaluator but for the candidate.
+    n_features : int
+        How many features the surface has.
+    number : int
+        Which of the contacts of both bodies it is.
+    """
+
+    search: CandidateSearch
+    values: Mapping[str, Value]
+    n_features: int
+    number: int
+
+    @classmethod
+    def _of_patches(
+        cls,
+        own: Features,
+        patches: Patches,
+        ball: tuple[float, float, float, float],
+        values: Mapping[str, Value],
+    ) -> tuple[Self, ...]:
+        """Return as many contacts as a surface has patches.
+
+        Parameters
+        ----------
+        own, patches : Features, Patches
+            The surface, and how it is divided.
+        ball : tuple of float
+            Centre, in its body frame, and radius of a ball that holds the second body [m].
+        values : mapping
+            The parameters of the evaluator but for candidate, surface and size.
+        """
+        surface = surface_numbers(own, patches)
+        x, y, z, extent = ball
+        search = CandidateSearch(_find, {"surface": surface, "extent": extent, "x_b": x, "y_b": y, "z_b": z})
+        offered = {**values, "surface": surface, "size": own.size}
+        n = len(own.planes) + len(own.edges) + len(own.corners)
+        return tuple(cls(search, offered, n, number) for number in range(patches.count))
+
+    @property
+    def candidates(self) -> CandidateSearch:
+        """What finds the patches."""
+        return self.search
+
+    def parameters(self) -> dict[str, Value]:
+        """Return those of the evaluator, and no patch."""
+        return {**self.values, "candidate": NO_CANDIDATE}
+
+    @property
+    def features(self) -> tuple[str, ...]:
+        """The features of the surface, by number."""
+        return tuple(f"feature {i}" for i in range(self.n_features))

@@ -1,0 +1,126 @@
+"""A convex edge of one body across one of another, neither of which need be convex."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.blocks import put
+from bodies.contacts.features.curvature import write_principal
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.features.tangents import tangent_of, write_tangent
+from bodies.contacts.features.vertex_face import DEEP, REACH
+from bodies.contacts.surface.surface_search import depth_inside
+from bodies.contacts.surface.surface_vertex import ASTRAY
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.types import Floats
+
+_PARALLEL = 0.01
+"""Sine of the angle between two edges below which they do not cross; then the vertices hold all the same."""
+_PARALLEL_ROUNDED = 1e-5
+"""The same of edges with a radius, whose distance counts, not their normal; what vertices hold is nearer by less."""
+_NEAR_ENDS = 4.0
+"""Where no point is found inside, edges overlap only where they cross so many depths away from their ends."""
+
+
+@compiled
+def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: float, z: float) -> float:
+    """Return the sine of the angle by which a vector across the edge there, times ``sign``, leaves its normals."""
+    x, y, z = vector_in_body(frame, sign * x, sign * y, sign * z)
+    one = x * edge[at + 7] + y * edge[at + 8] + z * edge[at + 9]
+    return float(max(one, x * edge[at + 10] + y * edge[at + 11] + z * edge[at + 12]))
+
+
+@compiled
+def _depth(frame: Floats, surface: Floats, x: float, y: float, z: float) -> float:
+    """Return how far a point of the world is inside of a body [m]."""
+    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
+    return float(depth_inside(surface, x, y, z))
+
+
+def evaluate_edges(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    edge_b: Floats,
+    surface_a: Floats,
+    surface_b: Floats,
+    radius: float,
+    size: float,
+) -> None:
+    """Write the geometry block of two edges; arguments as of :func:`write_edges`."""
+    write_edges(a, b, out, edge_a, 0, edge_b, 0, surface_a, surface_b, radius, size)
+
+
+@compiled
+def write_edges(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    at_a: int,
+    edge_b: Floats,
+    at_b: int,
+    surface_a: Floats,
+    surface_b: Floats,
+    radius: float,
+    size: float,
+) -> None:
+    """Write the geometry block where the lines of two edges, the second with a radius about it, are nearest.
+
+    The normal is the one of the two across both edges that is nearer to the normals that the edges have.  Where it
+    leaves them, or the lines are nearest past an end, the contact is open, with a positive gap unless one of the
+    points is inside of the other body.  The numbers of the edges stand at ``at_a`` and ``at_b``.
+    """
+    ax, ay, az = point_in_world(a, edge_a[at_a], edge_a[at_a + 1], edge_a[at_a + 2])
+    bx, by, bz = point_in_world(b, edge_b[at_b], edge_b[at_b + 1], edge_b[at_b + 2])
+    ex, ey, ez = vector_in_world(a, edge_a[at_a + 3], edge_a[at_a + 4], edge_a[at_a + 5])
+    fx, fy, fz = vector_in_world(b, edge_b[at_b + 3], edge_b[at_b + 4], edge_b[at_b + 5])
+    wx, wy, wz = bx - ax, by - ay, bz - az
+    nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
+    sine = math.sqrt(nx * nx + ny * ny + nz * nz)
+    margin = REACH * size
+    parallel = _PARALLEL if radius == 0.0 else _PARALLEL_ROUNDED
+    s, t, over, past = 0.0, 0.0, 0.0, size * parallel
+    if sine > 1e-3 * parallel:
+        nx, ny, nz = nx / sine, ny / sine, nz / sine
+        # (w x f) . n / sine along the first, (w x e) . n / sine along the second
+        s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
+        t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
+        over = max(max(-s, s - edge_a[at_a + 6]), max(-t, t - edge_b[at_b + 6]))
+        past = max(over - margin, size * (parallel - sine))
+    else:
+        along = wx * ex + wy * ey + wz * ez
+        nx, ny, nz = wx - along * ex, wy - along * ey, wz - along * ez
+        apart = math.sqrt(nx * nx + ny * ny + nz * nz)
+        if apart > 0.0:
+            nx, ny, nz = nx / apart, ny / apart, nz / apart
+        else:
+            nx, ny, nz = tangent_of(ex, ey, ez)
+    plus = max(edge_astray(a, edge_a, at_a, 1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, -1.0, nx, ny, nz))
+    minus = max(edge_astray(a, edge_a, at_a, -1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, 1.0, nx, ny, nz))
+    if minus < plus:
+        nx, ny, nz, plus = -nx, -ny, -nz, minus
+    gap = wx * nx + wy * ny + wz * nz
+    depth = 0.0
+    if past <= 0.0 and (gap < 0.0 or plus > ASTRAY):
+        depth = _depth(b, surface_b, ax + s * ex, ay + s * ey, az + s * ez)
+        depth = max(depth, _depth(a, surface_a, bx + t * fx, by + t * fy, bz + t * fz))
+    past = max(past, size * (plus - ASTRAY))
+    if gap < 0.0 and depth <= DEEP * size:
+        past = max(past, over - _NEAR_ENDS * gap - margin)
+    if past > 0.0:
+        # what is inside and no contact of these edges is a sign that another one was passed
+        apart = abs(gap) - radius
+        gap = -depth - radius if depth > DEEP * size else math.sqrt(apart * apart + past * past)
+    else:
+        gap -= radius
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    put(out, NORMAL, nx, ny, nz)
+    put(out, POINT_A, ax + s * ex, ay + s * ey, az + s * ez)
+    for i in range(3):
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
+    write_tangent(a, out)
+    write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
+    write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, radius)

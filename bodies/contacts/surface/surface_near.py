@@ -1,0 +1,230 @@
+"""Which patches of a surface are near a point, and which corners of another surface may touch them, by their trees."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.features.frames import point_in_world, vector_in_body
+from bodies.contacts.surface.surface_search import Point, box_square, in_triangle
+from bodies.contacts.surface.surface_tables import (
+    CORNER,
+    CORNERS,
+    EDGE,
+    EDGES,
+    FACE,
+    FACES,
+    MEMBERS,
+    N_EDGES,
+    N_NODES,
+    N_TRIANGLES,
+    NODE,
+    NODES,
+    STARS,
+    TRIANGLE,
+    TRIANGLES,
+)
+from bodies.contacts.surface.surface_vertex import ASTRAY, leaning
+from nonsmooth.compiled import block_at, compiled
+from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.types import Floats
+
+OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
+"""A corner of the second body over a patch of the first, the other way round, and two edges: the first of the three
+numbers of a candidate.  Patch and corner, or the edges of the first and the second body, follow."""
+FEW = 64
+"""Candidates that are enough to look ahead for: all of them are evaluated at every step, so that less far is faster."""
+NARROW = 1e-2
+"""Part of the smaller extent from which it is not narrow any more to look ahead."""
+
+
+@compiled
+def room_ahead(reach: float, narrow: float, most: int) -> int:
+    """Return how many candidates are listed up to a reach: all that have room where it is narrow [m]."""
+    return most if reach <= narrow else min(most, FEW)
+
+
+@compiled
+def seen_from(frame: Floats, other: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return a point of the other body in the axes of a frame [m]."""
+    x, y, z = point_in_world(other, x, y, z)
+    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
+    return x, y, z
+
+
+@compiled
+def _is_near(surface: Floats, x: float, y: float, z: float, reach: float) -> bool:
+    """Return whether some leaf of a surface may be nearer to a point than a reach [m]."""
+    node = 0
+    while node < int(surface[N_NODES]):
+        at = int(surface[NODES]) + NODE * node
+        if box_square(surface, at, x, y, z) > reach * reach:
+            node = int(surface[at + 6])
+        elif surface[at + 8] > 0.0:
+            return True
+        else:
+            node += 1
+    return False
+
+
+@compiled
+def _patch_of(surface: Floats, member: int) -> float:
+    """Return the patch of a member of the tree."""
+    n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
+    if member < n_triangles:
+        t = int(surface[TRIANGLES]) + TRIANGLE * member
+        return float(surface[int(surface[FACES]) + FACE * int(surface[t + 9]) + 4])
+    if member < n_triangles + n_edges:
+        return float(surface[int(surface[EDGES]) + EDGE * (member - n_triangles) + 13])
+    return float(surface[int(surface[CORNERS]) + CORNER * (member - n_triangles - n_edges) + 3])
+
+
+@compiled
+def _add_patch(patch: float, kind: float, third: float, first: int, out: Floats, n: int) -> int:
+    """Write a candidate of a patch behind ``n``, unless it is among those from ``first`` on; return their number."""
+    for known in range(first, n):
+        if out[2 + 3 * known] == patch:
+            return n
+    out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, patch, third
+    return n + 1
+
+
+@compiled
+def patches_near(
+    surface: Floats,
+    x: float,
+    y: float,
+    z: float,
+    reach: float,
+    kind: float,
+    third: float,
+    out: Floats,
+    n: int,
+    most: int,
+) -> int:
+    """Write the patches with a leaf no farther from a point than a reach [m] as candidates; return their number.
+
+    Parameters
+    ----------
+    surface : Floats
+        Numbers of the surface.
+    x, y, z, reach : float
+        The point in its axes, and how far from it [m].
+    kind, third : float
+        The first and the third number of these candidates; the second is that of the patch.
+    out, n, most : Floats, int
+        As of :func:`corners_near`.
+    """
+    members, first, node = int(surface[MEMBERS]), n, 0
+    while node < int(surface[N_NODES]) and n <= most:
+        at = int(surface[NODES]) + NODE * node
+        if box_square(surface, at, x, y, z) > reach * reach:
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            if n <= most:
+                patch = _patch_of(surface, int(surface[members + int(surface[at + 7]) + i]))
+                n = _add_patch(patch, kind, third, first, out, n)
+        node += 1
+    return n
+
+
+@compiled
+def is_node_near(frame: Floats, other: Floats, surface: Floats, parts: Floats, at: int, reach: float) -> bool:
+    """Return whether something in a node of the other body may be nearer to a surface than a reach [m]."""
+    dx, dy, dz = parts[at + 3] - parts[at], parts[at + 4] - parts[at + 1], parts[at + 5] - parts[at + 2]
+    x, y, z = seen_from(frame, other, parts[at] + 0.5 * dx, parts[at + 1] + 0.5 * dy, parts[at + 2] + 0.5 * dz)
+    return bool(_is_near(surface, x, y, z, 0.5 * math.sqrt(dx * dx + dy * dy + dz * dz) + reach))
+
+
+@compiled
+def patches_under(
+    frame: Floats,
+    other: Floats,
+    surface: Floats,
+    place: Point,
+    n_star: float,
+    star: Floats,
+    reach: float,
+    turn: float,
+    kind: float,
+    third: float,
+    out: Floats,
+    n: int,
+    most: int,
+) -> int:
+    """Write the patches of the faces no farther from a vertex than a reach that it may stand over after a small turn.
+
+    Arguments as of :func:`corners_near` and :func:`patches_near`; place and star are those of the other body's vertex.
+    """
+    x, y, z = seen_from(frame, other, place[0], place[1], place[2])
+    members, first, node = int(surface[MEMBERS]), n, 0
+    while node < int(surface[N_NODES]) and n <= most:
+        at = int(surface[NODES]) + NODE * node
+        if box_square(surface, at, x, y, z) > reach * reach:
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            if member >= int(surface[N_TRIANGLES]) or n > most:
+                continue
+            t = int(surface[TRIANGLES]) + TRIANGLE * member
+            f = int(surface[FACES]) + FACE * int(surface[t + 9])
+            px, py, pz, _ = in_triangle(surface, t, x, y, z)
+            square = (x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz)
+            if square <= reach * reach and leaning(frame, other, surface, f, n_star, star, 0) <= ASTRAY + turn:
+                n = _add_patch(surface[f + 4], kind, third, first, out, n)
+        node += 1
+    return n
+
+
+@compiled
+def corners_near(
+    frame: Floats,
+    other: Floats,
+    surface: Floats,
+    corners: Floats,
+    reach: float,
+    turn: float,
+    kind: float,
+    out: Floats,
+    n: int,
+    most: int,
+) -> int:
+    """Write the corners of the other body near patches of the surface in ``frame`` behind ``n``; return their number.
+
+    Parameters
+    ----------
+    frame, other : Floats
+        Frame blocks.
+    surface, corners : Floats
+        Numbers of either body's surface.
+    reach : float
+        How far from each other [m].
+    turn : float
+        How far the bodies may turn until they are looked for again [rad].
+    kind : float
+        The first number of these candidates.
+    out : Floats
+        Three numbers of each, from the second place on.
+    n, most : int
+        How many there are, and more of which are not counted.
+    """
+    first = int(corners[N_TRIANGLES]) + int(corners[N_EDGES])
+    members, node = int(corners[MEMBERS]), 0
+    while node < int(corners[N_NODES]) and n <= most:
+        at = int(corners[NODES]) + NODE * node
+        if not is_node_near(frame, other, surface, corners, at, reach):
+            node = int(corners[at + 6])
+            continue
+        for i in range(int(corners[at + 8])):
+            corner = int(corners[members + int(corners[at + 7]) + i]) - first
+            if corner < 0:
+                continue
+            c = int(corners[CORNERS]) + CORNER * corner
+            place = corners[c], corners[c + 1], corners[c + 2]
+            star = block_at(corners, int(corners[STARS]) + int(corners[c + 4]))
+            n = patches_under(
+                frame, other, surface, place, corners[c + 5], star, reach, turn, kind, float(corner), out, n, most
+            )
+        node += 1
+    return n

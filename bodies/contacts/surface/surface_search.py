@@ -1,0 +1,290 @@
+"""Where a surface that need not be convex is nearest to a point, by a tree of boxes."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from bodies.contacts.features.vertex_face import REACH
+from bodies.contacts.surface.surface_tables import (
+    BITS,
+    CORNER,
+    CORNERS,
+    EDGE,
+    EDGES,
+    FACE,
+    FACES,
+    MEMBERS,
+    N_EDGES,
+    N_NODES,
+    N_PATCHES,
+    N_TRIANGLES,
+    NODE,
+    NODES,
+    SIZE,
+    STARS,
+    TRIANGLE,
+    TRIANGLES,
+)
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+FAR = 1e150
+"""A reach without end [m]."""
+ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
+"""Kinds of features."""
+
+THROUGH = 1e-3
+"""A line goes through a body, or a triangle, whose ends or edges are so far from it, in units of the size: much farther
+than bodies get into each other before their contacts are found."""
+
+Point: TypeAlias = tuple[float, float, float]
+Found: TypeAlias = tuple[float, float, int, int, float, float, float]
+"""Signed distance, way past the end of the feature [m], kind and number of the feature, and its nearest point."""
+
+
+@compiled
+def box_square(surface: Floats, at: int, x: float, y: float, z: float) -> float:
+    """Return the square of the distance of a point from the box of a node."""
+    dx = max(max(surface[at] - x, x - surface[at + 3]), 0.0)
+    dy = max(max(surface[at + 1] - y, y - surface[at + 4]), 0.0)
+    dz = max(max(surface[at + 2] - z, z - surface[at + 5]), 0.0)
+    return float(dx * dx + dy * dy + dz * dz)
+
+
+@compiled
+def face_height(surface: Floats, face: int, x: float, y: float, z: float) -> float:
+    """Return the height of a point over the plane of the face whose numbers stand there."""
+    return float(surface[face] * x + surface[face + 1] * y + surface[face + 2] * z - surface[face + 3])
+
+
+@compiled
+def over_ends(surface: Floats, triangle: int, x: float, y: float, z: float) -> tuple[float, float]:
+    """Return how far a point over the plane of a triangle is past its edges, and past those at which its face ends."""
+    over, ends = -1e300, -1e300
+    for i in range(3):
+        e = triangle + 10 + 4 * i
+        out = surface[e] * x + surface[e + 1] * y + surface[e + 2] * z - surface[e + 3]
+        over = max(over, out)
+        if surface[triangle + 22 + i] > 0.0:
+            ends = max(ends, out)
+    return over, ends
+
+
+@compiled
+def in_triangle(surface: Floats, triangle: int, x: float, y: float, z: float) -> tuple[float, float, float, int]:
+    """Return the point of a triangle that is nearest, and 0 if it is inside, 1 to 3 on an edge, 4 to 6 at a vertex.
+
+    By the regions of C. Ericson, "Real-Time Collision Detection" (Morgan Kaufmann, 2005), section 5.1.5.
+    """
+    t = triangle
+    ax, ay, az = surface[t], surface[t + 1], surface[t + 2]
+    bx, by, bz = surface[t + 3] - ax, surface[t + 4] - ay, surface[t + 5] - az
+    cx, cy, cz = surface[t + 6] - ax, surface[t + 7] - ay, surface[t + 8] - az
+    px, py, pz = x - ax, y - ay, z - az
+    d1, d2 = bx * px + by * py + bz * pz, cx * px + cy * py + cz * pz
+    if d1 <= 0.0 and d2 <= 0.0:
+        return ax, ay, az, 4
+    bb, bc, cc = bx * bx + by * by + bz * bz, bx * cx + by * cy + bz * cz, cx * cx + cy * cy + cz * cz
+    d3, d4 = d1 - bb, d2 - bc
+    if d3 >= 0.0 and d4 <= d3:
+        return ax + bx, ay + by, az + bz, 5
+    d5, d6 = d1 - bc, d2 - cc
+    if d6 >= 0.0 and d5 <= d6:
+        return ax + cx, ay + cy, az + cz, 6
+    vc = d1 * d4 - d3 * d2
+    if vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
+        v = d1 / (d1 - d3)
+        return ax + v * bx, ay + v * by, az + v * bz, 1
+    vb = d5 * d2 - d1 * d6
+    if vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
+        w = d2 / (d2 - d6)
+        return ax + w * cx, ay + w * cy, az + w * cz, 3
+    va = d3 * d6 - d5 * d4
+    if va <= 0.0 and d4 >= d3 and d5 >= d6:
+        w = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+        return ax + bx + w * (cx - bx), ay + by + w * (cy - by), az + bz + w * (cz - bz), 2
+    v, w = vb / (va + vb + vc), vc / (va + vb + vc)
+    return ax + v * bx + w * cx, ay + v * by + w * cy, az + v * bz + w * cz, 0
+
+
+@compiled
+def has_patch(surface: Floats, at: int, patch: float) -> bool:
+    """Return whether a node may have members of a patch, or of any where it is below 0."""
+    return patch < 0.0 or surface[N_PATCHES] > BITS or (int(surface[at + 9]) >> int(patch)) & 1 == 1
+
+
+@compiled
+def first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> int:
+    """Return a leaf whose members of a patch are near a point: with what is found there most others can be left out."""
+    nodes, node = int(surface[NODES]), 0
+    while surface[nodes + NODE * node + 8] == 0.0:
+        left = node + 1
+        right = int(surface[nodes + NODE * left + 6])
+        one, two = nodes + NODE * left, nodes + NODE * right
+        nearer = box_square(surface, one, x, y, z) <= box_square(surface, two, x, y, z)
+        node = left if has_patch(surface, one, patch) and (nearer or not has_patch(surface, two, patch)) else right
+    return node
+
+
+@compiled
+def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
+    """Return how far a point is inside of the body [m], 0 outside.
+
+    The side is that of the normal at the nearest point, on edges and at vertices the mean by angles:
+    J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE Transactions
+    on Visualization and Computer Graphics 11 (2005) 243-253.
+    """
+    nodes, members, triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[TRIANGLES])
+    if box_square(surface, nodes, x, y, z) > 0.0:
+        return 0.0
+    least, side = 1e300, 0.0
+    first = first_leaf(surface, -1.0, x, y, z)
+    node = -1
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * (first if node < 0 else node)
+        if node >= 0 and box_square(surface, at, x, y, z) > least:
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            if member < int(surface[N_TRIANGLES]):
+                t = triangles + TRIANGLE * member
+                qx, qy, qz, region = in_triangle(surface, t, x, y, z)
+                qx, qy, qz = x - qx, y - qy, z - qz
+                square = qx * qx + qy * qy + qz * qz
+                if square < least:
+                    least = square
+                    n = t + 22 + 3 * region if region > 0 else int(surface[FACES]) + FACE * int(surface[t + 9])
+                    side = qx * surface[n] + qy * surface[n + 1] + qz * surface[n + 2]
+        node += 1
+    return float(least**0.5) if side < 0.0 else 0.0
+
+
+@compiled
+def pierced(surface: Floats, px: float, py: float, pz: float, qx: float, qy: float, qz: float) -> float:
+    """Return how far the nearer end of a straight line is from the plane of a triangle that it goes through, or 0."""
+    nodes, members, margin = int(surface[NODES]), int(surface[MEMBERS]), THROUGH * surface[SIZE]
+    node = 0
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * node
+        if (
+            max(px, qx) < surface[at]
+            or max(py, qy) < surface[at + 1]
+            or max(pz, qz) < surface[at + 2]
+            or min(px, qx) > surface[at + 3]
+            or min(py, qy) > surface[at + 4]
+            or min(pz, qz) > surface[at + 5]
+        ):
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            if member >= int(surface[N_TRIANGLES]):
+                continue
+            t = int(surface[TRIANGLES]) + TRIANGLE * member
+            f = int(surface[FACES]) + FACE * int(surface[t + 9])
+            one, two = face_height(surface, f, px, py, pz), face_height(surface, f, qx, qy, qz)
+            if one * two >= 0.0 or min(abs(one), abs(two)) <= margin:
+                continue
+            s = one / (one - two)
+            over, _ = over_ends(surface, t, px + s * (qx - px), py + s * (qy - py), pz + s * (qz - pz))
+            if over < -margin:
+                return float(min(abs(one), abs(two)))
+        node += 1
+    return 0.0
+
+
+@compiled
+def past_edge(surface: Floats, edge: int, x: float, y: float, z: float) -> tuple[float, float, float, float]:
+    """Return how far a point is past the points and normals of an edge, and the point of it that is nearest."""
+    e = edge
+    wx, wy, wz = x - surface[e], y - surface[e + 1], z - surface[e + 2]
+    s = wx * surface[e + 3] + wy * surface[e + 4] + wz * surface[e + 5]
+    past = max(-s, s - surface[e + 6])
+    s = min(max(s, 0.0), surface[e + 6])
+    wx, wy, wz = wx - s * surface[e + 3], wy - s * surface[e + 4], wz - s * surface[e + 5]
+    past = max(past, wx * surface[e + 7] + wy * surface[e + 8] + wz * surface[e + 9])
+    past = max(past, wx * surface[e + 10] + wy * surface[e + 11] + wz * surface[e + 12])
+    return past, x - wx, y - wy, z - wz
+
+
+@compiled
+def past_corner(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
+    """Return how far a point is past the normals of a corner."""
+    wx, wy, wz = x - surface[corner], y - surface[corner + 1], z - surface[corner + 2]
+    past, star = -1e300, int(surface[STARS]) + int(surface[corner + 4])
+    for _ in range(int(surface[corner + 5])):
+        past = max(past, wx * surface[star] + wy * surface[star + 1] + wz * surface[star + 2])
+        star += 3
+    return past
+
+
+@compiled
+def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float, reach: float) -> Found:
+    """Return the nearest feature of a patch that a ball about the point may touch.
+
+    Where none is nearer than a reach [m], that is the distance and the way past the end.
+
+    A feature may be touched if no point of the surface next to it is nearer.  Where none may, it is the one with the
+    least distance and way past its ends together: a feature that ends is held against those that may be touched, so
+    that the way past it grows from 0.  Where a face meets its edge, or an edge its corner, both may be touched over a
+    way of the margin, and their distances differ by less than round-off: there it is the face, then the edge.
+    """
+    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
+    margin, n_edges = REACH * surface[SIZE], int(surface[N_EDGES])
+    same = 4.0 * margin * margin
+    best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
+    qx, qy, qz = x, y, z - reach
+    under, under_past, under_face = 1e300, 0.0, -1
+    first = first_leaf(surface, patch, x, y, z)
+    node = -1
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * (first if node < 0 else node)
+        if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, x, y, z) > best + same):
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            beyond, px, py, pz, what = 0.0, 0.0, 0.0, 0.0, ON_FACE
+            if member < n_triangles:
+                t = int(surface[TRIANGLES]) + TRIANGLE * member
+                which = int(surface[t + 9])
+                f = int(surface[FACES]) + FACE * which
+                height = face_height(surface, f, x, y, z)
+                if surface[f + 4] != patch or height * height > best + same:
+                    continue
+                over, ends = over_ends(surface, t, x, y, z)
+                if over <= margin and height < 0.0 and -height < under:
+                    under, under_past, under_face = -height, ends - margin, which
+                if over <= margin and height >= 0.0:
+                    px, py, pz = x - height * surface[f], y - height * surface[f + 1], z - height * surface[f + 2]
+                    beyond = max(ends, -surface[SIZE])
+                else:
+                    px, py, pz, _ = in_triangle(surface, t, x, y, z)
+                    beyond = max(over, -height + 2.0 * margin)
+            elif member < n_triangles + n_edges:
+                what, which = ON_EDGE, member - n_triangles
+                e = int(surface[EDGES]) + EDGE * which
+                if surface[e + 13] != patch:
+                    continue
+                beyond, px, py, pz = past_edge(surface, e, x, y, z)
+            else:
+                what, which = ON_CORNER, member - n_triangles - n_edges
+                c = int(surface[CORNERS]) + CORNER * which
+                if surface[c + 3] != patch:
+                    continue
+                beyond = past_corner(surface, c, x, y, z)
+                px, py, pz = surface[c], surface[c + 1], surface[c + 2]
+            beyond -= margin
+            square = (x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz)
+            key = square + max(beyond, 0.0) * max(beyond, 0.0)
+            alike = key < best + same and beyond <= 0.0
+            if key < best - same or (alike and (past > 0.0 or what < kind)):
+                best, distance, past, kind, number = key, square**0.5, beyond, what, which
+                qx, qy, qz = px, py, pz
+        node += 1
+    if under_face >= 0 and under * under < best and depth_inside(surface, x, y, z) > 0.0:
+        f = int(surface[FACES]) + FACE * under_face
+        px, py, pz = x + under * surface[f], y + under * surface[f + 1], z + under * surface[f + 2]
+        return -under, under_past, ON_FACE, under_face, px, py, pz
+    return distance, past, kind, number, qx, qy, qz

@@ -1,0 +1,171 @@
+"""A vertex of one body against a patch of the surface of another, which need not be convex."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.features.vertex_face import DEEP, REACH
+from bodies.contacts.surface.surface_search import (
+    box_square,
+    depth_inside,
+    face_height,
+    first_leaf,
+    has_patch,
+    in_triangle,
+    over_ends,
+)
+from bodies.contacts.surface.surface_tables import (
+    FACE,
+    FACES,
+    MEMBERS,
+    N_NODES,
+    N_TRIANGLES,
+    NODE,
+    NODES,
+    SIZE,
+    TRIANGLE,
+    TRIANGLES,
+)
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.types import Floats
+
+ASTRAY = 0.25
+"""Sine of the angle by which edges may point into a face from the vertex above it: what may soon touch is followed."""
+
+
+@compiled
+def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats, begin: int) -> float:
+    """Return the sine of the angle by which the steepest edge of a vertex of the other body points down to a face."""
+    nx, ny, nz = vector_in_world(frame, surface[face], surface[face + 1], surface[face + 2])
+    nx, ny, nz = vector_in_body(other, nx, ny, nz)
+    down = -1.0
+    for i in range(int(n_star)):
+        s = begin + 3 * i
+        down = max(down, -(nx * star[s] + ny * star[s + 1] + nz * star[s + 2]))
+    return down
+
+
+@compiled
+def over_face(
+    surface: Floats, triangle: int, height: float, lean: float, margin: float, x: float, y: float, z: float
+) -> tuple[float, float, float, float]:
+    """Return how far a point is past a triangle, past its face, past what it may touch of it, and its square distance.
+
+    ``lean`` is how far the normal is past those of the point's body.  The third is in the plane of the face for points
+    above it, so that faces about the same corner differ.
+    """
+    over, ends = over_ends(surface, triangle, x, y, z)
+    over, ends = max(over - margin, lean), max(ends - margin, lean)
+    past, square = ends, height * height
+    if over > 0.0 or height < 0.0:
+        qx, qy, qz, _ = in_triangle(surface, triangle, x, y, z)
+        square = (x - qx) * (x - qx) + (y - qy) * (y - qy) + (z - qz) * (z - qz)
+        out = square - height * height if height > 0.0 else square
+        past = max(math.sqrt(max(out, 0.0)) - margin, over)
+    return over, ends, past, square
+
+
+@compiled
+def touched_face(
+    surface: Floats,
+    found: int,
+    key: float,
+    height: float,
+    apart: float,
+    past: float,
+    inner: int,
+    under: float,
+    inner_past: float,
+    x: float,
+    y: float,
+    z: float,
+) -> tuple[int, float, float]:
+    """Return face, gap and way past the end, of the nearest face and the one that a point is least deep under.
+
+    Parameters
+    ----------
+    surface : Floats
+        The surface.
+    found, key, height, apart, past : int and float
+        The nearest face, the square of its distance and way past its end together, height over it, distance from it,
+        and way past its end [m].
+    inner, under, inner_past : int and float
+        The face that the point is under, -1 for none, how deep, and the way past its end [m].
+    x, y, z : float
+        The point [m].
+    """
+    size = surface[SIZE]
+    margin = REACH * size
+    if inner >= 0 and under * under < key and under <= DEEP * size:
+        return inner, -under, inner_past
+    if past <= 0.0 and under * under >= key:
+        return found, height, past
+    depth = depth_inside(surface, x, y, z)
+    if depth > DEEP * size:
+        if under <= (1.0 + REACH) * depth:
+            return inner, -under, inner_past
+        return found, -depth, max(past, margin)
+    if past <= 0.0:
+        return found, height, past
+    return found, math.sqrt(apart * apart + past * past), past
+
+
+@compiled
+def face_under(
+    frame: Floats,
+    other: Floats,
+    surface: Floats,
+    patch: float,
+    vertex_x: float,
+    vertex_y: float,
+    vertex_z: float,
+    n_star: float,
+    star: Floats,
+    begin: int,
+    reach: float,
+) -> tuple[int, float, float]:
+    """Return face, gap and way past the end of a vertex of the other body against a patch of the surface in ``frame``.
+
+    A face may be touched that the vertex stands over with no edge pointing into it.  Under a face is what is inside of
+    the body and has no other face nearer.  Past the end the gap is a positive number, unless the vertex is inside.
+    The unit vectors along the vertex's edges stand in ``star`` from ``begin`` on.  Where no face is nearer than a reach
+    [m], that is the distance and the way past the end.
+    """
+    px, py, pz = point_in_world(other, vertex_x, vertex_y, vertex_z)
+    x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
+    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
+    size = surface[SIZE]
+    margin = REACH * size
+    best, height_best, apart, past, found = reach * reach, 0.0, reach, reach, 0
+    under, under_past, under_face = 1e300, 0.0, -1
+    first = first_leaf(surface, patch, x, y, z)
+    node = -1
+    while node < int(surface[N_NODES]):
+        at = nodes + NODE * (first if node < 0 else node)
+        if node >= 0 and (box_square(surface, at, x, y, z) > best or not has_patch(surface, at, patch)):
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            member = int(surface[members + int(surface[at + 7]) + i])
+            if member >= n_triangles:
+                continue
+            t = int(surface[TRIANGLES]) + TRIANGLE * member
+            face = int(surface[t + 9])
+            f = int(surface[FACES]) + FACE * face
+            height = face_height(surface, f, x, y, z)
+            if surface[f + 4] != patch or height * height > best:
+                continue
+            lean = size * (leaning(frame, other, surface, f, n_star, star, begin) - ASTRAY)
+            over, inside, ends, square = over_face(surface, t, height, lean, margin, x, y, z)
+            if over <= 0.0 and height < 0.0 and -height < under:
+                under, under_past, under_face = -height, inside, face
+            key = square + max(ends, 0.0) * max(ends, 0.0)
+            if key < best:
+                best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
+        node += 1
+    face, gap, past = touched_face(
+        surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
+    )
+    return face, gap, past
