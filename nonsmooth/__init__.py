@@ -12,7 +12,10 @@ from nonsmooth.placing.starts import at_height, resting, touching
 from nonsmooth.queries.distance import distance
 from nonsmooth.queries.proximity import proximity
 from nonsmooth.restitution import restitution
+from nonsmooth.results.opening import open_solution
+from nonsmooth.results.output import Output
 from nonsmooth.runs.model import Model
+from nonsmooth.runs.resuming import resume
 from nonsmooth.simulate import assemble, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
@@ -34,6 +37,7 @@ __all__ = [
     "Model",
     "NoDistance",
     "NonsmoothError",
+    "Output",
     "PluginError",
     "RunFailed",
     "RunsInPython",
@@ -46,9 +50,11 @@ __all__ = [
     "at_height",
     "distance",
     "load_system",
+    "open_solution",
     "proximity",
     "resting",
     "restitution",
+    "resume",
     "save_system",
     "simulate",
     "solve_contact",

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
 from nonsmooth.queries.undeclared import warn_of_overlaps
+from nonsmooth.results.output import Output
+from nonsmooth.results.solution_folder import check_free
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model, check_times
 from nonsmooth.solution.solution import Solution
@@ -50,6 +54,7 @@ def simulate(
     sample_interval: float | None = None,
     engine: Engine | None = None,
     progress: Progress | None = None,
+    output: Output | Path | str | None = None,
 ) -> Solution:
     """Simulate a system from t = 0: assemble it and run it once.
 
@@ -66,6 +71,8 @@ def simulate(
     progress : callable, optional
         Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
         raises ends the run and is raised.
+    output : Output, Path or str, optional
+        A folder to which events and samples are appended as they come (:meth:`nonsmooth.Model.run`).
 
     Returns
     -------
@@ -81,11 +88,16 @@ def simulate(
     Raises
     ------
     InvalidInput
-        If the engine cannot run the system, or the start or a number is not valid; nothing has run then.
+        If the engine cannot run the system, the start or a number is not valid, or a run was cut off in the folder;
+        nothing has run then.
+    FileError
+        If the folder cannot be written to as the run begins.
     RunFailed
-        If the run cannot go on; its ``solution`` holds what was computed.
+        If the run cannot go on, or cannot be written any more; its ``solution`` holds what was computed.
     """
     check_times("simulate", t_end, sample_interval)
+    if output is not None:
+        check_free(Output.to(output))
     model = Model.of(system, engine or EventDriven())
     warn_of_overlaps(system)
-    return model.run(t_end, sample_interval=sample_interval, progress=progress)
+    return model.run(t_end, sample_interval=sample_interval, progress=progress, output=output)

@@ -1,4 +1,4 @@
-"""The optional packages that pictures and result files need."""
+"""The optional packages that pictures need."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from collections.abc import Iterable
 from nonsmooth.errors import MissingPackagesError
 
 PICTURES = ("matplotlib",)
-RESULTS = ("matplotlib", "xarray", "h5netcdf", "h5py")
 
 
 def require(packages: Iterable[str]) -> None:

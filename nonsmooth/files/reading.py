@@ -110,13 +110,13 @@ def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
         number(f"{path}: {key}", tables[key], "s", positive=True) if key in tables else None
         for key in ("t_end", "sample_interval")
     )
-    engine = _engine(f"{path}: engine", tables.get("engine", {}), path.parent)
+    engine = engine_of(f"{path}: engine", tables.get("engine", {}), path.parent)
     made = assembling.system(tables, path)
     return Setup(path, title, t_end, interval, engine, made, dict(changes), tables)
 
 
-def _engine(thing: str, table: Any, folder: Path) -> Engine:
-    """Return the engine of a table, the event-driven one where it says none."""
+def engine_of(thing: str, table: Any, folder: Path) -> Engine:
+    """Return the engine of a table, the event-driven one where it says none; errors as :func:`load_system`."""
     is_default = isinstance(table, dict) and TYPE not in table
     made: Engine = component(thing, table, EventDriven if is_default else Engine, folder)
     return made

@@ -50,6 +50,29 @@ def save_system(
         If the file cannot be written.
     """
     form = formats.of(Path(path))
+    tables = _tables(system, t_end, sample_interval, engine, title)
+    with replacing(Path(path)) as part:
+        part.write_text(form.write(tables), encoding="utf-8")
+
+
+def text_of_system(system: System, *, t_end: float, engine: Engine, title: str) -> str:
+    """Return the TOML text of a system, as :func:`save_system` writes it.
+
+    Raises
+    ------
+    InvalidInput
+        If a component cannot be written; it is named.
+    """
+    return formats.of(Path("system.toml")).write(_tables(system, t_end, None, engine, title))
+
+
+def _tables(
+    system: System,
+    t_end: float | None,
+    sample_interval: float | None,
+    engine: Engine | None,
+    title: str,
+) -> Table:
     tables: Table = {"title": title} if title else {}
     times = {"t_end": t_end, "sample_interval": sample_interval}
     tables |= {name: float(value) for name, value in times.items() if value is not None}
@@ -66,9 +89,7 @@ def save_system(
     for kind, ties in (("joints", system.joints), ("loads", system.loads)):
         tables[kind] = [_tie(tie, known, f"{kind}[{i}]") for i, tie in enumerate(ties)]
     tables["guards"] = [_name_of(one) | table_of(one.guard, f"guards[{i}]") for i, one in enumerate(system.watched)]
-    text = form.write({name: value for name, value in tables.items() if value not in ([], {})})
-    with replacing(Path(path)) as part:
-        part.write_text(text, encoding="utf-8")
+    return {name: value for name, value in tables.items() if value not in ([], {})}
 
 
 class _Laws:

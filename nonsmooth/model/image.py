@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import zlib
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
@@ -14,6 +16,8 @@ from nonsmooth.engine.memory.memory import Memory
 
 Integers = NDArray[np.int64]
 _WIDTH = len(CATALOGUE)
+_LEVEL = 1
+"""Of compression."""
 _UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
 
 
@@ -78,6 +82,39 @@ class Difference:
 
     places: tuple[Integers, ...]
     bits: tuple[Integers, ...]
+
+    def __reduce__(self) -> tuple[Callable[[bytes], Difference], tuple[bytes]]:
+        """Let a pickle hold what is packed."""
+        return Difference.unpacked, (self.packed(),)
+
+    def packed(self) -> bytes:
+        """Return it as a few bytes; places count from the one before, and next to all of them are 1."""
+        sizes = np.array([len(self.places), *map(len, self.places)])
+        steps = [np.diff(places, prepend=0) for places in self.places]
+        return zlib.compress(np.concatenate([sizes, *steps, *self.bits]).astype("<i8").tobytes(), _LEVEL)
+
+    @classmethod
+    def unpacked(cls, content: bytes) -> Difference:
+        """Return what was packed.
+
+        Raises
+        ------
+        ValueError, IndexError, zlib.error
+            If it is none.
+        """
+        numbers = np.frombuffer(zlib.decompress(content), "<i8").astype(np.int64)
+        n = int(numbers[0])
+        sizes = numbers[1 : n + 1]
+        parts = np.split(numbers[n + 1 :], np.cumsum([*sizes, *sizes])[:-1])
+        return cls(tuple(np.cumsum(steps) for steps in parts[:n]), tuple(parts[n:]))
+
+    def without(self, excepted: tuple[Integers, ...]) -> Difference:
+        """Return it without some places."""
+        kept = [~np.isin(places, one) for places, one in zip(self.places, excepted, strict=True)]
+        return Difference(
+            tuple(places[one] for places, one in zip(self.places, kept, strict=True)),
+            tuple(bits[one] for bits, one in zip(self.bits, kept, strict=True)),
+        )
 
     @classmethod
     def between(cls, blank: Image, image: Image) -> Difference:

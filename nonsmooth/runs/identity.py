@@ -7,8 +7,8 @@ import hashlib
 import numpy as np
 
 from nonsmooth.engine.memory.layout import CATALOGUE
-from nonsmooth.engine.memory.tables import COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
-from nonsmooth.model.image import Image
+from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
+from nonsmooth.model.image import Image, Integers
 from nonsmooth.model.laid_out import LaidOut
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
@@ -38,6 +38,22 @@ def digest(model: LaidOut, blank: Image) -> str:
     for part in (scalars, floats, blocks, integers, (memory.owner or memory).floats[memory.tables :]):
         found.update(part.data)
     return found.hexdigest()
+
+
+def constants(model: LaidOut, blank: Image) -> tuple[Integers, ...]:
+    """Return the places in the parts of an image that no run changes: sizes, offsets, functions, ways to tables.
+
+    Where the rest of an image comes from a file, these are left as this process has them.
+    """
+    record = blank.parts[0].copy().view(SCALARS)
+    known = list(SCALARS.names or ())
+    scalars = [known.index(name) for name in (*CONSTANT_SCALARS, "impact_map", "watch")]
+    ranges = [range(int(record[name][0]), int(record[name][0]) + _size(record, name)) for name in _FUNCTIONS]
+    start, width = int(record["catalogue"][0]), len(CATALOGUE)
+    rows = start + np.arange(width * int(record["n_declared"][0])).reshape(-1, width)
+    blocks = np.array([place - model.memory.blocks for place, _, _ in model.memory.references], dtype=np.int64)
+    integers = np.concatenate([*map(np.array, ranges), rows[:, :-1].ravel()]).astype(np.int64)
+    return np.array(scalars), np.zeros(0, np.int64), blocks, integers
 
 
 def _size(record: np.ndarray, name: str) -> int:

@@ -10,11 +10,12 @@ from nonsmooth.engine.memory.modes import PAUSED, STOPPED
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.keeper import Keeper
 from nonsmooth.runs.pace import Pace
 from nonsmooth.runs.records import Records
+from nonsmooth.solution.files import FileError
 from nonsmooth.watch import Watch
 
-_STEPS_AT_ONCE = 2000
 _STEPS_NEAR_END = 16
 """So many steps at most a run that goes on repeats; an image takes less time than they do."""
 Progress = Callable[[float, float], None]
@@ -37,6 +38,8 @@ class Ending:
         Events from there on.
     hint : str
         What a run that failed was held up by, as far as counters and events tell.
+    trouble : str
+        Why its results could not be kept, "" where they could.
     """
 
     status: int
@@ -44,9 +47,12 @@ class Ending:
     image: Image
     told: int
     hint: str
+    trouble: str = ""
 
 
-def run_engine(engine: Engine, model: LaidOut, records: Records, begun: Image, progress: Progress | None) -> Ending:
+def run_engine(
+    engine: Engine, model: LaidOut, records: Records, begun: Image, progress: Progress | None, keeper: Keeper
+) -> Ending:
     """Run to the end time, to a failure, or until somebody interrupts; ``begun`` is the image of where it starts.
 
     Raises
@@ -57,14 +63,15 @@ def run_engine(engine: Engine, model: LaidOut, records: Records, begun: Image, p
     memory = model.memory
     t_end = float(memory.scalars["t_end"][0])
     report = None if progress is None else lambda t: progress(t, t_end)
-    status, interrupted, pace = PAUSED, False, Pace(model)
+    status, interrupted, trouble, pace = PAUSED, False, "", Pace(model)
     image, before = begun, records.n_passed
     try:
         with Watch(memory, report) as watch:
             while status == PAUSED:
-                status = engine.advance(watch.call, memory, _STEPS_AT_ONCE, True)
+                status = engine.advance(watch.call, memory, keeper.steps, True)
                 if status == PAUSED:
                     image, before = Image.of(memory), records.n_passed
+                    keeper.keep(image)
                     status = engine.advance(watch.call, memory, _STEPS_NEAR_END, False)
                 pace.look(status)
                 records.drain()
@@ -73,6 +80,9 @@ def run_engine(engine: Engine, model: LaidOut, records: Records, begun: Image, p
     except KeyboardInterrupt:
         records.drain()
         status, interrupted = PAUSED, True
+    except FileError as error:
+        records.drain()
+        status, trouble = PAUSED, str(error)
     if status == STOPPED:
         image, before = Image.of(memory), records.n_passed
-    return Ending(status, interrupted, image, records.n_passed - before, pace.hint(status))
+    return Ending(status, interrupted, image, records.n_passed - before, pace.hint(status), trouble)

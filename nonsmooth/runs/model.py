@@ -6,10 +6,12 @@ import contextlib
 import math
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from pathlib import Path
 from typing import final
 
+from nonsmooth.engine.memory.modes import PAUSED
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
@@ -18,11 +20,16 @@ from nonsmooth.model.copying import copied
 from nonsmooth.model.image import Guards, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.other_laws import lay_laws
+from nonsmooth.results.output import Output
+from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.identity import digest
-from nonsmooth.runs.loop import Progress, run_engine
+from nonsmooth.runs.keeper import Keeper, KeepsNothing
+from nonsmooth.runs.loop import Ending, Progress, run_engine
 from nonsmooth.runs.outcome import reason, solution_of, state_of
 from nonsmooth.runs.records import Records
-from nonsmooth.runs.start import begin, check_closed, check_state, go_on
+from nonsmooth.runs.start import begin, check_closed, check_state, go_on, restore
+from nonsmooth.runs.writer import Writer
+from nonsmooth.solution.files import FileError
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.system.system import System
@@ -131,6 +138,7 @@ class Model:
         start: State | None = None,
         sample_interval: float | None = None,
         progress: Progress | None = None,
+        output: Output | Path | str | None = None,
     ) -> Solution:
         """Run to an end time.
 
@@ -147,6 +155,9 @@ class Model:
             exactly in any case.
         progress : callable, optional
             Called now and then with the time reached and the end time [s].  What it raises ends the run and is raised.
+        output : Output, Path or str, optional
+            A folder: events and samples are appended to ``solution.zarr`` in it as they come, so that of a run that is
+            cut off at most the last second is lost; :func:`nonsmooth.resume` goes on with it.
 
         Returns
         -------
@@ -156,23 +167,81 @@ class Model:
         Raises
         ------
         InvalidInput
-            If a number is not valid, the state is none of this model, or the model runs already.
+            If a number is not valid, the state is none of this model, the model runs already, or a run was cut off in
+            the folder.
+        FileError
+            If the folder cannot be written to as the run begins.
         RunFailed
-            If the run cannot go on; its ``solution`` holds what was computed.
+            If the run cannot go on, or cannot be written any more; its ``solution`` holds what was computed.
         """
         state = self._start if start is None else start
         if state is not self._start and not self._left(state):
             check_state(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
         with self._alone("run"):
-            return self._run(t_end, state, interval, sample_interval is None, progress)
+            where = None if output is None else Output.to(output)
+            return self._run(t_end, state, interval, sample_interval is None, progress, where)
+
+    def resume(self, output: Output | Path | str, *, progress: Progress | None = None) -> Solution:
+        """Go on with a run of this model that was cut off, to the same end to the last bit.
+
+        Parameters
+        ----------
+        output : Output, Path or str
+            The folder of its results, which are appended to.
+        progress : callable, optional
+            As for :meth:`run`.
+
+        Returns
+        -------
+        Solution
+            Of the whole run.
+
+        Raises
+        ------
+        InvalidInput
+            If the folder holds no run that was cut off, it is one of another model, or the model runs already.
+        RunFailed
+            As for :meth:`run`.
+        """
+        folder = SolutionFolder.opened(Output.to(output))
+        state = folder.cut_to_checkpoint()
+        if not self._left(state):
+            raise InvalidInput(
+                str(Output.to(output).folder),
+                "must hold a run of this model: same system, same numbers, same options",
+                "another",
+                "Assemble the system that ran.",
+            )
+        with self._alone("resume"), contextlib.closing(folder):
+            laid = self._laid
+            self._records = records = Records(laid, (folder.events(), folder.rows()))
+            try:
+                restore(laid, self._blank, state)
+            except (ValueError, IndexError) as error:
+                thing = f"{Output.to(output).solution}: state"
+                raise InvalidInput(thing, "must fit the model", str(error), "It is damaged.") from error
+            energy = state.energy.kinetic_start, state.energy.potential_start
+            wall = float(folder.said("checkpoint")["wall_seconds"])
+            keeper = Writer(folder, records, self._states_from(energy), wall)
+            return self._complete(records, Image.of(laid.memory), energy, progress, keeper, wall)
+
+    def _states_from(self, energy: tuple[float, float]) -> Callable[[Image], State]:
+        """Return what makes states of images, for the account of energy that begins with these [J]."""
+        return lambda image: state_of(self._laid, self._blank, self._key, energy, Ending(PAUSED, False, image, 0, ""))
 
     def _left(self, state: State) -> bool:
         """Tell whether a run of this model left a state, which goes on then."""
         return state.continuation is not None and state.continuation.model == self._key
 
     def _run(
-        self, t_end: float, state: State, interval: float, is_default: bool, progress: Progress | None
+        self,
+        t_end: float,
+        state: State,
+        interval: float,
+        is_default: bool,
+        progress: Progress | None,
+        output: Output | None,
     ) -> Solution:
         laid = self._laid
         records = self._records = Records(laid)
@@ -195,13 +264,39 @@ class Model:
         # where a run ends is not to change its steps: all samples by default are fewer than those at once
         room = _SAMPLES_AT_ONCE * float(scalars["sample_capacity"][0])
         scalars["h_sampled"] = math.inf if is_default else room * interval
+        keeper: Keeper = KeepsNothing()
+        if begun is None or output is not None:
+            # takes milliseconds where there are many contacts
+            begun = Image.of(laid.memory)
+        if output is not None:
+            folder = SolutionFolder.created(output, laid.system, self._engine, t_end, laid.n_states)
+            keeper = Writer(folder, records, self._states_from(energy), 0.0)
+        return self._complete(records, begun, energy, progress, keeper, 0.0)
+
+    def _complete(
+        self,
+        records: Records,
+        begun: Image,
+        energy: tuple[float, float],
+        progress: Progress | None,
+        keeper: Keeper,
+        wall: float,
+    ) -> Solution:
+        """Run to the end from where the model stands; ``wall`` is what the run took before [s]."""
+        laid = self._laid
         began = time.perf_counter()
-        # to copy a memory takes milliseconds where there are many contacts
-        ending = run_engine(self._engine, laid, records, begun or Image.of(laid.memory), progress)
-        said = reason(laid, self._guards, ending)
-        wall = time.perf_counter() - began
-        left = state_of(laid, self._blank, self._key, energy, ending)
-        solution = solution_of(laid, records, energy, said, left, wall, self._engine)
+        with contextlib.closing(keeper):
+            keeper.begin(begun)
+            ending = run_engine(self._engine, laid, records, begun, progress, keeper)
+            said = reason(laid, self._guards, ending)
+            wall += time.perf_counter() - began
+            left = state_of(laid, self._blank, self._key, energy, ending)
+            solution = solution_of(laid, records, energy, said, left, wall, self._engine)
+            if not ending.trouble:
+                try:
+                    keeper.finish(solution)
+                except FileError as error:
+                    solution = replace(solution, status="failed", message=str(error))
         if solution.status == "failed":
             raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
         return solution

@@ -16,9 +16,8 @@ from nonsmooth.runs.diagnose import culprit
 from nonsmooth.runs.loop import Ending
 from nonsmooth.runs.records import Records
 from nonsmooth.solution.energy import EnergyAccount
-from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Counters, Solution
-from nonsmooth.solution.state import Continuation, Floats, State
+from nonsmooth.solution.state import Continuation, State
 from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.solution.track import Track
 
@@ -30,6 +29,8 @@ def reason(model: LaidOut, guards: Guards, ending: Ending) -> tuple[str, str]:
     past_map = int(model.memory.scalars["map_past"][0]) > 0
     past = "" if guards.hold(model.memory) and not past_map else written_past(model)
     status = ending.status
+    if ending.trouble:
+        return "failed", f"At t = {float(model.memory.scalars['t'][0]):.9g} s {ending.trouble}"
     if past or status not in (DONE, STOPPED, PAUSED):
         message = f"At t = {float(model.memory.scalars['t'][0]):.9g} s {REASONS[status]}."
         return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
@@ -66,8 +67,7 @@ def solution_of(
     """
     record, n_q, n_u = model.memory.scalars[0], model.n_q, model.n_u
     word, message = said
-    floats, integers, samples = records.joined()
-    table = np.vstack([samples, _end(model)])
+    events, table = records.joined()
     counters = Counters(
         steps=int(record["steps"]),
         rejected=int(record["rejected"]),
@@ -78,7 +78,7 @@ def solution_of(
         listings=int(record["listings"]),
         wall_seconds=wall,
     )
-    t, q = table[:-1, 0], table[:-1, 1 : 1 + n_q]
+    t, q = table[:, 0], table[:, 1 : 1 + n_q]
     worst = float(record["open_t"]), float(record["open_energy"]), float(record["open_share"])
     tolerances = float(record["rtol"]), float(record["impact_rtol"])
     bodies = dict(zip(model.system.names.bodies, model.system.bodies, strict=True))
@@ -89,8 +89,8 @@ def solution_of(
         model.system,
         t,
         q,
-        table[:-1, 1 + n_q : 1 + n_q + n_u],
-        Events.from_buffers(floats, integers, len(model.system.contacts), n_q, n_u, model.n_y),
+        table[:, 1 + n_q : 1 + n_q + n_u],
+        events,
         state.energy,
         counters,
         state.time,
@@ -99,15 +99,8 @@ def solution_of(
         word,
         message,
         state,
-        Track(table[:, 0], table[:, 1 : 1 + model.n_y], table[:, 1 + model.n_y :], engine),
+        Track.of(table, state, engine),
     )
-
-
-def _end(model: LaidOut) -> Floats:
-    """Return a sample of the end of a run."""
-    record, y = model.memory.scalars[0], model.memory.array("y", model.n_y)
-    booked = [record[name] for name in ("driven_work", "restitution_loss", "friction_loss", "closing_loss")]
-    return np.array([record["t"], *y, *booked])
 
 
 def state_of(model: LaidOut, blank: Image, key: str, start: tuple[float, float], ending: Ending) -> State:

@@ -12,7 +12,9 @@ from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.solution.events import Events
 from nonsmooth.solution.state import Floats, Integers, State
+from nonsmooth.solution.track import row_of
 
 _BEFORE_THE_FIRST = -1
 _CODES = 1 + 8 + 64
@@ -28,9 +30,15 @@ class Records:
     ----------
     model : LaidOut
         What runs.
+    earlier : tuple
+        Events and samples of the same run in another process, if it was cut off there.
+    written : int
+        Parts that need not be written any more.
     """
 
     model: LaidOut
+    earlier: tuple[Events, Floats] | None = None
+    written: int = 0
     _parts: dict[int, tuple[Floats, Integers, Floats]] = field(default_factory=dict)
     _events: int = 0
 
@@ -42,7 +50,8 @@ class Records:
     def n_passed(self) -> int:
         """Events that the engine has recorded, less those that it has still to pass as told."""
         record = self.model.memory.scalars[0]
-        return self._events + int(record["n_events"]) - int(record["told"])
+        earlier = 0 if self.earlier is None else len(self.earlier[0])
+        return earlier + self._events + int(record["n_events"]) - int(record["told"])
 
     def drain(self) -> None:
         """Empty the engine's buffers.
@@ -68,21 +77,35 @@ class Records:
         codes = _CODES * np.where(state.modes[closed] == SLIDE, 5, 1)
         head = np.zeros(EVENT_HEAD)
         head[0] = state.time
-        account, kept = state.energy, np.zeros((len(closed), LISTED))
+        kept = np.zeros((len(closed), LISTED))
         kept[:, 3:5], kept[:, 5], kept[:, 6] = state.slip_directions[closed], state.closing_rates[closed], 1.0
         kept[:, 7 : 7 + CANDIDATE] = state.features[closed]
-        integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work
-        booked = account.driven_work, account.restitution_loss, account.friction_loss, account.closing_loss
-        row = head, state.q, state.u, state.u, integrated, state.law_states, booked, kept.ravel()
-        floats = np.concatenate(row)
+        rest = row_of(state)[1 + len(state.q) + len(state.u) :]
+        floats = np.concatenate([head, state.q, state.u, state.u, rest, kept.ravel()])
         listed = np.column_stack([closed, codes]).ravel()
         integers = np.concatenate([[START, -1, 0, 0, len(closed)], listed]).astype(np.int64)
         self._parts[_BEFORE_THE_FIRST] = floats, integers, np.zeros((0, self._width))
 
-    def joined(self) -> tuple[Floats, Integers, Floats]:
-        """Return floats and integers of all events, and all samples."""
-        parts = list(self._parts.values())
-        if len(parts) == 1:
-            return parts[0]
+    @property
+    def n_parts(self) -> int:
+        """How many parts there are."""
+        return len(self._parts)
+
+    def joined(self) -> tuple[Events, Floats]:
+        """Return all events and samples of the run; a sample is time, y, and what is booked."""
+        events, samples = self._joined(0)
+        if self.earlier is None:
+            return events, samples
+        return Events.joined([self.earlier[0], events]), np.concatenate([self.earlier[1], samples])
+
+    def unwritten(self) -> tuple[Events, Floats]:
+        """Return events and samples of the parts that are not yet written."""
+        return self._joined(self.written)
+
+    def _joined(self, first: int) -> tuple[Events, Floats]:
+        nothing = np.zeros(0), np.zeros(0, np.int64), np.zeros((0, self._width))
+        parts = list(self._parts.values())[first:] or [nothing]
         floats, integers, samples = (np.concatenate(same) for same in zip(*parts, strict=True))
-        return floats, integers, samples
+        model = self.model
+        sizes = len(model.system.contacts), model.n_q, model.n_u, model.n_y
+        return Events.from_buffers(floats, integers, *sizes), samples

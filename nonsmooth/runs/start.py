@@ -13,9 +13,13 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.identity import constants
 from nonsmooth.solution.state import State
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
+_COUNTERS = ("steps", "rejected", "impacts", "impact_steps", "gap_looks", "listings")
+_OUTPUT = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats", "stopped")
+"""What stands in buffers that Python has emptied."""
 _UNIT = 1e-9
 """By how much a quaternion may be off unit length."""
 _NOT_CLOSED = 1e3
@@ -121,10 +125,20 @@ def go_on(model: LaidOut, blank: Image, state: State) -> None:
     blank.put(model.memory)
     continuation.difference.put(model.memory)
     scalars = model.memory.scalars
-    for name in ("steps", "rejected", "impacts", "impact_steps", "gap_looks", "listings"):
-        scalars[name] = 0
-    for name in ("n_events", "n_samples", "floats_used", "integers_used", "last_floats", "stopped"):
+    for name in (*_COUNTERS, *_OUTPUT):
         scalars[name] = 0
     model.memory.array("limits", len(LIMITS))[:] = 0
     scalars["h_valid"] = math.inf
     scalars["told"], scalars["resumed"] = continuation.told, 1
+
+
+def restore(model: LaidOut, blank: Image, state: State) -> None:
+    """Put a model where a run was cut off, in the midst of whatever it was told at its start."""
+    continuation = state.continuation
+    assert continuation is not None
+    blank.put(model.memory)
+    continuation.difference.without(constants(model, blank)).put(model.memory)
+    scalars = model.memory.scalars
+    for name in _OUTPUT:
+        scalars[name] = 0
+    scalars["resumed"] = scalars["started"]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -128,6 +130,20 @@ class Events:
             push,
             kept,
         )
+
+    @classmethod
+    def joined(cls, parts: Sequence[Events]) -> Events:
+        """Return the events of several parts of one run."""
+        if len(parts) == 1:
+            return parts[0]
+        columns = {
+            name: np.concatenate([getattr(part, name) for part in parts])
+            for name in (field.name for field in dataclasses.fields(cls))
+            if name not in ("n_contacts", "first")
+        }
+        sizes = np.concatenate([np.diff(part.first) for part in parts])
+        first = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+        return cls(n_contacts=parts[0].n_contacts, first=first, **columns)
 
     def _bits(self, shift: int) -> Integers:
         """Return the bits of every contact at every event, shape [n, n_contacts]."""

@@ -245,7 +245,10 @@ class Solution:
         return distances(self, first, second, times, by)
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return samples and events as one dataset with units."""
-        from nonsmooth.solution.files import to_dataset
+        """Return samples and events as one dataset with units and labels.
+
+        What belongs to the contacts of an event is ragged: ``event_size`` says how many stand along ``listing``.
+        """
+        from nonsmooth.solution.dataset import to_dataset
 
         return to_dataset(self)

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.interfaces import Engine
+from nonsmooth.solution.state import Floats, State
 
 
 @final
@@ -29,7 +30,21 @@ class Track:
         What integrated the run, with its tolerances.
     """
 
-    time: NDArray[np.float64]
-    y: NDArray[np.float64]
-    booked: NDArray[np.float64]
+    time: Floats
+    y: Floats
+    booked: Floats
     engine: Engine
+
+    @classmethod
+    def of(cls, rows: Floats, state: State, engine: Engine) -> Track:
+        """Return the track of a run: its samples, each time, y and what is booked, and the state in which it ended."""
+        time, y, booked = np.split(np.vstack([rows, row_of(state)]), [1, rows.shape[1] - BOOKED], axis=1)
+        return cls(time[:, 0], y, booked, engine)
+
+
+def row_of(state: State) -> Floats:
+    """Return a state as a sample; all of its energies are booked, but for those that are integrated only."""
+    account = state.energy
+    integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work
+    booked = account.driven_work, account.restitution_loss, account.friction_loss, account.closing_loss
+    return np.concatenate([[state.time], state.q, state.u, integrated, state.law_states, booked])

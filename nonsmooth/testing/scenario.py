@@ -18,8 +18,10 @@ import numpy as np
 
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import rules
+from nonsmooth.results.output import Output
+from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.simulate import simulate
-from nonsmooth.solution import files
+from nonsmooth.solution.events_table import save_events
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from nonsmooth.testing.component import component_rows
@@ -71,9 +73,22 @@ class _Look:
     def _end(self) -> float:
         return self._given or min(self._scenario.t_end, _SAMPLES * self._scenario.sample_interval)
 
-    def _run(self) -> Solution:
+    def _run(self, folder: Path | None = None) -> Solution:
         interval = min(self._scenario.sample_interval, self._end)
-        return simulate(self._scenario.build(), self._end, sample_interval=interval)
+        return simulate(self._scenario.build(), self._end, sample_interval=interval, output=folder)
+
+    @cached_property
+    def _again(self) -> tuple[Solution, Exception | None]:
+        """A second run, and what went wrong when it was saved with the coordinates."""
+        with tempfile.TemporaryDirectory() as name:
+            folder, trouble = Path(name), None
+            again = self._run(folder)
+            try:
+                SolutionFolder.opened(Output(folder)).add_coordinates(self._scenario.coordinates(again))
+                save_events(again, folder / "events.csv")
+            except Exception as error:
+                trouble = error
+        return again, trouble
 
     @cached_property
     def _solution(self) -> Solution | Exception:
@@ -126,7 +141,7 @@ class _Look:
             raise Broken(f"{residual:g} of the energy is not explained", "residual", residual)
 
     def repeatable(self) -> None:
-        again = self._run()
+        again, _ = self._again
         for name in ("t", "q", "u", "q_end", "u_end"):
             if not np.array_equal(getattr(self.solution, name), getattr(again, name), equal_nan=True):
                 raise Broken("two runs differ", name, "")
@@ -194,10 +209,9 @@ class _Look:
                     raise Broken("it must be a matplotlib figure with axes", str(name), figure)
 
     def files(self) -> None:
-        if any(importlib.util.find_spec(name) is None for name in ("xarray", "h5netcdf", "h5py")):
-            raise NotChecked("not checked, as xarray, h5netcdf or h5py is not installed")
-        with tempfile.TemporaryDirectory() as folder:
-            files.save(self.solution, Path(folder), self._scenario.coordinates(self.solution))
+        _, trouble = self._again
+        if trouble is not None:
+            raise Broken(f"saving it fails: {trouble}") from trouble
 
     def only_reads(self) -> None:
         before = copy.deepcopy((self.solution.t, self.solution.q, self.solution.u))

@@ -35,6 +35,7 @@ from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.keeper import KeepsNothing
 from nonsmooth.runs.loop import run_engine
 from nonsmooth.runs.records import Records
 from scenarios.dice_throw.scenario import DiceThrow
@@ -178,7 +179,7 @@ def profile(build: Callable[[], ns.System], t_end: float, engine: Engine | None 
         model.memory.scalars["t_end"], model.memory.scalars["sample_interval"] = t_end, t_end / 10.0
         kept = _instrument(model, accounts, searches) if instrumented else None
         began = time.perf_counter()
-        run_engine(integrator, model, Records(model), Image.of(model.memory), None)
+        run_engine(integrator, model, Records(model), Image.of(model.memory), None, KeepsNothing())
         wall = time.perf_counter() - began
         del kept
         return wall, searches, accounts

@@ -136,7 +136,7 @@ def test_a_run_that_fails_says_where_and_saves_what_it_has(call: Call, law: Path
     assert 0.0 < report["t_end"] < 20.0
     assert report["n_steps"] > 10
     assert len((results / "events.csv").read_text().splitlines()) == 1 + report["n_events"]
-    assert (results / "solution.nc").exists()
+    assert (results / "solution.zarr").exists()
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.cli import run
+from nonsmooth.cli import perform, run
 from nonsmooth.cli.interrupt import Interrupt
 
 Call = Callable[..., tuple[int, str, str]]
@@ -35,7 +35,7 @@ def test_a_process_that_is_interrupted_saves_its_results(
     assert sorted(p.name for p in saved.iterdir()) == [
         "events.csv",
         "height.png",
-        "solution.nc",
+        "solution.zarr",
         "summary.json",
         "transitions.png",
     ]
@@ -50,7 +50,7 @@ def test_ctrl_c_between_two_calls_of_the_engine(call: Call, monkeypatch: pytest.
         def finish(self) -> None:
             pass
 
-    monkeypatch.setattr(run, "on_standard_error", Impatient)
+    monkeypatch.setattr(perform, "on_standard_error", Impatient)
     status, output, _ = call("run", "tiny", "--set", "t_end=1e5", "--json")
     report = json.loads(output)
     assert status == 1

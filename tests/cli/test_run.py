@@ -66,7 +66,7 @@ def test_the_summary_to_read(call: Call) -> None:
 def test_nothing_is_written_and_no_heavy_package_imported(tmp_path: Path) -> None:
     code = (
         "import sys; from nonsmooth.cli.main import main; status = main(['run', 'tiny', '--json']); "
-        "print(status, sorted({'matplotlib', 'xarray', 'h5netcdf', 'trimesh', 'fcl'} & set(sys.modules)))"
+        "print(status, sorted({'matplotlib', 'xarray', 'zarr', 'trimesh', 'fcl'} & set(sys.modules)))"
     )
     environment = {"PYTHONPATH": ":".join(sys.path), "NONSMOOTH_PLAIN": "1"}
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment, capture_output=True, text=True)
@@ -87,7 +87,7 @@ def test_a_failed_run_reports_what_was_computed(
     assert "NotANumber" in report["message"]
     assert f"error: {report['message']}\n" in errors
     assert "Traceback" not in errors
-    kept = ["events.csv", "height.png", "solution.nc", "summary.json", "transitions.png"] if extra else []
+    kept = ["events.csv", "height.png", "solution.zarr", "summary.json", "transitions.png"] if extra else []
     assert sorted(path.name for path in tmp_path.glob("results/*")) == kept
 
 

@@ -37,27 +37,28 @@ def test_results_events_summary_and_figures(call: Call, tmp_path: Path) -> None:
     assert sorted(p.name for p in folder.iterdir()) == [
         "events.csv",
         "height.png",
-        "solution.nc",
+        "solution.zarr",
         "summary.json",
         "transitions.png",
     ]
     assert json.loads((folder / "summary.json").read_text()) == json.loads(output)
     for name in ("height.png", "transitions.png"):
         assert (folder / name).read_bytes().startswith(_PNG)
-    with xarray.open_dataset(folder / "solution.nc", engine="h5netcdf") as saved:
+    with xarray.open_zarr(folder / "solution.zarr") as saved:
         assert saved.sizes["event"] == json.loads(output)["n_events"]
         np.testing.assert_array_equal(saved["height"], saved["q"][:, 2])
 
 
-@pytest.mark.parametrize(("size", "kept"), [(0, set()), (4096, {"events.csv", "summary.json"})])
+@pytest.mark.parametrize(("size", "kept"), [(0, set()), (4096, {"solution.zarr"})])
 def test_a_full_disk_is_an_error_with_the_path(call: Call, tmp_path: Path, size: int, kept: set[str]) -> None:
     call("run", "tiny", "--out", str(tmp_path))  # so that what is compiled or cached is there already
     folder = tmp_path / "full"
     with _largest_file(size):
         status, output, errors = call("run", "tiny", "--json", "--out", str(folder))
     assert status == 1
-    assert json.loads(output)["status"] == ("done" if size else "failed")
-    assert f"error: {folder / 'solution.nc' if size else folder} could not be written: File too large." in errors
+    assert json.loads(output)["status"] == "failed"
+    full = folder / "solution.zarr" / "state" / "0.npz" if size else folder
+    assert f"error: {full} could not be written: File too large." in errors
     assert "Traceback" not in errors
     assert {path.name for path in folder.iterdir()} == kept
 
@@ -80,7 +81,7 @@ def test_a_figure_that_fails_costs_nothing_else(call: Call, tmp_path: Path) -> N
     assert "error: Tiny.figures failed: ZeroDivisionError: a figure that fails\n" in errors
     assert sorted(p.name for p in tmp_path.iterdir()) == [
         "events.csv",
-        "solution.nc",
+        "solution.zarr",
         "summary.json",
         "transitions.png",
     ]

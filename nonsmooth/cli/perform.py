@@ -1,0 +1,107 @@
+"""What `run` and `resume` have in common: compute, judge, save, report."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import cast
+
+from nonsmooth.cli import acceptance, report, request, results
+from nonsmooth.cli.interrupt import Interrupt
+from nonsmooth.cli.messages import complain, tell
+from nonsmooth.cli.progress import on_standard_error
+from nonsmooth.errors import PluginError, RunFailed
+from nonsmooth.interfaces import Scenario
+from nonsmooth.results.output import Output
+from nonsmooth.results.solution_folder import UNFINISHED, SolutionFolder
+from nonsmooth.solution.draw_graph import draw
+from nonsmooth.solution.events_table import save_events
+from nonsmooth.solution.files import FileError
+from nonsmooth.solution.solution import Solution
+
+Told = Callable[[float, float, int], None]
+"""Takes the time reached, the end time [s] and the events so far."""
+Compute = Callable[[Told], Solution]
+"""From what takes the progress to the solution."""
+
+
+def perform(
+    job: request.Job, head: report.Report, compute: Compute, folder: Path | None, accept: bool, troubles: list[str]
+) -> report.Report:
+    """Compute a solution, save what there is to save, and return the report; ``head`` is its beginning."""
+    scenario = job.scenario
+    if troubles:
+        solution, status, message = None, "failed", troubles[0]
+    else:
+        solution, status, message = _computed(compute)
+    outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
+    outcome |= {"final": None, "summary": None, "units": dict(scenario.units)}
+    if solution is None:
+        return outcome
+    if folder is not None:
+        _save_solution(scenario, solution, folder, troubles)
+    with results.noting(troubles, f"{type(scenario).__name__}.final"):
+        outcome["final"] = dict(scenario.final(solution))
+    with results.noting(troubles, f"{type(scenario).__name__}.summarise"):
+        outcome["summary"] = dict(scenario.summarise(solution))
+    if accept:
+        with results.noting(troubles, f"{type(scenario).__name__}.acceptance"):
+            outcome["acceptance"] = acceptance.judged(scenario, solution)
+    if folder is not None:
+        results.save_text(report.as_json(outcome), folder / "summary.json", troubles)
+        _save_figures(job, solution, folder, troubles)
+        if not troubles:
+            tell(f"results are in {folder}")
+    return outcome
+
+
+def _computed(compute: Compute) -> tuple[Solution | None, str, str]:
+    """Return the solution, as far as there is one, the status and why the run stopped."""
+    progress = on_standard_error()
+
+    def after_steps(t: float, t_end: float, n_events: int) -> None:
+        progress(t, t_end, n_events)
+        if t < t_end:
+            interrupt.check()
+
+    try:
+        with Interrupt() as interrupt:
+            solution = compute(after_steps)
+    except RunFailed as error:
+        kept = cast("Solution | None", error.solution)
+        message = kept.message if kept else str(error)
+        complain(message)
+        return kept, "failed", message
+    except (PluginError, FileError) as error:
+        complain(str(error))
+        return None, "failed", str(error)
+    except KeyboardInterrupt:
+        complain("interrupted before the run began")
+        return None, "interrupted", "interrupted before the run began"
+    finally:
+        progress.finish()
+    if solution.status == "suspect":
+        complain(f"suspect: {solution.message}")
+    return solution, solution.status, solution.message
+
+
+def _save_solution(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
+    """Add what belongs to the samples and events that the run has written."""
+    with results.noting(troubles, f"{type(scenario).__name__}.coordinates"):
+        written = SolutionFolder.opened(Output(folder))
+        # where the disk was full there are fewer samples than there were
+        if written.status != UNFINISHED:
+            written.add_coordinates(scenario.coordinates(solution))
+    with results.noting(troubles, "saving the events"):
+        save_events(solution, folder / "events.csv")
+
+
+def _save_figures(job: request.Job, solution: Solution, folder: Path, troubles: list[str]) -> None:
+    results.without_display()
+    if len(solution.events) > 0:
+        with results.noting(troubles, "drawing the transitions"):
+            results.save_figures({"transitions": draw(solution.transition_graph())}, folder, troubles)
+    with results.noting(troubles, f"{type(job.scenario).__name__}.figures"):
+        # titles and captions may speak of the laws that were replaced
+        note = f"In place of the scenario's own:\n{chr(10).join(map(repr, job.laws.values()))}" if job.laws else ""
+        results.save_figures(job.scenario.figures(solution), folder, troubles, note)

@@ -1,0 +1,128 @@
+"""A folder of results becomes a solution again."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.files.components import TYPE
+from nonsmooth.files.parsing import parse
+from nonsmooth.files.reading import Setup, engine_of, load_system
+from nonsmooth.interfaces import Engine
+from nonsmooth.plugins import file
+from nonsmooth.results.output import Output
+from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.solution.solution import Counters, Solution
+from nonsmooth.solution.track import Track
+from nonsmooth.system.system import System
+
+_NONE: dict[str, Any] = {"limits": {}}
+"""Counters of a run that is unfinished, where 0 is none."""
+
+
+def open_solution(
+    output: Output | Path | str, *, system: System | None = None, engine: Engine | None = None
+) -> Solution:
+    """Return the solution in a folder of results, also one that is unfinished.
+
+    Parameters
+    ----------
+    output : Output, Path or str
+        The folder.
+    system : System, optional
+        What ran; by default it is built from what the folder says of it.
+    engine : Engine, optional
+        What integrated it; by default that which the folder names.
+
+    Returns
+    -------
+    Solution
+        Its status is "unfinished" where the run goes on or was cut off.
+
+    Raises
+    ------
+    InvalidInput
+        If there is no solution, or it cannot say how its system or its engine is built.
+    PluginError
+        If a class that the system needs cannot be loaded.
+    """
+    where = Output.to(output)
+    folder = SolutionFolder.opened(where)
+    made, state, rows = system or stored_setup(where, folder).system, folder.state(), folder.rows()
+    n_q, n_u = len(state.q), len(state.u)
+    counters = folder.said("counters") if "counters" in folder.attributes else {}
+    return Solution(
+        made,
+        rows[:, 0],
+        rows[:, 1 : 1 + n_q],
+        rows[:, 1 + n_q : 1 + n_q + n_u],
+        folder.events(),
+        state.energy,
+        Counters(**{field.name: counters.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}),
+        state.time,
+        state.q.copy(),
+        state.u.copy(),
+        folder.status,
+        str(folder.attributes.get("message")),
+        state,
+        Track.of(rows, state, engine or stored_engine(where, folder)),
+    )
+
+
+def stored_setup(output: Output, folder: SolutionFolder) -> Setup:
+    """Return the system of a folder of results, built from what it says of it.
+
+    Raises
+    ------
+    InvalidInput
+        If it does not say it, or would have a Python file run.
+    PluginError
+        If a class that it names cannot be loaded.
+    """
+    text = folder.system_text()
+    if not text:
+        raise InvalidInput(
+            f"{output.solution}: system",
+            "must be there",
+            folder.attributes.get("system_missing"),
+            "Build it in Python, and give it as system=...",
+        )
+    with tempfile.TemporaryDirectory() as place:
+        path = Path(place) / "system.toml"
+        path.write_text(text, encoding="utf-8")
+        _refuse_files(parse(path), str(output.solution))
+        return load_system(path)
+
+
+def _refuse_files(value: Any, thing: str) -> None:
+    """Refuse classes of Python files: what is written here names installed ones only."""
+    if isinstance(value, dict):
+        if isinstance(value.get(TYPE), str) and file.is_file(value[TYPE]):
+            raise InvalidInput(
+                f"{thing}: {TYPE}", "must name an installed class", value[TYPE], "Do not open such a folder."
+            )
+        for one in value.values():
+            _refuse_files(one, thing)
+    elif isinstance(value, list):
+        for one in value:
+            _refuse_files(one, thing)
+
+
+def stored_engine(output: Output, folder: SolutionFolder) -> Engine:
+    """Return the engine that ran, as the folder says it.
+
+    Raises
+    ------
+    InvalidInput
+        If it does not say it, or would have a Python file run.
+    PluginError
+        If its class cannot be loaded.
+    """
+    thing, table = f"{output.solution}: engine", folder.said("engine")
+    if table is None:
+        raise InvalidInput(thing, "must be one that is installed", None, "Give it as engine=...")
+    _refuse_files(table, thing)
+    return engine_of(thing, table, output.folder)

@@ -1,0 +1,66 @@
+"""Output: where the results of a run go while it runs, and what is said there of where they come from."""
+
+from __future__ import annotations
+
+import platform
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, final
+
+from nonsmooth.engine.native.kernel import PLAIN
+
+SOLUTION = "solution.zarr"
+"""The folder of arrays within that of the results."""
+
+
+@final
+@dataclass(frozen=True)
+class Output:
+    """Where the results of a run go.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder of the results; the solution is in ``solution.zarr`` there.
+    title : str
+        One line that says what it is.
+    request : mapping
+        The words by which the command line was asked for the scenario, its parameters and laws; empty elsewhere.
+    parameters : mapping
+        All parameters of the scenario, as JSON has them.
+    """
+
+    folder: Path
+    title: str = ""
+    request: Mapping[str, Any] = field(default_factory=dict)
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def to(cls, where: Output | Path | str) -> Output:
+        """Return the output that is meant by it or by its folder."""
+        return where if isinstance(where, cls) else cls(Path(str(where)))
+
+    @property
+    def solution(self) -> Path:
+        """The folder of arrays."""
+        return self.folder / SOLUTION
+
+
+def versions() -> dict[str, str]:
+    """Return the versions on which the last bits of a run hang."""
+    found = {
+        "nonsmooth": version("nonsmooth"),
+        "python": platform.python_version(),
+        "numpy": version("numpy"),
+        "machine": f"{sys.platform} {platform.machine()}",
+        "engine": "plain",
+    }
+    if not PLAIN:
+        # the plain half does not import numba
+        from nonsmooth.engine.native.cache import build_name
+
+        found |= {"numba": version("numba"), "engine": build_name()}
+    return found

@@ -1,0 +1,370 @@
+"""The solution of a run on disk: it grows with the run, and tells where the run goes on if it was cut off."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+from collections.abc import Mapping
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
+from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.errors import InvalidInput
+from nonsmooth.files.components import Table, table_of
+from nonsmooth.files.writing import text_of_system
+from nonsmooth.interfaces import Engine
+from nonsmooth.results.lock import Lock
+from nonsmooth.results.output import Output, versions
+from nonsmooth.results.state_file import state_bytes, state_from
+from nonsmooth.results.zarr_folder import ZarrFolder
+from nonsmooth.solution.events import Events
+from nonsmooth.solution.files import FileError
+from nonsmooth.solution.solution import Solution
+from nonsmooth.solution.state import State
+from nonsmooth.solution.variable import Variable
+from nonsmooth.solution.variables import (
+    GROWING,
+    events_of,
+    of_events,
+    of_rest_of_events,
+    of_rest_of_samples,
+    of_samples,
+    of_system,
+)
+from nonsmooth.system.system import System
+
+Floats = NDArray[np.float64]
+UNFINISHED = "unfinished"
+"""Status of a run that goes on, or was cut off."""
+_MESSAGE = "the run goes on, or it was cut off and `nonsmooth resume` goes on with it"
+_STATES = ("state/0.npz", "state/1.npz")
+"""By turns: the one that the last commit names is not touched."""
+_LAST = "state/end.npz"
+_OWN = "scenario_coordinates"
+"""Attribute with the names of what the scenario adds."""
+
+
+@final
+class SolutionFolder:
+    """The arrays of a solution in a folder, and the state from which the run goes on.
+
+    Parameters
+    ----------
+    arrays : ZarrFolder
+        The arrays.
+    n_q, n_u : int
+        Numbers of coordinates and velocities.
+    lock : Lock or None
+        What lets nobody else write there.
+    """
+
+    def __init__(self, arrays: ZarrFolder, n_q: int, n_u: int, lock: Lock | None = None) -> None:
+        self._arrays, self._n_q, self._n_u, self._lock = arrays, n_q, n_u, lock
+        self._lengths = dict.fromkeys(GROWING, 0)
+        self._safe = False
+
+    @classmethod
+    def created(cls, output: Output, system: System, engine: Engine, t_end: float, n_states: int) -> SolutionFolder:
+        """Make the folder of a run that begins; what it holds counts from the first :meth:`append` on.
+
+        Raises
+        ------
+        InvalidInput
+            If a run was cut off there, or writes there.
+        FileError
+            If it cannot be written.
+        """
+        path = output.solution
+        if path.exists():
+            check_free(output)
+            try:
+                shutil.rmtree(path)
+            except OSError as error:
+                raise FileError(path, error) from error
+        made, lock = ZarrFolder(path, _attributes(output, engine, t_end)), Lock(path)
+        found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
+        for variable in (*of_system(system), _text(system, output, engine, t_end, made.attributes)):
+            made.add(variable, grows=False)
+        n_y = found._n_q + found._n_u + N_ACCOUNTS + n_states
+        sizes = len(system.contacts), found._n_q, found._n_u, n_y
+        nothing = Events.from_buffers(np.zeros(0), np.zeros(0, np.int64), *sizes)
+        for variable in found._variables(nothing, np.zeros((0, 1 + n_y + BOOKED))):
+            made.add(variable, grows=True)
+        return found
+
+    @classmethod
+    def opened(cls, output: Output) -> SolutionFolder:
+        """Open the folder of a run.
+
+        Raises
+        ------
+        InvalidInput
+            If there is none.
+        """
+        arrays = ZarrFolder.opened(output.solution)
+        try:
+            found = cls(arrays, arrays.length("coordinate"), arrays.length("velocity"))
+            found._lengths = {"time": arrays.length("time"), "event": arrays.length("event_time")}
+            found._lengths["listing"] = arrays.length("listed_contact")
+        except KeyError as error:
+            raise InvalidInput(
+                str(output.solution), "must hold a solution", f"no {error}", "Name a folder that `run` wrote."
+            ) from error
+        return found
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """What is said of the run."""
+        return self._arrays.attributes
+
+    @property
+    def status(self) -> str:
+        """That of the solution, or "unfinished"."""
+        return str(self.attributes.get("status"))
+
+    def said(self, name: str) -> Any:
+        """Return an attribute that holds more than a number or a word.
+
+        Raises
+        ------
+        InvalidInput
+            If it is not there.
+        """
+        try:
+            return json.loads(self.attributes[name])
+        except (KeyError, TypeError, ValueError) as error:
+            thing = f"{self._arrays.path}: {name}"
+            raise InvalidInput(thing, "must be there", None, "Name a folder that `run` wrote.") from error
+
+    def system_text(self) -> str:
+        """Return the system as a scenario file, "" where it could not be written."""
+        return str(self._arrays.read("system"))
+
+    def events(self) -> Events:
+        """Return all events."""
+        return events_of(self._arrays.read, self._arrays.length("contact"))
+
+    def rows(self) -> Floats:
+        """Return all samples: time, q, u, accounts, inner states of laws, what is booked, shape [n, 1 + n_y + 4]."""
+        parts = [self._arrays.read(name) for name in ("time", "q", "u", "account", "law_state", "booked")]
+        return np.column_stack(parts) if len(parts[0]) else np.zeros((0, 1 + sum(p.shape[1] for p in parts[1:])))
+
+    def state(self) -> State:
+        """Return the state that belongs to the last commit."""
+        name = str(self.attributes.get("state"))
+        if name not in (*_STATES, _LAST):
+            raise InvalidInput(f"{self._arrays.path}: state", "must name a state", name, "It is damaged.")
+        return self._state(name)
+
+    def cut_to_checkpoint(self) -> State:
+        """Leave what the run had done when its last checkpoint was made, and return the state there.
+
+        Raises
+        ------
+        InvalidInput
+            If there is none, or the run goes on in another process.
+        """
+        self._lock = Lock(self._arrays.path)
+        checkpoint = self.said("checkpoint")
+        name = checkpoint["state"]
+        if name not in _STATES:
+            raise InvalidInput(f"{self._arrays.path}: checkpoint", "must name a state", name, "It is damaged.")
+        state = self._state(name)
+        for coordinate in self.attributes.pop(_OWN, "").split():
+            self._arrays.remove(coordinate)
+        for dimension in GROWING:
+            self._lengths[dimension] = min(int(checkpoint[dimension]), self._lengths[dimension])
+            self._arrays.cut(dimension, self._lengths[dimension])
+        self.attributes["state"], self._safe = name, True
+        return state
+
+    def append(self, events: Events, rows: Floats, state: State, wall: float) -> None:
+        """Append what a run has done since, with the state from which it goes on.
+
+        Parameters
+        ----------
+        events : Events
+            Further events.
+        rows : array
+            Further samples, as :meth:`rows` returns them.
+        state : State
+            Where the run is, after these and before any other.
+        wall : float
+            Time that the run took [s].
+
+        Raises
+        ------
+        FileError
+            If that cannot be written; what was there before is.
+        """
+        self._put_checkpoint(events, rows, state, wall)
+        self._arrays.commit_safely()
+        self._safe = True
+
+    def begin(self, events: Events, rows: Floats, state: State, wall: float) -> None:
+        """Write where a run begins or goes on, as :meth:`append` does.
+
+        Raises
+        ------
+        FileError
+            If that cannot be written.
+        """
+        self._put_checkpoint(events, rows, state, wall)
+        self._commit()
+        self._arrays.spell_out()
+
+    def _put_checkpoint(self, events: Events, rows: Floats, state: State, wall: float) -> None:
+        lengths = self._write(events, rows)
+        name = _STATES[self.attributes.get("state") == _STATES[0]]
+        self._arrays.file(name, state_bytes(state))
+        checkpoint = json.dumps({"state": name, "wall_seconds": wall, **lengths})
+        self.attributes.update(
+            status=UNFINISHED, message=_MESSAGE, state=name, checkpoint=checkpoint, t_end=state.time, **_energy(state)
+        )
+        self._lengths = lengths
+
+    def finish(self, events: Events, rows: Floats, solution: Solution) -> None:
+        """Append the last events and samples, and say how the run ended.
+
+        Raises
+        ------
+        FileError
+            If that cannot be written; what was there before is.
+        """
+        lengths = self._write(events, rows)
+        self._arrays.file(_LAST, state_bytes(solution.state))
+        self.attributes.update(
+            status=solution.status,
+            message=solution.message,
+            state=_LAST,
+            t_end=solution.t_end,
+            counters=json.dumps(vars(solution.counters) | {"limits": dict(solution.counters.limits)}),
+            **_energy(solution.state),
+        )
+        if solution.status in ("done", "suspect"):
+            self.attributes.pop("checkpoint", None)
+        self._lengths = lengths
+        self._commit()
+        self._arrays.spell_out()
+        if "checkpoint" not in self.attributes:
+            for name in _STATES:
+                (self._arrays.path / name).unlink(missing_ok=True)
+
+    def add_coordinates(self, coordinates: Mapping[str, Any]) -> None:
+        """Add the scenario's own coordinates over the samples: name -> array [n_samples].
+
+        Raises
+        ------
+        InvalidInput
+            If a name cannot be that of a folder, or is taken.
+        FileError
+            If that is not possible.
+        """
+        own = self.attributes.get(_OWN, "").split()
+        taken = sorted(coordinates.keys() & (self._arrays.names - {*own}))
+        if taken:
+            raise InvalidInput("coordinates", "must have names of their own", taken, "Rename them.")
+        self.attributes[_OWN] = " ".join(coordinates)
+        for name, values in coordinates.items():
+            attributes = {"units": "SI", "long_name": f"coordinate of the scenario: {name}"}
+            self._arrays.add(Variable(name, ("time",), np.asarray(values), attributes), grows=True)
+        self._arrays.commit()
+        self._arrays.spell_out()
+
+    def close(self) -> None:
+        """Let others write there."""
+        if self._lock is not None:
+            self._lock.close()
+
+    def _commit(self) -> None:
+        # what a run did in less than a second can be had again
+        if self._safe:
+            self._arrays.commit_safely()
+        else:
+            self._arrays.commit()
+
+    def _write(self, events: Events, rows: Floats) -> dict[str, int]:
+        lengths = dict(self._lengths)
+        for variable in self._variables(events, rows):
+            first = self._lengths[variable.dimensions[0]]
+            self._arrays.write(variable.name, first, variable.values)
+            lengths[variable.dimensions[0]] = first + len(variable.values)
+        return lengths
+
+    def _variables(self, events: Events, rows: Floats) -> list[Variable]:
+        n_states = rows.shape[1] - 1 - self._n_q - self._n_u - N_ACCOUNTS - BOOKED
+        parts = np.cumsum([1, self._n_q, self._n_u, N_ACCOUNTS, n_states])
+        t, q, u, *rest = np.split(rows, parts, axis=1)
+        samples = [*of_samples(t[:, 0], q, u), *of_rest_of_samples(*rest)]
+        return [*samples, *of_events(events), *of_rest_of_events(events)]
+
+    def _state(self, name: str) -> State:
+        path = self._arrays.path / name
+        try:
+            return state_from(path.read_bytes(), str(path))
+        except OSError as error:
+            raise InvalidInput(str(path), "must be there", error.strerror, "It is damaged.") from error
+
+
+def check_free(output: Output) -> None:
+    """Look whether new results may go to a folder.
+
+    Raises
+    ------
+    InvalidInput
+        If a run that was cut off can go on there.
+    """
+    try:
+        status = SolutionFolder.opened(output).status
+    except InvalidInput:
+        return
+    if status == UNFINISHED:
+        raise InvalidInput(
+            str(output.folder),
+            "must not hold a run that goes on or was cut off",
+            UNFINISHED,
+            f"`nonsmooth resume {output.folder}` goes on with it; remove {output.solution} to give it up.",
+        )
+
+
+def _attributes(output: Output, engine: Engine, t_end: float) -> dict[str, Any]:
+    known = versions()
+    return {
+        "Conventions": "CF-1.11",
+        "title": output.title,
+        "source": f"nonsmooth {known['nonsmooth']}",
+        "status": UNFINISHED,
+        "message": _MESSAGE,
+        "t_end_asked": t_end,
+        "engine": json.dumps(_table(engine)),
+        "versions": json.dumps(known),
+        "request": json.dumps(dict(output.request)),
+        "parameters": json.dumps(dict(output.parameters)),
+    }
+
+
+def _table(engine: Engine) -> Table | None:
+    """Return an engine as a table; None for one that no file can name."""
+    try:
+        return table_of(engine, "engine", EventDriven)
+    except InvalidInput:
+        return None
+
+
+def _text(system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]) -> Variable:
+    """Return the system as a scenario file; where it cannot be one, an attribute says why."""
+    try:
+        text = text_of_system(system, t_end=t_end, engine=engine, title=output.title)
+    except InvalidInput as error:
+        text, attributes["system_missing"] = "", str(error)
+    return Variable("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})
+
+
+def _energy(state: State) -> dict[str, float]:
+    """Return the account of energy, as far as JSON has its numbers."""
+    account = {**vars(state.energy), "energy_residual": state.energy.residual}
+    return {name: value for name, value in account.items() if math.isfinite(value)}

@@ -1,0 +1,320 @@
+"""Arrays on disk that grow, in the Zarr format, version 2, which zarr, xarray and others read.
+
+A commit is seen as a whole or not at all, by readers and after a power cut: chunks come first, each written beside the
+one that it replaces, then the consolidated metadata, one file with the lengths of all arrays.  What a chunk holds
+beyond the length of its array does not count.  No library for the format promises that order, nor that a file is safe
+on the disk before it takes its name; that is all that is done here.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import zlib
+from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.solution.files import FileError
+from nonsmooth.solution.variable import Variable
+
+_GROUP = {"zarr_format": 2}
+_CONSOLIDATED = ".zmetadata"
+_ENTRIES = 2**14
+"""Entries of a chunk of an array that grows: the last one is written anew with every commit."""
+_LEVEL = 1
+"""Of compression; higher ones take longer and make hardly less of such numbers."""
+_AT_ONCE = 16
+"""Files for which the disk is waited for at once."""
+_NAME = re.compile(r"\w+")
+_KINDS = "fiuU"
+
+
+@final
+@dataclass(frozen=True)
+class _Array:
+    dimensions: tuple[str, ...]
+    dtype: str
+    inner: tuple[int, ...]
+    chunk: int
+    attributes: Mapping[str, Any]
+
+
+@final
+class ZarrFolder:
+    """A group of arrays in a folder.
+
+    Parameters
+    ----------
+    path : Path
+        The folder.
+    attributes : dict
+        Those of the group, as JSON has them; they become those of the folder with the next commit.
+    """
+
+    def __init__(self, path: Path, attributes: dict[str, Any]) -> None:
+        self.path, self.attributes = path, attributes
+        self._arrays: dict[str, _Array] = {}
+        self._lengths: dict[str, int] = {}
+        self._tails: dict[str, tuple[int, NDArray[Any]]] = {}
+        self._waiting: dict[Path, Path] = {}
+
+    @classmethod
+    def opened(cls, path: Path) -> ZarrFolder:
+        """Open the folder as its last commit left it.
+
+        Raises
+        ------
+        InvalidInput
+            If there is none, or it has another form.
+        """
+        try:
+            entries = json.loads((path / _CONSOLIDATED).read_text(encoding="utf-8"))["metadata"]
+            made = cls(path, entries[".zattrs"])
+            for key, entry in entries.items():
+                name, _, kind = key.rpartition("/")
+                if kind == ".zarray":
+                    made._describe(name, entry, dict(entries[f"{name}/.zattrs"]))
+        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+            raise InvalidInput(
+                str(path), "must be a folder of results", f"{type(error).__name__}: {error}", "Name another."
+            ) from error
+        return made
+
+    def _describe(self, name: str, entry: dict[str, Any], attributes: dict[str, Any]) -> None:
+        dimensions, dtype = tuple(map(str, attributes.pop("_ARRAY_DIMENSIONS"))), np.dtype(str(entry["dtype"]))
+        shape, chunks = [int(n) for n in entry["shape"]] or [1], [int(n) for n in entry["chunks"]] or [1]
+        if not _NAME.fullmatch(name) or dtype.kind not in _KINDS or min(shape) < 0 or min(chunks) < 1:
+            raise ValueError(f"the array {name!r} has a form that is not written here")
+        self._arrays[name] = _Array(dimensions, dtype.str, tuple(shape[1:]), chunks[0], attributes)
+        self._lengths[name] = shape[0]
+
+    def add(self, variable: Variable, *, grows: bool) -> None:
+        """Add an array, or put another one in the place of one; what it holds counts from the next commit on.
+
+        Raises
+        ------
+        InvalidInput
+            If its name cannot be that of a folder.
+        FileError
+            If it cannot be written.
+        """
+        if not _NAME.fullmatch(variable.name):
+            remedy = "Rename it."
+            raise InvalidInput("variable", "must have a name of letters, digits and underscores", variable.name, remedy)
+        values = np.asarray(variable.values)
+        if values.dtype.kind == "U" and values.dtype.itemsize == 0:
+            values = values.astype("<U1")
+        if values.ndim == 0:
+            values = values.reshape(1)
+        inner, width = values.shape[1:], int(np.prod(values.shape[1:]))
+        chunk = max(1, _ENTRIES // max(1, width)) if grows else max(1, len(values))
+        array = _Array(variable.dimensions, values.dtype.str, inner, chunk, dict(variable.attributes))
+        self._tails.pop(variable.name, None)
+        self._arrays[variable.name], self._lengths[variable.name] = array, 0
+        self.write(variable.name, 0, values)
+
+    def write(self, name: str, start: int, rows: NDArray[Any]) -> None:
+        """Put rows into an array from a row on, as its last ones.
+
+        Raises
+        ------
+        FileError
+            If that cannot be written; the last commit stays as it is.
+        """
+        array, end = self._arrays[name], start + len(rows)
+        rows = np.asarray(rows, array.dtype)
+        for number in range(start // array.chunk, -(-end // array.chunk) if rows.size else 0):
+            first = number * array.chunk
+            content = self._chunk(name, number)
+            low, high = max(start, first), min(end, first + array.chunk)
+            content[low - first : high - first] = rows[low - start : high - start]
+            self._tails[name] = number, content
+            self._put(self._place(name, number), zlib.compress(content.tobytes(), _LEVEL))
+        self._lengths[name] = end
+
+    def read(self, name: str) -> NDArray[Any]:
+        """Return all rows of an array.
+
+        Raises
+        ------
+        InvalidInput
+            If a chunk is not there or broken.
+        """
+        array, length = self._arrays[name], self._lengths[name]
+        numbers = range(-(-length // array.chunk)) if 0 not in array.inner else ()
+        parts = [self._stored(name, number) for number in numbers]
+        rows = np.concatenate(parts) if parts else np.zeros((length, *array.inner), array.dtype)
+        return rows[:length].reshape((length, *array.inner) if array.dimensions else ())
+
+    @property
+    def names(self) -> set[str]:
+        """The names of all arrays."""
+        return set(self._arrays)
+
+    def length(self, name: str) -> int:
+        """Return how many rows an array has."""
+        return self._lengths[name]
+
+    def remove(self, name: str) -> None:
+        """Take an array out of the group; its files go at once."""
+        self._arrays.pop(name, None)
+        shutil.rmtree(self.path / name, ignore_errors=True)
+
+    def cut(self, dimension: str, length: int) -> None:
+        """Leave so many rows of all arrays over a dimension."""
+        for name, array in self._arrays.items():
+            if array.dimensions[:1] == (dimension,):
+                self._lengths[name] = min(length, self._lengths[name])
+        self._tails.clear()
+
+    def commit_safely(self) -> None:
+        """Let all that was written since the last commit count, at once, and after a power cut from now on as well.
+
+        Raises
+        ------
+        FileError
+            If that is not possible; then the last commit counts.
+        """
+        _to_disk(self._waiting.values())
+        _to_disk(self._rename())
+        self._announce()
+        _to_disk(self._waiting.values())
+        _to_disk(self._rename())
+
+    def commit(self) -> None:
+        """Let all that was written since the last commit count, at once; how soon it is on the disk the system says.
+
+        Raises
+        ------
+        FileError
+            If that is not possible; then the last commit counts.
+        """
+        self._rename()
+        self._announce()
+        self._rename()
+
+    def _announce(self) -> None:
+        entries: dict[str, Any] = {".zgroup": _GROUP, ".zattrs": self.attributes}
+        for name in self._arrays:
+            entries |= {f"{name}/{key}": entry for key, entry in self._metadata(name).items()}
+        # zarr takes the group's own attributes from there
+        for key in (".zgroup", ".zattrs"):
+            self._put(self.path / key, _json(entries[key]))
+        self._put(self.path / _CONSOLIDATED, _json({"metadata": entries, "zarr_consolidated_format": 1}))
+
+    def spell_out(self) -> None:
+        """Write the metadata of every array by themselves as well, for readers that look there.
+
+        Raises
+        ------
+        FileError
+            If that is not possible.
+        """
+        for name in self._arrays:
+            for key, entry in self._metadata(name).items():
+                self._put(self.path / name / key, _json(entry))
+        self._rename()
+
+    def file(self, name: str, content: bytes) -> None:
+        """Put a file of another kind into the folder, with the next commit.
+
+        Raises
+        ------
+        FileError
+            If that is not possible.
+        """
+        self._put(self.path / name, content)
+
+    def _discard(self) -> None:
+        for part in self._waiting.values():
+            part.unlink(missing_ok=True)
+        self._waiting.clear()
+
+    def _metadata(self, name: str) -> dict[str, dict[str, Any]]:
+        array = self._arrays[name]
+        shape, chunks = [self._lengths[name], *array.inner], [array.chunk, *(max(1, n) for n in array.inner)]
+        entry = {
+            "zarr_format": 2,
+            "shape": shape if array.dimensions else [],
+            "chunks": chunks if array.dimensions else [],
+            "dtype": array.dtype,
+            "compressor": {"id": "zlib", "level": _LEVEL},
+            "fill_value": None,
+            "order": "C",
+            "filters": None,
+        }
+        return {".zarray": entry, ".zattrs": {"_ARRAY_DIMENSIONS": list(array.dimensions), **array.attributes}}
+
+    def _chunk(self, name: str, number: int) -> NDArray[Any]:
+        array = self._arrays[name]
+        tail, content = self._tails.get(name, (-1, None))
+        if content is not None and tail == number:
+            return content
+        if number * array.chunk < self._lengths[name]:
+            return self._stored(name, number)
+        return np.zeros((array.chunk, *array.inner), array.dtype)
+
+    def _stored(self, name: str, number: int) -> NDArray[Any]:
+        array, path = self._arrays[name], self._place(name, number)
+        try:
+            content = np.frombuffer(zlib.decompress(path.read_bytes()), array.dtype).copy()
+            return content.reshape((array.chunk, *array.inner))
+        except (OSError, ValueError, zlib.error) as error:
+            raise InvalidInput(str(path), "must be a whole chunk", f"{error}", "Results are damaged there.") from error
+
+    def _place(self, name: str, number: int) -> Path:
+        array = self._arrays[name]
+        return self.path / name / ".".join(map(str, (number, *(0 for _ in array.inner))))
+
+    def _put(self, path: Path, content: bytes) -> None:
+        part = path.with_name(f".{path.name}.part")
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._waiting[path] = part
+            part.write_bytes(content)
+        except OSError as error:
+            self._discard()
+            raise FileError(path, error) from error
+
+    def _rename(self) -> set[Path]:
+        """Let what was written take its names; return the folders in which it did."""
+        folders = {path.parent for path in self._waiting}
+        for path, part in self._waiting.items():
+            try:
+                os.replace(part, path)
+            except OSError as error:
+                raise FileError(path, error) from error
+        self._waiting.clear()
+        return folders
+
+
+def _json(entry: Mapping[str, Any]) -> bytes:
+    return json.dumps(entry, allow_nan=False).encode()
+
+
+def _to_disk(paths: Iterable[Path]) -> None:
+    """Wait until files or folders are safe on the disk: at once, as it waits for all of them no longer than for one."""
+    with ThreadPoolExecutor(_AT_ONCE) as pool:
+        list(pool.map(_sync, list(paths)))
+
+
+def _sync(path: Path) -> None:
+    if path.is_dir() and os.name != "posix":  # elsewhere a folder cannot be opened
+        return
+    try:
+        file = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)
+        try:
+            os.fsync(file)
+        finally:
+            os.close(file)
+    except OSError as error:
+        raise FileError(path, error) from error

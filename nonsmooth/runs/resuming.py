@@ -1,0 +1,83 @@
+"""A run that was cut off goes on, in whatever process."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+from nonsmooth.errors import InvalidInput, NonsmoothWarning
+from nonsmooth.interfaces import Engine
+from nonsmooth.results.opening import stored_engine, stored_setup
+from nonsmooth.results.output import Output, versions
+from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.runs.loop import Progress
+from nonsmooth.runs.model import Model
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+
+
+class OtherVersions(NonsmoothWarning):
+    """A run goes on with other versions than it began with, so that its last bits may differ."""
+
+
+def resume(
+    output: Output | Path | str,
+    *,
+    system: System | None = None,
+    engine: Engine | None = None,
+    progress: Progress | None = None,
+) -> Solution:
+    """Go on with a run that was cut off, to the end that it would have had, to the last bit.
+
+    Parameters
+    ----------
+    output : Output, Path or str
+        The folder of its results, which are appended to.
+    system : System, optional
+        What ran; by default it is built from what the folder says of it.
+    engine : Engine, optional
+        What ran it; by default that which the folder names.
+    progress : callable, optional
+        As for :func:`nonsmooth.simulate`.
+
+    Returns
+    -------
+    Solution
+        Of the whole run.
+
+    Warns
+    -----
+    OtherVersions
+        If the run began with other versions of what computes it.
+
+    Raises
+    ------
+    InvalidInput
+        If there is nothing to go on with, or the system is not the one that ran or cannot be built.
+    PluginError
+        If a class that the system needs cannot be loaded.
+    RunFailed
+        As :func:`nonsmooth.simulate`.
+    """
+    where = Output.to(output)
+    folder = check_resumable(where)
+    made = system or stored_setup(where, folder).system
+    return Model.of(made, engine or stored_engine(where, folder)).resume(where, progress=progress)
+
+
+def check_resumable(where: Output) -> SolutionFolder:
+    """Return the folder of a run that can go on; warnings and errors as :func:`resume`."""
+    folder = SolutionFolder.opened(where)
+    if "checkpoint" not in folder.attributes:
+        raise InvalidInput(
+            f"{where.folder}",
+            "must hold a run that was cut off",
+            folder.status,
+            "To go on behind its end, run its model from the `state` of nonsmooth.open_solution.",
+        )
+    began, now = folder.said("versions"), versions()
+    other = [f"{name} {began.get(name)}, now {now.get(name)}" for name in now if began.get(name) != now.get(name)]
+    if other:
+        text = f"{where.folder}: the run began with {'; '.join(other)}. Its last bits may differ from there on."
+        warnings.warn(text, OtherVersions, stacklevel=3)
+    return folder

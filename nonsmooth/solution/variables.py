@@ -1,0 +1,163 @@
+"""The arrays of a solution with their axes and units: one table for what is in memory and what is on disk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.memory.modes import CAUSES
+from nonsmooth.solution.events import Events
+from nonsmooth.solution.labels import labels
+from nonsmooth.solution.variable import Variable
+from nonsmooth.system.system import System
+
+Floats = NDArray[np.float64]
+GROWING = ("time", "event", "listing")
+"""Dimensions along which results grow: samples, events, and the contacts listed with them one after another."""
+_ENERGIES = {
+    "driven_work": "work of driven bodies in the event",
+    "restitution_loss": "loss to restitution in the event",
+    "friction_loss": "loss to friction in the event",
+    "closing_loss": "loss in closing steps and projections of the event",
+}
+_ACCOUNTS = ("work of driven bodies", "loss to friction", "gross exchange", "work of loads")
+_ACCOUNT = {"units": "J", "long_name": "energies since the start", "account_names": ", ".join(_ACCOUNTS)}
+_INNER = {"units": "SI of each law", "long_name": "inner states of friction and traction laws, contact by contact"}
+_BOOKED = {
+    "units": "J",
+    "long_name": "energies booked at instants since the start",
+    "booked_names": ", ".join(_ENERGIES),
+}
+_MEMORY = {"units": "SI", "long_name": "slip direction (2), rate of closing, way of slip faced, features (3)"}
+_MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}
+_SHIFTS = {"mode_before": 0, "mode_during": 3, "mode_after": 6}
+
+
+def of_system(system: System) -> list[Variable]:
+    """Return the labels of bodies, coordinates and contacts, and the laws of the latter."""
+    names, rows_of, contacts = system.names, labels(system), system.contacts
+    known = dict(zip(map(id, system.bodies), names.bodies, strict=True))
+    found = [
+        _words("body", "body", names.bodies, "body"),
+        _words("body_kind", "body", [type(body).__name__ for body in system.bodies], "class of the body"),
+    ]
+    for dimension, rows in (("coordinate", rows_of.coordinates), ("velocity", rows_of.velocities)):
+        whose, label, unit = zip(*rows, strict=True) if rows else ((), (), ())
+        found += [
+            _words(dimension, dimension, label, f"{dimension} of a body"),
+            _words(f"{dimension}_body", dimension, whose, "body that it belongs to"),
+            _words(f"{dimension}_units", dimension, unit, "its unit"),
+        ]
+    found.append(_words("contact", "contact", names.contacts, "contact"))
+    found.append(_words("guard", "guard", names.guards, "guard"))
+    for which in ("first", "second"):
+        between = [known[id(getattr(contact, which))] for contact in contacts]
+        found.append(_words(f"contact_{which}_body", "contact", between, f"{which} body of the contact"))
+    for role in ("normal", "friction", "impact"):
+        laws = [repr(getattr(contact, role)) for contact in contacts]
+        found.append(_words(f"contact_{role}", "contact", laws, f"law of the contact: {role}"))
+    directions = ("normal", "first tangent", "second tangent")
+    return [*found, _words("direction", "direction", directions, "direction at a contact")]
+
+
+def _words(name: str, dimension: str, words: Sequence[str], what: str) -> Variable:
+    return Variable(name, (dimension,), np.array(words, dtype=str), {"long_name": what})
+
+
+def of_samples(t: Floats, q: Floats, u: Floats) -> list[Variable]:
+    """Return samples."""
+    return [
+        Variable("time", ("time",), t, {"units": "s", "standard_name": "time", "axis": "T", "long_name": "time"}),
+        _over("q", ("time", "coordinate"), q, "coordinates of all bodies"),
+        _over("u", ("time", "velocity"), u, "velocities of all bodies"),
+    ]
+
+
+def _over(name: str, dimensions: tuple[str, str], values: Floats, what: str) -> Variable:
+    units = f"SI, see {dimensions[1]}_units"
+    return Variable(name, dimensions, values, {"units": units, "long_name": what})
+
+
+def of_rest_of_samples(accounts: Floats, law_states: Floats, booked: Floats) -> list[Variable]:
+    """Return what a run has besides coordinates and velocities: energies and inner states of laws."""
+    return [
+        Variable("account", ("time", "of_account"), accounts, _ACCOUNT),
+        Variable("law_state", ("time", "of_law_state"), law_states, _INNER),
+        Variable("booked", ("time", "of_booked"), booked, _BOOKED),
+    ]
+
+
+def of_rest_of_events(events: Events) -> list[Variable]:
+    """Return the same at events, and what the contacts listed with them go on with."""
+    accounts, law_states = np.split(events.integrated, [N_ACCOUNTS], axis=1)
+    return [
+        Variable("event_account", ("event", "of_account"), accounts, _ACCOUNT),
+        Variable("event_law_state", ("event", "of_law_state"), law_states, _INNER),
+        Variable("event_booked", ("event", "of_booked"), events.booked, _BOOKED),
+        Variable("listed_memory", ("listing", "of_memory"), events.listed_memory, _MEMORY),
+    ]
+
+
+def of_events(events: Events) -> list[Variable]:
+    """Return events, and the contacts listed with them as a contiguous ragged array: ``event_size`` of each event."""
+
+    def over(name: str, values: NDArray[Any], what: str, units: str = "1", **more: Any) -> Variable:
+        return Variable(name, ("event",), values, {"units": units, "long_name": what, **more})
+
+    def listed(name: str, values: NDArray[Any], what: str, **more: Any) -> Variable:
+        return Variable(name, ("listing",), values, {"units": "1", "long_name": what, **more})
+
+    causes: dict[str, Any] = {
+        "flag_values": list(range(len(CAUSES))),
+        "flag_meanings": " ".join(c.replace(" ", "_") for c in CAUSES),
+    }
+    bits = {name: (events.codes >> shift & 7).astype(np.uint8) for name, shift in _SHIFTS.items()}
+    return [
+        over("event_time", events.time, "time of the event", "s", standard_name="time"),
+        over("event_cause", events.cause.astype(np.int8), "cause", **causes),
+        over(
+            "event_contact",
+            events.contact.astype(np.int32),
+            "index in `contact` or, by its cause, `guard`, from 0",
+        ),
+        over("event_phases", events.phases.astype(np.int32), "changes of phase within the impact"),
+        over("event_truncated", events.truncated.astype(np.int8), "1 where an endless cascade was cut short"),
+        *(over(name, getattr(events, name), what, "J") for name, what in _ENERGIES.items()),
+        _over("event_q", ("event", "coordinate"), events.q, "coordinates at the event"),
+        _over("event_u_before", ("event", "velocity"), events.u_before, "velocities before the event"),
+        _over("event_u_after", ("event", "velocity"), events.u_after, "velocities after the event"),
+        over("event_size", np.diff(events.first).astype(np.int32), "contacts listed", sample_dimension="listing"),
+        listed("listed_contact", events.listed.astype(np.int32), "index in `contact`, from 0"),
+        *(listed(name, bits[name], f"mode of the contact {name[5:]} the event", **_MODE) for name in _SHIFTS),
+        Variable(
+            "impulse",
+            ("listing", "direction"),
+            events.listed_impulse,
+            {"units": "N s", "long_name": "impulse of the contact in the event"},
+        ),
+    ]
+
+
+def events_of(read: Callable[[str], NDArray[Any]], n_contacts: int) -> Events:
+    """Return the events out of their arrays, which ``read`` returns by name."""
+
+    def integers(name: str) -> NDArray[np.int64]:
+        return read(name).astype(np.int64)
+
+    columns = {"time": read("event_time"), "listed": integers("listed_contact"), "listed_impulse": read("impulse")}
+    columns |= {name: read(f"event_{name}") for name in ("q", "u_before", "u_after")}
+    columns |= {name: integers(f"event_{name}") for name in ("cause", "contact", "phases", "truncated")}
+    return Events(
+        n_contacts=n_contacts,
+        first=np.concatenate([[0], np.cumsum(integers("event_size"))]).astype(np.int64),
+        codes=np.sum([integers(name) << shift for name, shift in _SHIFTS.items()], axis=0),
+        **columns,
+        integrated=np.hstack([read("event_account"), read("event_law_state")]),
+        booked=read("event_booked"),
+        listed_memory=read("listed_memory"),
+        **{name: read(name) for name in _ENERGIES},
+    )

@@ -1,0 +1,204 @@
+"""A run that was cut off goes on to the same end, to the last bit; what must not go on is refused."""
+
+from __future__ import annotations
+
+import errno
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from laws import Coulomb
+from nonsmooth.interfaces import FrictionLaw
+from nonsmooth.model.image import Difference
+from nonsmooth.results.lock import Lock
+from nonsmooth.results.output import Output
+from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.results.state_file import state_bytes, state_from
+from nonsmooth.runs import writer
+from nonsmooth.runs.identity import constants
+from nonsmooth.runs.resuming import OtherVersions
+from nonsmooth.solution.state import Continuation
+from nonsmooth.solution.variable import Variable
+from tests.results.runs import balls
+from tests.runs.continued import differences
+
+ROOT = Path(__file__).parents[2]
+T_END = 3.0
+
+
+def _coefficient(speed: float) -> float:
+    return 0.2
+
+
+@final
+@dataclass(frozen=True)
+class Own(FrictionLaw):
+    """A law that no file can name, as it is not installed."""
+
+    @property
+    def coefficient(self) -> Callable[..., float]:
+        """Constant."""
+        return _coefficient
+
+    def is_fulfilled(self, *state: Any) -> bool:
+        """Nobody asks."""
+        return True
+
+
+@pytest.fixture(scope="module")
+def whole() -> ns.Solution:
+    """Return the run that nobody cut off."""
+    return ns.simulate(balls(), T_END)
+
+
+@pytest.fixture
+def often(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a run be written whenever it can be."""
+    for name, value in (("_EVERY", 0.0), ("_FIRST_AFTER", 0.0), ("_MOST", 64)):
+        monkeypatch.setattr(writer, name, value)
+
+
+def _cut_off(folder: Path, system: ns.System, at: float) -> None:
+    """Run a system, and leave what a process would that dies at a time [s]."""
+
+    class Dies(Exception):
+        pass
+
+    def die(t: float, t_end: float) -> None:
+        if t > at:
+            raise Dies
+
+    with pytest.raises(Dies):
+        ns.simulate(system, T_END, output=folder, progress=die)
+
+
+def _reached(folder: Path) -> float:
+    return float(SolutionFolder.opened(Output(folder)).attributes["t_end"])
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4])
+def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole: ns.Solution, tmp_path: Path, share: float) -> None:
+    import xarray
+
+    place = tmp_path / "solution.zarr"
+    words = [sys.executable, "-m", "tests.results.runs", str(tmp_path), str(T_END)]
+    process = subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE)
+    try:
+        for _ in range(6000):
+            if (place / ".zmetadata").exists() and _reached(tmp_path) >= share * T_END:
+                break
+            assert process.poll() is None
+            time.sleep(0.005)
+    finally:
+        process.kill()
+        process.communicate()
+    with xarray.open_zarr(place) as saved:
+        assert saved.attrs["status"] == "unfinished"
+        assert saved.attrs["t_end"] >= share * T_END
+        n = saved.sizes["event"]
+        np.testing.assert_array_equal(saved["event_time"], whole.events.time[:n])
+        np.testing.assert_array_equal(saved["q"], whole.q[: saved.sizes["time"]])
+    after = ns.resume(tmp_path)
+    assert (after.status, after.message) == (whole.status, whole.message)
+    assert differences(whole, after) == []
+    assert differences(whole, ns.open_solution(tmp_path)) == []
+    assert replace(after.counters, wall_seconds=0.0) == replace(whole.counters, wall_seconds=0.0)
+
+
+@pytest.mark.usefixtures("often")
+def test_a_full_disk_ends_the_run_and_it_goes_on_when_there_is_room(
+    whole: ns.Solution, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write, states = Path.write_bytes, []
+
+    def full(path: Path, content: bytes) -> int:
+        states.append(path.suffixes[-2:] == [".npz", ".part"])
+        if sum(states) > 2:  # where it begins and one more are written
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return write(path, content)
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(ns.RunFailed, match="could not be written: No space left") as failed:
+        ns.simulate(balls(), T_END, output=tmp_path)
+    monkeypatch.setattr(Path, "write_bytes", write)
+    kept = failed.value.solution
+    assert isinstance(kept, ns.Solution)
+    n = len(kept.events)
+    np.testing.assert_array_equal(kept.events.time, whole.events.time[:n])
+    assert 0.0 < ns.open_solution(tmp_path).t_end <= kept.t_end
+    assert differences(whole, ns.resume(tmp_path)) == []
+
+
+@pytest.mark.usefixtures("often")
+def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ns.InvalidInput, match="must be a folder of results"):
+        ns.resume(tmp_path)
+    _cut_off(tmp_path, balls(Own()), 0.5)
+    lock = Lock(tmp_path / "solution.zarr")
+    with pytest.raises(ns.InvalidInput, match="must have one run at a time that writes, but it is 'in use'"):
+        ns.resume(tmp_path, system=balls(Own()))
+    lock.close()
+    with pytest.raises(ns.InvalidInput, match=r"must not hold a run that .* was cut off.*nonsmooth resume"):
+        ns.simulate(balls(), T_END, output=tmp_path)
+    with pytest.raises(ns.InvalidInput, match=r"system must be there, but it is .*Own.*give it as system=") as refused:
+        ns.resume(tmp_path)
+    assert "installed class" in str(refused.value)
+    with pytest.raises(ns.InvalidInput, match="must hold a run of this model"):
+        ns.resume(tmp_path, system=balls(Coulomb(0.3)))
+    attributes = tmp_path / "solution.zarr" / ".zmetadata"
+    versions = json.loads(attributes.read_text())["metadata"][".zattrs"]["versions"]
+    engine = json.loads(versions)["engine"]
+    attributes.write_text(attributes.read_text().replace(engine, "another"))
+    with pytest.warns(OtherVersions, match="engine another, now"):
+        after = ns.resume(tmp_path, system=balls(Own()))
+    assert differences(ns.simulate(balls(Own()), T_END), after) == []
+    with pytest.raises(ns.InvalidInput, match=r"must hold a run that was cut off, but it is 'done'"):
+        ns.resume(tmp_path, system=balls(Own()))
+
+
+def test_a_foreign_folder_runs_no_file_and_no_pickle(tmp_path: Path) -> None:
+    class Trap:
+        def __reduce__(self) -> tuple[Callable[..., Any], tuple[str]]:
+            return exec, ("raise SystemExit('executed')",)
+
+    state = ns.State.at(balls())
+    path = tmp_path / "state.npz"
+    np.savez(path, q=np.array([Trap()], dtype=object), allow_pickle=True)
+    with pytest.raises(ns.InvalidInput, match="must hold a state"):
+        state_from(path.read_bytes(), "it")
+    assert state_from(state_bytes(state), "it").energy == state.energy
+    (tmp_path / "evil.py").write_text("raise SystemExit('executed')")
+    text = f'[bodies.ball]\ntype = "{tmp_path / "evil.py"}:Ball"\n'
+    _cut_off(tmp_path, balls(), 0.2)
+    folder = SolutionFolder.opened(Output(tmp_path))
+    folder._arrays.add(Variable("system", (), np.array(text), {}), grows=False)
+    folder._arrays.commit()
+    with pytest.raises(ns.InvalidInput, match="must name an installed class"):
+        ns.resume(tmp_path)
+
+
+def test_a_state_from_a_file_leaves_functions_and_offsets_alone(tmp_path: Path) -> None:
+    model = ns.assemble(balls())
+    laid, blank = model._laid, model._blank
+    places = tuple(np.arange(len(part)) for part in blank.parts)
+    bits = tuple(np.full(len(part), 7) for part in blank.parts)
+    foreign = Continuation(model._key, Difference(places, bits), 0)
+    folder = tmp_path / "run"
+    _cut_off(folder, balls(), 0.2)
+    arrays = SolutionFolder.opened(Output(folder))
+    checkpoint = arrays.said("checkpoint")["state"]
+    (folder / "solution.zarr" / checkpoint).write_bytes(state_bytes(model.start.with_continuation(foreign)))
+    with pytest.raises(ns.InvalidInput, match="must fit the model"):
+        model.resume(folder)
+    kept = constants(laid, blank)
+    for part, before, at in zip(laid.memory.bits, blank.parts, kept, strict=True):
+        np.testing.assert_array_equal(part[at], before[at])
