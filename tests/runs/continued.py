@@ -21,7 +21,7 @@ def differences(one: ns.Solution, other: ns.Solution) -> list[str]:
     """Return in what two runs over the same time differ, in any bit."""
     found = [
         name
-        for name in ("time", "cause", "contact", "phases", "q", "u_after", "listed", "codes", "listed_impulse")
+        for name in (*COLUMNS, "listed", "codes", *LISTED)
         if not np.array_equal(getattr(one.events, name), getattr(other.events, name))
     ]
     found += [
