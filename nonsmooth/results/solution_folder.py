@@ -260,7 +260,7 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If a name cannot be that of a folder, or is taken.
+            If a name cannot be that of a folder, or is taken, or an array is not of numbers.
         FileError
             If that is not possible.
         """
@@ -268,10 +268,14 @@ class SolutionFolder:
         taken = sorted(coordinates.keys() & (self._arrays.names - {*own}))
         if taken:
             raise InvalidInput("coordinates", "must have names of their own", taken, "Rename them.")
+        arrays = {name: np.asarray(values) for name, values in coordinates.items()}
+        strange = sorted(name for name, values in arrays.items() if values.dtype.kind not in "biuf")
+        if strange:
+            raise InvalidInput("coordinates", "must be arrays of numbers", strange, "Return floats over the samples.")
         self.attributes[_OWN] = " ".join(coordinates)
-        for name, values in coordinates.items():
+        for name, values in arrays.items():
             attributes = {"units": "SI", "long_name": f"coordinate of the scenario: {name}"}
-            self._arrays.add(Variable(name, ("time",), np.asarray(values), attributes), grows=True)
+            self._arrays.add(Variable(name, ("time",), values, attributes), grows=True)
         self._arrays.commit()
         self._arrays.spell_out()
 

@@ -108,8 +108,8 @@ class BlockOnBelt(Scenario):
         return times
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """Return elongation q [m] and velocity [m/s] over the samples."""
-        return {"q": solution.q[:, 0], "velocity": solution.u[:, 0]}
+        """Return the elongation [m] and its rate [m/s] over the samples."""
+        return {"elongation": solution.q[:, 0], "elongation_rate": solution.u[:, 0]}
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
         """Return {q, u}: elongation [m] and velocity [m/s] at the end."""

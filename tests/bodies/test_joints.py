@@ -208,10 +208,10 @@ def test_wrong_starts_and_wrong_joints() -> None:
     plate, ball = Plate(), Ball(0.1)
     system = ns.System([plate, ball])
     system.joint(BallJoint(second=(0.0, 0.0, 0.5)), plate, ball)
-    with pytest.raises(ns.InvalidInput, match=r"start of the BallJoint of Plate and Ball must have the residual 0"):
+    with pytest.raises(ns.InvalidInput, match=r"start of the joint 'ball joint plate - ball' must have the residual 0"):
         ns.simulate(system, 0.1)
     system.place(ball, position=(0.0, 0.0, -0.5), velocity=(0.0, 0.0, 1.0))
-    with pytest.raises(ns.InvalidInput, match=r"start of the BallJoint of Plate and Ball must have the rate 0"):
+    with pytest.raises(ns.InvalidInput, match=r"start of the joint 'ball joint plate - ball' must have the rate 0"):
         ns.simulate(system, 0.1)
     system.place(ball, position=(0.0, 0.0, -0.5))
     system.joint(BallJoint(second=(0.0, 0.0, 0.4)), plate, ball)
@@ -225,7 +225,7 @@ def test_wrong_starts_and_wrong_joints() -> None:
         still.joint(BallJoint(), plate, other)
     with pytest.raises(ns.InvalidInput, match="needs a Joint"):
         system.joint(Unilateral(), plate, ball)  # type: ignore[arg-type]
-    with pytest.raises(ns.InvalidInput, match=r"frames must be below 1 for Ball"):
+    with pytest.raises(ns.InvalidInput, match=r"frames must be below 1 for ball"):
         system.joint(BallJoint(), plate, ball, frames=(0, 1))
     with pytest.raises(ns.InvalidInput, match=r"Hinge.axis must have unit length"):
         Hinge(axis=(1.0, 1.0, 0.0))

@@ -62,7 +62,13 @@ def _numbers(system: ns.System, t_end: float, **options: Any) -> Numbers:
         if not isinstance(failure.solution, ns.Solution):
             raise
         s = failure.solution
+    forces, borne = s.contact_forces(s.t[1::7]), s.joint_forces(s.t[1::7])
     return {
+        "state": s.at(0.37 * s.t_end).q,
+        "contact": forces.contact,
+        "normal force": forces.normal_force,
+        "friction": forces.friction_force,
+        "joint force": borne.force,
         "status": [s.status],
         "cause": s.events.cause,
         "after": s.events.after,

@@ -115,7 +115,7 @@ def test_reports_and_figures(tmp_path: Path) -> None:
     assert BlockOnBelt().resolved()["velocity"] == 0.2
     solution = ns.simulate(scenario.build(), scenario.t_end)
     coordinates, end = scenario.coordinates(solution), scenario.final(solution)
-    assert [coordinates["q"][-1], coordinates["velocity"][-1]] == pytest.approx([*end["q"], *end["u"]])
+    assert [coordinates["elongation"][-1], coordinates["elongation_rate"][-1]] == pytest.approx([*end["q"], *end["u"]])
     drawn = {**scenario.figures(solution), **BlockOnBelt.gallery(None)}
     assert sorted(drawn) == ["limit_cycle", "portrait"]
     for name, figure in drawn.items():
