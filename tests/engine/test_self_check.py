@@ -124,7 +124,9 @@ def test_a_jump_within_what_tolerances_explain_is_projected_away(depth: float) -
 
 def test_a_correction_that_would_move_a_body_far_ends_the_run_by_name_and_moves_nothing() -> None:
     """A gap of 10 nm is explained, a way of 10 um to close it is not; one of 0.1 nm takes no more than is."""
-    with pytest.raises(ns.RunFailed, match=r"The body 'ball' would have to move by 1e-05 .* contradicts itself") as caught:
+    with pytest.raises(
+        ns.RunFailed, match=r"The body 'ball' would have to move by 1e-05 .* contradicts itself"
+    ) as caught:
         ns.simulate(_over(ShortNormal(1e-8), RADIUS, 9.81), 0.1)
     assert _kept(caught.value).q_end[2] == pytest.approx(RADIUS, abs=1e-11)
     closed = ns.simulate(_over(ShortNormal(1e-10), RADIUS, 9.81), 0.1)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+# the halves, which are compiled side by side, take the same time: forces and impacts first, then motion and events
 ROOMS = (
     "resolve",
-    "gauss_seidel",
     "energetic_impact",
     "run_impact",
     "windowed_impact",
@@ -20,14 +20,16 @@ ROOMS = (
     "search_by_pivots",
     "search_by_newton",
     "right_hand_side",
-    "slope",
     "evaluate_contact",
+    "collide",
+    "locate_switch",
+    "gauss_seidel",
+    "slope",
     "evaluate_at",
     "guards_within",
     "update_at_event",
     "advance",
     "try_step",
-    "collide",
     "touch",
     "project_rates",
     "project_joints",
@@ -39,7 +41,6 @@ ROOMS = (
     "first_crossing",
     "locate",
     "choose_friction",
-    "locate_switch",
     "follow",
     "evaluate_forces",
 )
