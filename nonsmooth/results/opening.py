@@ -15,8 +15,8 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.plugins import file
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.solution import Counters, Solution
-from nonsmooth.solution.track import Track
 from nonsmooth.system.system import System
 
 _NONE: dict[str, Any] = {"limits": {}}
@@ -59,7 +59,6 @@ def open_solution(
         rows[:, 0],
         rows[:, 1 : 1 + n_q],
         rows[:, 1 + n_q : 1 + n_q + n_u],
-        folder.events(),
         state.energy,
         Counters(**{field.name: counters.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}),
         state.time,
@@ -68,7 +67,7 @@ def open_solution(
         folder.status,
         str(folder.attributes.get("message")),
         state,
-        Track.of(rows, state, engine or stored_engine(where, folder)),
+        Recorded.of(folder.events(), rows, engine or stored_engine(where, folder)),
     )
 
 

@@ -19,7 +19,6 @@ from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.solution import Counters, Solution
 from nonsmooth.solution.state import Continuation, State
 from nonsmooth.solution.suspicion import suspicions
-from nonsmooth.solution.track import Track
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
@@ -67,7 +66,8 @@ def solution_of(
     """
     record, n_q, n_u = model.memory.scalars[0], model.n_q, model.n_u
     word, message = said
-    events, table = records.joined()
+    recorded = records.joined(engine)
+    table = recorded.rows
     counters = Counters(
         steps=int(record["steps"]),
         rejected=int(record["rejected"]),
@@ -90,7 +90,6 @@ def solution_of(
         t,
         q,
         table[:, 1 + n_q : 1 + n_q + n_u],
-        events,
         state.energy,
         counters,
         state.time,
@@ -99,7 +98,7 @@ def solution_of(
         word,
         message,
         state,
-        Track.of(table, state, engine),
+        recorded,
     )
 
 

@@ -15,6 +15,7 @@ from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.limits import BY_ERROR, LIMITS
 from nonsmooth.engine.memory.modes import (
     CAUSES,
+    DONE,
     EVENTS_ENDLESS,
     GUARD,
     IMPACT_ENDLESS,
@@ -24,6 +25,7 @@ from nonsmooth.engine.memory.modes import (
     SINGULAR_SLIDING,
     START,
     STEP_TOO_SMALL,
+    STOPPED,
 )
 from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.model.laid_out import LaidOut
@@ -79,7 +81,7 @@ class Pace:
         if passing:
             self._passes, self._since = 0, limits
             self._last.clear()
-        if not passing or status != PAUSED:
+        if not passing or status not in (PAUSED, DONE, STOPPED):
             self._last.extend(self._new_events())
             self._passes += passes
         if self._passes >= _LONG and not self._told:

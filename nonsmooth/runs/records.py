@@ -11,8 +11,10 @@ from nonsmooth.engine.events.record import EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.events import Events
+from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.state import Floats, Integers, State
 from nonsmooth.solution.track import row_of
 
@@ -91,21 +93,27 @@ class Records:
         """How many parts there are."""
         return len(self._parts)
 
-    def joined(self) -> tuple[Events, Floats]:
-        """Return all events and samples of the run; a sample is time, y, and what is booked."""
-        events, samples = self._joined(0)
+    def joined(self, engine: Engine) -> Recorded:
+        """Return what has been recorded of the whole run, which an engine integrated."""
+        floats, integers, samples = self._joined(0)
         if self.earlier is None:
-            return events, samples
-        return Events.joined([self.earlier[0], events]), np.concatenate([self.earlier[1], samples])
+            return Recorded(samples, engine, floats, integers, self._sizes)
+        events, rows = self.earlier
+        return Recorded(np.concatenate([rows, samples]), engine, floats, integers, self._sizes, events)
 
     def unwritten(self) -> tuple[Events, Floats]:
         """Return events and samples of the parts that are not yet written."""
-        return self._joined(self.written)
+        floats, integers, samples = self._joined(self.written)
+        return Events.from_buffers(floats, integers, *self._sizes), samples
 
-    def _joined(self, first: int) -> tuple[Events, Floats]:
+    @property
+    def _sizes(self) -> tuple[int, int, int, int]:
+        return len(self.model.system.contacts), self.model.n_q, self.model.n_u, self.model.n_y
+
+    def _joined(self, first: int) -> tuple[Floats, Integers, Floats]:
         nothing = np.zeros(0), np.zeros(0, np.int64), np.zeros((0, self._width))
         parts = list(self._parts.values())[first:] or [nothing]
+        if len(parts) == 1:
+            return parts[0]
         floats, integers, samples = (np.concatenate(same) for same in zip(*parts, strict=True))
-        model = self.model
-        sizes = len(model.system.contacts), model.n_q, model.n_u, model.n_y
-        return Events.from_buffers(floats, integers, *sizes), samples
+        return floats, integers, samples

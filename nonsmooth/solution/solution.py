@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
 from nonsmooth.solution.graph import TransitionGraph, transition_graph
+from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.state import State
 from nonsmooth.solution.track import Track
 from nonsmooth.system.system import System
@@ -74,8 +76,6 @@ class Solution:
         Times of the samples [s], shape [n].
     q, u : array
         Coordinates and velocities at the samples, shapes [n, n_q] and [n, n_u].
-    events : Events
-        All events.
     energy : EnergyAccount
         The energy account.
     counters : Counters
@@ -91,15 +91,14 @@ class Solution:
         Why it stopped, and what is suspect.
     state : State
         Where the run ended, from which it can go on.
-    track : Track
-        The states that it stored, whole.
+    recorded : Recorded
+        What it recorded, from which :attr:`events` and :attr:`track` are read.
     """
 
     system: System
     t: NDArray[np.float64]
     q: NDArray[np.float64]
     u: NDArray[np.float64]
-    events: Events
     energy: EnergyAccount
     counters: Counters
     t_end: float
@@ -108,7 +107,7 @@ class Solution:
     status: str
     message: str
     state: State
-    track: Track = field(repr=False)
+    recorded: Recorded = field(repr=False)
 
     def __repr__(self) -> str:
         """Return how it ended, and how much there is of it."""
@@ -116,6 +115,16 @@ class Solution:
             f"Solution({self.status} at t = {self.t_end:.9g} s: {self.message}; {len(self.t)} samples, "
             f"{len(self.events)} events, energy residual {self.energy.residual:.1e})"
         )
+
+    @property
+    def events(self) -> Events:
+        """All events."""
+        return self.recorded.events
+
+    @functools.cached_property
+    def track(self) -> Track:
+        """The states that it stored, whole."""
+        return Track.of(self.recorded.rows, self.state, self.recorded.engine)
 
     @property
     def modes(self) -> dict[str, float]:
