@@ -11,6 +11,7 @@ from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import check_free
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model, check_times
+from nonsmooth.runs.so_far import Until
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -53,6 +54,7 @@ def simulate(
     *,
     sample_interval: float | None = None,
     engine: Engine | None = None,
+    until: Until | None = None,
     progress: Progress | None = None,
     output: Output | Path | str | None = None,
 ) -> Solution:
@@ -68,6 +70,8 @@ def simulate(
         Time between stored samples [s]; t_end / 2000 by default.  Events are stored exactly in any case.
     engine : Engine, optional
         What integrates it, with its options; :class:`EventDriven` by default.
+    until : callable, optional
+        A condition that ends the run (:meth:`nonsmooth.Model.run`).
     progress : callable, optional
         Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
         raises ends the run and is raised.
@@ -100,4 +104,4 @@ def simulate(
         check_free(Output.to(output))
     model = Model.of(system, engine or EventDriven())
     warn_of_overlaps(system)
-    return model.run(t_end, sample_interval=sample_interval, progress=progress, output=output)
+    return model.run(t_end, sample_interval=sample_interval, until=until, progress=progress, output=output)

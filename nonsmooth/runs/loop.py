@@ -6,13 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.engine.memory.modes import PAUSED, STOPPED
+from nonsmooth.engine.memory.modes import CONDITION_MET, PAUSED, STOPPED
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.keeper import Keeper
 from nonsmooth.runs.pace import Pace
 from nonsmooth.runs.records import Records
+from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.solution.files import FileError
 from nonsmooth.watch import Watch
 
@@ -51,30 +52,46 @@ class Ending:
 
 
 def run_engine(
-    engine: Engine, model: LaidOut, records: Records, begun: Image, progress: Progress | None, keeper: Keeper
+    engine: Engine,
+    model: LaidOut,
+    records: Records,
+    begun: Image,
+    progress: Progress | None,
+    keeper: Keeper,
+    until: Until | None = None,
 ) -> Ending:
-    """Run to the end time, to a failure, or until somebody interrupts; ``begun`` is the image of where it starts.
+    """Run to the end time, to a failure, until a condition is met or somebody interrupts.
+
+    ``begun`` is the image of where it starts.
 
     Raises
     ------
     BaseException
-        Whatever ``progress`` raises.
+        Whatever ``progress`` or ``until`` raises.
     """
     memory = model.memory
     t_end = float(memory.scalars["t_end"][0])
     report = None if progress is None else lambda t: progress(t, t_end)
     status, interrupted, trouble, pace = PAUSED, False, "", Pace(model)
     image, before = begun, records.n_passed
+    so_far, looks = RunSoFar(model, records, engine), 0
     try:
         with Watch(memory, report) as watch:
             while status == PAUSED:
-                status = engine.advance(watch.call, memory, keeper.steps, True)
-                if status == PAUSED:
+                looks, reached = looks + 1, (so_far.time, so_far.n_events)
+                # a condition sees the start before any step
+                status = engine.advance(watch.call, memory, keeper.steps if until is None else min(looks - 1, 1), True)
+                # a wary engine that does nothing is next to the end
+                near = status == PAUSED and (until is None or reached == (so_far.time, so_far.n_events))
+                if near or (status == PAUSED and looks % keeper.steps == 0):
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
-                    status = engine.advance(watch.call, memory, _STEPS_NEAR_END, False)
+                if near:
+                    status = engine.advance(watch.call, memory, _STEPS_NEAR_END if until is None else 1, False)
                 pace.look(status)
                 records.drain()
+                if status == PAUSED and until is not None and until(so_far):
+                    status = CONDITION_MET
                 if progress is not None:
                     progress(float(memory.scalars["t"][0]), t_end)
     except KeyboardInterrupt:
@@ -83,6 +100,6 @@ def run_engine(
     except FileError as error:
         records.drain()
         status, trouble = PAUSED, str(error)
-    if status == STOPPED:
+    if status in (STOPPED, CONDITION_MET):
         image, before = Image.of(memory), records.n_passed
     return Ending(status, interrupted, image, records.n_passed - before, pace.hint(status), trouble)

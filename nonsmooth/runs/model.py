@@ -27,6 +27,7 @@ from nonsmooth.runs.keeper import Keeper, KeepsNothing
 from nonsmooth.runs.loop import Ending, Progress, run_engine
 from nonsmooth.runs.outcome import reason, solution_of, state_of
 from nonsmooth.runs.records import Records
+from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, check_closed, check_state, go_on, restore
 from nonsmooth.runs.writer import Writer
 from nonsmooth.solution.files import FileError
@@ -137,10 +138,11 @@ class Model:
         *,
         start: State | None = None,
         sample_interval: float | None = None,
+        until: Until | None = None,
         progress: Progress | None = None,
         output: Output | Path | str | None = None,
     ) -> Solution:
-        """Run to an end time.
+        """Run to an end time, or until a condition is met.
 
         Parameters
         ----------
@@ -153,6 +155,10 @@ class Model:
         sample_interval : float, optional
             Time between stored samples [s], the first at the start; a 2000th of the run by default.  Events are stored
             exactly in any case.
+        until : callable, optional
+            ``until(run)`` is asked after each step and each event whether the run is to end there; it gets a
+            :class:`~nonsmooth.runs.so_far.RunSoFar`.  What it raises ends the run and is raised.  Where a function of
+            time and state is to be met to the last digit, declare a guard.
         progress : callable, optional
             Called now and then with the time reached and the end time [s].  What it raises ends the run and is raised.
         output : Output, Path or str, optional
@@ -180,7 +186,7 @@ class Model:
         interval = check_times("run", t_end, sample_interval, state.time)
         with self._alone("run"):
             where = None if output is None else Output.to(output)
-            return self._run(t_end, state, interval, sample_interval is None, progress, where)
+            return self._run(t_end, state, interval, sample_interval is None, progress, where, until)
 
     def resume(self, output: Output | Path | str, *, progress: Progress | None = None) -> Solution:
         """Go on with a run of this model that was cut off, to the same end to the last bit.
@@ -242,6 +248,7 @@ class Model:
         is_default: bool,
         progress: Progress | None,
         output: Output | None,
+        until: Until | None,
     ) -> Solution:
         laid = self._laid
         records = self._records = Records(laid)
@@ -271,7 +278,7 @@ class Model:
         if output is not None:
             folder = SolutionFolder.created(output, laid.system, self._engine, t_end, laid.n_states)
             keeper = Writer(folder, records, self._states_from(energy), 0.0)
-        return self._complete(records, begun, energy, progress, keeper, 0.0)
+        return self._complete(records, begun, energy, progress, keeper, 0.0, until)
 
     def _complete(
         self,
@@ -281,13 +288,14 @@ class Model:
         progress: Progress | None,
         keeper: Keeper,
         wall: float,
+        until: Until | None = None,
     ) -> Solution:
         """Run to the end from where the model stands; ``wall`` is what the run took before [s]."""
         laid = self._laid
         began = time.perf_counter()
         with contextlib.closing(keeper):
             keeper.begin(begun)
-            ending = run_engine(self._engine, laid, records, begun, progress, keeper)
+            ending = run_engine(self._engine, laid, records, begun, progress, keeper, until)
             said = reason(laid, self._guards, ending)
             wall += time.perf_counter() - began
             left = state_of(laid, self._blank, self._key, energy, ending)

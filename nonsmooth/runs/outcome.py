@@ -7,7 +7,7 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
-from nonsmooth.engine.memory.modes import DONE, PAUSED, REASONS, STOPPED
+from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Difference, Guards, Image
@@ -30,7 +30,7 @@ def reason(model: LaidOut, guards: Guards, ending: Ending) -> tuple[str, str]:
     status = ending.status
     if ending.trouble:
         return "failed", f"At t = {float(model.memory.scalars['t'][0]):.9g} s {ending.trouble}"
-    if past or status not in (DONE, STOPPED, PAUSED):
+    if past or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
         message = f"At t = {float(model.memory.scalars['t'][0]):.9g} s {REASONS[status]}."
         return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
     return "interrupted" if ending.interrupted else "done", REASONS[status]

@@ -36,11 +36,13 @@ RUNNING, DONE, PAUSED = 0, 1, 2
 STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
 SINGULAR_SLIDING, STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 14)
 GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED = range(14, 17)
+CONDITION_MET = 17
 """Status of the engine."""
 
 REASONS = {
     STOPPED: "a guard of the scenario ended the run",
     DONE: "the end time was reached",
+    CONDITION_MET: "the condition that was given was met",
     PAUSED: "the run was interrupted",
     STEP_TOO_SMALL: "the step size fell below the time tolerance",
     NOT_FINITE: "a law or a body returned a number that is not finite",

@@ -322,6 +322,6 @@ def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
 
     Equal keys must mean equal functions; without a key nothing is cached.
     """
-    return _address(
-        CFunction(shim, _signature(FORMS[form].signature), Store(f"shim-{key}") if key else None, ShimPasses)
-    )
+    store = Store(f"shim-{key}") if key else None
+    with uncollected():
+        return _address(CFunction(shim, _signature(FORMS[form].signature), store, ShimPasses))

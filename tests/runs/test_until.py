@@ -1,0 +1,66 @@
+"""Runs until a condition is met: where they end, and that they go on as if they had not ended there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import nonsmooth as ns
+from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.plugins import registry
+from nonsmooth.runs.so_far import RunSoFar
+from tests.runs.continued import differences, lost_by_stopping
+
+T_END = 0.5
+
+
+@pytest.fixture(scope="module")
+def model() -> ns.Model:
+    return ns.assemble(registry.load("scenarios", "dumbbell")().build())
+
+
+@pytest.fixture(scope="module")
+def whole(model: ns.Model) -> ns.Solution:
+    return model.run(T_END)
+
+
+@pytest.mark.parametrize("n", [1, 7, 40])
+def test_it_ends_with_the_nth_impact_and_goes_on_to_the_last_bit(model: ns.Model, whole: ns.Solution, n: int) -> None:
+    """No event is there behind it but those of its instant."""
+    before = model.run(T_END, until=lambda run: run.n_impacts >= n)
+    assert (before.status, before.message) == ("done", "the condition that was given was met")
+    assert before.events.count(IMPACT) == before.counters.impacts == n
+    assert before.t_end == before.events.time[before.events.cause == IMPACT][-1]
+    assert lost_by_stopping(whole, before, model.run(T_END, start=before.state)) == []
+
+
+def test_a_condition_sees_what_there_is(model: ns.Model, whole: ns.Solution) -> None:
+    """One that is never met changes nothing; one on the state ends the first step in which it holds."""
+    seen: list[tuple[Any, ...]] = []
+
+    def look(run: RunSoFar) -> bool:
+        seen.append((run.time, run.n_events, len(run.events), len(run.q), len(run.u)))
+        return False
+
+    assert differences(whole, model.run(T_END, until=look)) == []
+    times = [one[0] for one in seen]
+    assert times == sorted(times)
+    assert times[-1] < T_END
+    assert all(one[1] == one[2] and one[3:] == (7, 6) for one in seen)
+    run = model.run(T_END, until=lambda run: run.time > 0.1 and run.u[2] > 0.0)
+    assert 0.1 < run.t_end < 0.2
+    assert run.u_end[2] > 0.0
+
+
+def test_what_a_condition_raises_is_raised(model: ns.Model) -> None:
+    """And the model runs again."""
+    with pytest.raises(ZeroDivisionError):
+        model.run(T_END, until=lambda run: 1 / 0 > 0)
+    assert model.run(0.01).status == "done"
+
+
+def test_results_on_disk_end_there_too(model: ns.Model, tmp_path: Path) -> None:
+    run = model.run(T_END, until=lambda run: run.n_impacts >= 7, output=tmp_path)
+    assert differences(run, ns.open_solution(tmp_path)) == []
