@@ -18,17 +18,7 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True)
 class RunSoFar:
-    """Where a run is, and what happened in it.
-
-    Parameters
-    ----------
-    model : LaidOut
-        What runs.
-    records : Records
-        What it has recorded.
-    engine : Engine
-        What integrates it.
-    """
+    """Where a run is, and what happened in it; the run makes it."""
 
     _model: LaidOut
     _records: Records
