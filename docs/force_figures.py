@@ -24,10 +24,10 @@ def main() -> None:
     forces = solution.contact_forces(times)
     figure, (normal, friction) = make_axes("Dumbbell on the vibrating plate, drift: forces between events", 2)
     events = solution.events
-    for number, colour in enumerate(_COLOURS):
+    for number, (name, colour) in enumerate(zip(solution.system.names.contacts, _COLOURS, strict=True)):
         history = forces.history(number)
         closed = np.where(history.mode > 0, 1.0, math.nan)
-        normal.plot(1e3 * times, 1e3 * closed * history.normal_force, color=colour, label=f"contact {number}")
+        normal.plot(1e3 * times, 1e3 * closed * history.normal_force, color=colour, label=name)
         friction.plot(1e3 * times, 1e3 * closed * history.friction_force[:, 1], color=colour)
         struck = (events.time > _START) & (events.impulse[:, number, 0] > 0.0)
         normal.plot(1e3 * events.time[struck], np.zeros(np.count_nonzero(struck)), "|", color=colour, markersize=12)
@@ -35,7 +35,7 @@ def main() -> None:
     friction.set_ylabel("friction [mN]")
     for axis in (normal, friction):
         axis.set_xlabel("time [ms]")
-    normal.legend(frameon=False, fontsize=8)
+    figure.legend(loc="outside lower center", ncols=2, frameon=False, fontsize=8)
     figure.savefig(Path(sys.argv[1]) / "forces_dumbbell.png", dpi=110)
 
 
