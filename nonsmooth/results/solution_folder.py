@@ -68,8 +68,12 @@ class SolutionFolder:
         self._safe = False
 
     @classmethod
-    def created(cls, output: Output, system: System, engine: Engine, t_end: float, n_states: int) -> SolutionFolder:
+    def created(
+        cls, output: Output, system: System, engine: Engine, t_end: float, n_states: int, conditional: bool
+    ) -> SolutionFolder:
         """Make the folder of a run that begins; what it holds counts from the first :meth:`append` on.
+
+        A conditional run may end before its end time, on a condition that no file holds.
 
         Raises
         ------
@@ -85,7 +89,7 @@ class SolutionFolder:
                 shutil.rmtree(path)
             except OSError as error:
                 raise FileError(path, error) from error
-        made, lock = ZarrFolder(path, _attributes(output, engine, t_end)), Lock(path)
+        made, lock = ZarrFolder(path, _attributes(output, engine, t_end, conditional)), Lock(path)
         found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
         for variable in (*of_system(system), _text(system, output, engine, t_end, made.attributes)):
             made.add(variable, grows=False)
@@ -335,7 +339,7 @@ def check_free(output: Output) -> None:
         )
 
 
-def _attributes(output: Output, engine: Engine, t_end: float) -> dict[str, Any]:
+def _attributes(output: Output, engine: Engine, t_end: float, conditional: bool) -> dict[str, Any]:
     known = versions()
     return {
         "Conventions": "CF-1.11",
@@ -344,6 +348,7 @@ def _attributes(output: Output, engine: Engine, t_end: float) -> dict[str, Any]:
         "status": UNFINISHED,
         "message": _MESSAGE,
         "t_end_asked": t_end,
+        "conditional": int(conditional),
         "engine": json.dumps(_table(engine)),
         "versions": json.dumps(known),
         "request": json.dumps(dict(output.request)),

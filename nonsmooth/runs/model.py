@@ -188,13 +188,17 @@ class Model:
             where = None if output is None else Output.to(output)
             return self._run(t_end, state, interval, sample_interval is None, progress, where, until)
 
-    def resume(self, output: Output | Path | str, *, progress: Progress | None = None) -> Solution:
+    def resume(
+        self, output: Output | Path | str, *, until: Until | None = None, progress: Progress | None = None
+    ) -> Solution:
         """Go on with a run of this model that was cut off, to the same end to the last bit.
 
         Parameters
         ----------
         output : Output, Path or str
             The folder of its results, which are appended to.
+        until : callable, optional
+            The condition that the run was given, which no file holds.
         progress : callable, optional
             As for :meth:`run`.
 
@@ -206,11 +210,19 @@ class Model:
         Raises
         ------
         InvalidInput
-            If the folder holds no run that was cut off, it is one of another model, or the model runs already.
+            If the folder holds no run that was cut off, it is one of another model, it was given a condition and now
+            there is none, or the model runs already.
         RunFailed
             As for :meth:`run`.
         """
         folder = SolutionFolder.opened(Output.to(output))
+        if folder.attributes.get("conditional") and until is None:
+            raise InvalidInput(
+                f"resume {Output.to(output).folder}: until",
+                "must be given for a run that was to end on a condition, which no file holds",
+                None,
+                "Give the same function: nonsmooth.resume(folder, until=...).",
+            )
         state = folder.cut_to_checkpoint()
         if not self._left(state):
             raise InvalidInput(
@@ -230,7 +242,7 @@ class Model:
             energy = state.energy.kinetic_start, state.energy.potential_start
             wall = float(folder.said("checkpoint")["wall_seconds"])
             keeper = Writer(folder, records, self._states_from(energy), wall)
-            return self._complete(records, Image.of(laid.memory), energy, progress, keeper, wall)
+            return self._complete(records, Image.of(laid.memory), energy, progress, keeper, wall, until)
 
     def _states_from(self, energy: tuple[float, float]) -> Callable[[Image], State]:
         """Return what makes states of images, for the account of energy that begins with these [J]."""
@@ -276,7 +288,7 @@ class Model:
             # takes milliseconds where there are many contacts
             begun = Image.of(laid.memory)
         if output is not None:
-            folder = SolutionFolder.created(output, laid.system, self._engine, t_end, laid.n_states)
+            folder = SolutionFolder.created(output, laid.system, self._engine, t_end, laid.n_states, until is not None)
             keeper = Writer(folder, records, self._states_from(energy), 0.0)
         return self._complete(records, begun, energy, progress, keeper, 0.0, until)
 

@@ -12,6 +12,7 @@ from nonsmooth.results.output import Output, versions
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model
+from nonsmooth.runs.so_far import Until
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -25,6 +26,7 @@ def resume(
     *,
     system: System | None = None,
     engine: Engine | None = None,
+    until: Until | None = None,
     progress: Progress | None = None,
 ) -> Solution:
     """Go on with a run that was cut off, to the end that it would have had, to the last bit.
@@ -37,6 +39,8 @@ def resume(
         What ran; by default it is built from what the folder says of it.
     engine : Engine, optional
         What ran it; by default that which the folder names.
+    until : callable, optional
+        The condition that the run was given, which no file holds.
     progress : callable, optional
         As for :func:`nonsmooth.simulate`.
 
@@ -53,7 +57,8 @@ def resume(
     Raises
     ------
     InvalidInput
-        If there is nothing to go on with, or the system is not the one that ran or cannot be built.
+        If there is nothing to go on with, the system is not the one that ran or cannot be built, or a condition is
+        missing.
     PluginError
         If a class that the system needs cannot be loaded.
     RunFailed
@@ -62,7 +67,7 @@ def resume(
     where = Output.to(output)
     folder = check_resumable(where)
     made = system or stored_setup(where, folder).system
-    return Model.of(made, engine or stored_engine(where, folder)).resume(where, progress=progress)
+    return Model.of(made, engine or stored_engine(where, folder)).resume(where, until=until, progress=progress)
 
 
 def check_resumable(where: Output) -> SolutionFolder:

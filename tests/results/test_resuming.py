@@ -26,6 +26,7 @@ from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.runs import writer
 from nonsmooth.runs.identity import constants
 from nonsmooth.runs.resuming import OtherVersions
+from nonsmooth.runs.so_far import RunSoFar
 from nonsmooth.solution.state import Continuation
 from nonsmooth.solution.variable import Variable
 from tests.results.runs import balls
@@ -202,3 +203,24 @@ def test_a_state_from_a_file_leaves_functions_and_offsets_alone(tmp_path: Path) 
     kept = constants(laid, blank)
     for part, before, at in zip(laid.memory.bits, blank.parts, kept, strict=True):
         np.testing.assert_array_equal(part[at], before[at])
+
+
+def test_a_run_that_ends_on_a_condition_needs_it_again(tmp_path: Path, often: None) -> None:
+    """No file holds it: without it nothing goes on, with it the run ends where the undisturbed one does."""
+
+    def until(run: RunSoFar) -> bool:
+        return run.n_impacts >= 9
+
+    def dies(run: RunSoFar) -> bool:
+        if run.n_impacts >= 6:
+            raise ArithmeticError
+        return False
+
+    whole = ns.simulate(balls(), T_END, until=until)
+    with pytest.raises(ArithmeticError):
+        ns.simulate(balls(), T_END, until=dies, output=tmp_path)
+    with pytest.raises(ns.InvalidInput, match="until must be given for a run that was to end on a condition"):
+        ns.resume(tmp_path)
+    after = ns.resume(tmp_path, until=until)
+    assert (after.status, after.message, after.counters.impacts) == ("done", whole.message, 9)
+    assert differences(whole, after) == []
