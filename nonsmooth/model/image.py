@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
@@ -13,11 +12,10 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.blocks import UNTOUCHED
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.packing import packed, unpacked
 
 Integers = NDArray[np.int64]
 _WIDTH = len(CATALOGUE)
-_LEVEL = 1
-"""Of compression."""
 _UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
 
 
@@ -91,7 +89,7 @@ class Difference:
         """Return it as a few bytes; places count from the one before, and next to all of them are 1."""
         sizes = np.array([len(self.places), *map(len, self.places)])
         steps = [np.diff(places, prepend=0) for places in self.places]
-        return zlib.compress(np.concatenate([sizes, *steps, *self.bits]).astype("<i8").tobytes(), _LEVEL)
+        return packed(np.concatenate([sizes, *steps, *self.bits]).astype("<i8"))
 
     @classmethod
     def unpacked(cls, content: bytes) -> Difference:
@@ -99,10 +97,10 @@ class Difference:
 
         Raises
         ------
-        ValueError, IndexError, zlib.error
+        ValueError, IndexError
             If it is none.
         """
-        numbers = np.frombuffer(zlib.decompress(content), "<i8").astype(np.int64)
+        numbers = unpacked(content, "<i8").astype(np.int64)
         n = int(numbers[0])
         sizes = numbers[1 : n + 1]
         parts = np.split(numbers[n + 1 :], np.cumsum([*sizes, *sizes])[:-1])

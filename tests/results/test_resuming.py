@@ -122,7 +122,7 @@ def test_a_full_disk_ends_the_run_and_it_goes_on_when_there_is_room(
     write, states = Path.write_bytes, []
 
     def full(path: Path, content: bytes) -> int:
-        states.append(path.suffixes[-2:] == [".npz", ".part"])
+        states.append(".npz" in path.suffixes)
         if sum(states) > 2:  # where it begins and one more are written
             raise OSError(errno.ENOSPC, "No space left on device")
         return write(path, content)
