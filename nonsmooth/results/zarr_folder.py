@@ -2,9 +2,8 @@
 
 A commit is seen as a whole or not at all, by readers and after a power cut: chunks come first, each written beside the
 one that it replaces, then the consolidated metadata, one file with the lengths of all arrays.  What a chunk holds
-beyond the length of its array does not count, nor a chunk that no commit counts, which has its name at once.  No library
-for the format promises that order, nor that a file is safe on the disk before it takes its name; that is all that is
-done here.
+beyond the length of its array does not count; a chunk that is new has its name at once.  No library for the format
+promises that order, nor that a file is safe on the disk before it takes its name; that is all that is done here.
 """
 
 from __future__ import annotations

@@ -60,7 +60,9 @@ def of_system(system: System) -> list[Variable]:
     for role in ("normal", "friction", "impact"):
         laws = [getattr(contact, role) for contact in contacts]
         words = {key: repr(law) for key, law in {id(law): law for law in laws}.items()}
-        found.append(_words(f"contact_{role}", "contact", [words[id(law)] for law in laws], f"law of the contact: {role}"))
+        found.append(
+            _words(f"contact_{role}", "contact", [words[id(law)] for law in laws], f"law of the contact: {role}")
+        )
     directions = ("normal", "first tangent", "second tangent")
     return [*found, _words("direction", "direction", directions, "direction at a contact")]
 
