@@ -29,7 +29,7 @@ from nonsmooth.runs.loop import Ending, Progress, run_engine
 from nonsmooth.runs.outcome import reason, solution_of, state_of
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import Until
-from nonsmooth.runs.start import begin, check_closed, check_state, go_on, restore
+from nonsmooth.runs.start import begin, check_arrays, check_closed, check_start_numbers, go_on, restore
 from nonsmooth.runs.writer import Writer
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.solution import Solution
@@ -186,8 +186,10 @@ class Model:
             If the run cannot go on, or cannot be written any more; its ``solution`` holds what was computed.
         """
         state = self._start if start is None else start
-        if state is not self._start and not self._left(state):
-            check_state(self._laid, state)
+        if state is not self._start:
+            check_arrays(self._laid, state)
+            if not self._left(state):
+                check_start_numbers(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
         with self._alone("run"):
             where = None if output is None else Output.to(output)

@@ -20,22 +20,24 @@ _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 _COUNTERS = ("steps", "rejected", "impacts", "impact_steps", "gap_looks", "listings")
 _OUTPUT = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats", "stopped")
 """What stands in buffers that Python has emptied."""
+_WHOLE = ("modes", "guards_spent")
+_NUMBERS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
+_REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
 _UNIT = 1e-9
 """By how much a quaternion may be off unit length."""
 _NOT_CLOSED = 1e3
 """A contact that is closed may have a gap of so many gap tolerances."""
 
 
-def check_state(model: LaidOut, state: State) -> None:
-    """Look whether a state can be one of the model.
+def check_arrays(model: LaidOut, state: State) -> None:
+    """Look whether a state has the arrays of the model.
 
     Raises
     ------
     InvalidInput
-        If it has other numbers of anything, a number is not finite, a quaternion not unit, or a mode unknown.
+        If it has other numbers of anything, or a mode or a mark that is none.
     """
-    system, n = model.system, len(model.system.contacts)
-    whole = {"modes", "guards_spent"}
+    n = len(model.system.contacts)
     shapes = {
         "q": (model.n_q,),
         "u": (model.n_u,),
@@ -44,33 +46,44 @@ def check_state(model: LaidOut, state: State) -> None:
         "closing_rates": (n,),
         "features": (n, CANDIDATE),
         "law_states": (model.n_states,),
-        "guards_spent": (len(system.guards),),
+        "guards_spent": (len(model.system.guards),),
     }
-    remedy = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
+    if not math.isfinite(state.time):
+        raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
     for name, shape in shapes.items():
-        value = np.asarray(getattr(state, name))
-        if value.dtype.kind not in ("biu" if name in whole else "biuf"):
-            rule = f"must be {'whole ' if name in whole else ''}numbers"
-            raise InvalidInput(f"State.{name}", rule, f"an array of {value.dtype}", remedy)
+        value, kinds = np.asarray(getattr(state, name)), "biu" if name in _WHOLE else "biuf"
+        if value.dtype.kind not in kinds:
+            rule = f"must be {'whole ' if name in _WHOLE else ''}numbers"
+            raise InvalidInput(f"State.{name}", rule, f"an array of {value.dtype}", _REMEDY)
         if value.shape != shape:
-            raise InvalidInput(f"State.{name}", f"must have the shape {shape} of this model", value.shape, remedy)
+            raise InvalidInput(f"State.{name}", f"must have the shape {shape} of this model", value.shape, _REMEDY)
+    if not np.all(np.isin(state.modes, (OPEN, STICK, SLIDE))):
+        raise InvalidInput("State.modes", "must be 0 (open), 1 (stick) or 2 (slide)", state.modes.tolist(), _REMEDY)
+    if not np.all(np.isin(state.guards_spent, (0, 1))):
+        raise InvalidInput("State.guards_spent", "must be 0 or 1", state.guards_spent.tolist(), _REMEDY)
+
+
+def check_start_numbers(model: LaidOut, state: State) -> None:
+    """Look whether a run may begin with the numbers of a state.
+
+    Raises
+    ------
+    InvalidInput
+        If one is not finite, or a quaternion not unit.
+    """
+    for name in _NUMBERS:
+        value = np.asarray(getattr(state, name))
         if not np.all(np.isfinite(value)):
             number = int(np.flatnonzero(~np.isfinite(value.ravel()))[0])
             remedy = f"Look at entry {number}; a run that failed may leave such a state."
             raise InvalidInput(f"State.{name}", "must be finite numbers", float(value.ravel()[number]), remedy)
-    if not math.isfinite(state.time):
-        raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
-    if not np.all(np.isin(state.modes, (OPEN, STICK, SLIDE))):
-        raise InvalidInput("State.modes", "must be 0 (open), 1 (stick) or 2 (slide)", state.modes.tolist(), remedy)
-    if not np.all(np.isin(state.guards_spent, (0, 1))):
-        raise InvalidInput("State.guards_spent", "must be 0 or 1", state.guards_spent.tolist(), remedy)
     first = 0
-    for body in system.bodies:
+    for body in model.system.bodies:
         if body.quaternion >= 0:
             start = first + body.quaternion
             length = float(np.linalg.norm(state.q[start : start + 4]))
             if not abs(length - 1.0) <= _UNIT:
-                thing = f"State.q[{start}:{start + 4}], the quaternion of {system.name_of(body)!r},"
+                thing = f"State.q[{start}:{start + 4}], the quaternion of {model.system.name_of(body)!r},"
                 raise InvalidInput(thing, "must have unit length", length, "Divide it by its norm.")
         first += body.n_q
 

@@ -198,7 +198,7 @@ def test_a_state_from_a_file_leaves_functions_and_offsets_alone(tmp_path: Path) 
     arrays = SolutionFolder.opened(Output(folder))
     checkpoint = arrays.said("checkpoint")["state"]
     (folder / "solution.zarr" / checkpoint).write_bytes(state_bytes(model.start.with_continuation(foreign)))
-    with pytest.raises(ns.InvalidInput, match="State.continuation: n_contacts must be from 0"):
+    with pytest.raises(ns.InvalidInput, match=r"State\.continuation: n_contacts must be from 0"):
         model.resume(folder)
     kept = constants(laid, blank)
     for part, before, at in zip(laid.memory.bits, blank.parts, kept, strict=True):
