@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.labels import labels
 from nonsmooth.solution.variable import Variable
+from nonsmooth.system.labels import labels
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]
