@@ -33,6 +33,7 @@ _TOLD: Told = {
 class JointForces:
     """What every joint, in the order of ``system.joints``, does to its second body; the first bears the opposite.
 
+    Joints are those of ``System.joint``: what a mechanism of generalised coordinates bears inside is never solved for.
     World axes; of a single time the arrays lack the axis n.  Of rows that say the same twice one bears all.
 
     Attributes

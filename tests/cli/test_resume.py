@@ -40,7 +40,15 @@ def test_an_interrupted_run_ends_as_the_whole_one(
     import xarray
 
     asked = {
-        "name": ("dumbbell", "--set", "t_end=20", "--law", "impact=newton,restitution=0.4", "--engine", "event_driven,tolerance=1e-8"),
+        "name": (
+            "dumbbell",
+            "--set",
+            "t_end=20",
+            "--law",
+            "impact=newton,restitution=0.4",
+            "--engine",
+            "event_driven,tolerance=1e-8",
+        ),
         "file": (str(tmp_path / "dumbbell.toml"), "--set", "t_end=20"),
         "class": (f"{tmp_path / 'mine.py'}:Mine", "--set", "t_end=20"),
     }[kind]
