@@ -132,10 +132,14 @@ def main() -> None:
             rows = list(pool.map(partial(run, variant), seeds))
             ended = [row for row in rows if row[0] == "at the end"]
             rests = sum(row[3] <= _AT_REST for row in ended)
-            print(f"{variant:14}{len(ended):3d} of {len(rows)} ended, {rests} at rest, {max(r[1] for r in rows):6.1f} s")
+            print(
+                f"{variant:14}{len(ended):3d} of {len(rows)} ended, {rests} at rest, {max(r[1] for r in rows):6.1f} s"
+            )
             for seed, row in zip(seeds, rows, strict=True):
                 if row[0] != "at the end":
-                    print(f"    seed {seed}: {row[0]} at {row[2]:.4f} s after {row[1]:.1f} s, {row[4]} events", flush=True)
+                    print(
+                        f"    seed {seed}: {row[0]} at {row[2]:.4f} s after {row[1]:.1f} s, {row[4]} events", flush=True
+                    )
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from nonsmooth.engine.events.record import (
 )
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
 from nonsmooth.engine.flow.clearance import bound_speeds
-from nonsmooth.engine.flow.flow import right_hand_side, slope, try_step
+from nonsmooth.engine.flow.flow import right_hand_side, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -38,6 +38,7 @@ from nonsmooth.engine.flow.projection import (
     project_joints,
 )
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
+from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
 from nonsmooth.engine.memory.layout import BOOKED, FALL, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
