@@ -40,7 +40,7 @@ def dataset(
 
     over = ("time",) * time.ndim
     used = {axis for axes, _, _ in told.values() for axis in axes}
-    coordinates = {axis: (axis, list(words)) for axis, words in (_NAMES | names).items() if axis in used}
+    coordinates = {axis: (axis, list(words)) for axis, words in {**_NAMES, **names}.items() if axis in used}
     return xarray.Dataset(
         {
             name: ((*over, *axes), np.asarray(getattr(history, name)), {"units": unit, "long_name": words})

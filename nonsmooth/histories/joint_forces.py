@@ -78,7 +78,8 @@ class JointForces:
                 table[:, i, j] = joint.look()
 
         known.visit(row, keep)
-        found = cls(row, *table, solution.system.names.joints)
+        point, force, moment = table
+        found = cls(row, point, force, moment, solution.system.names.joints)
         return found if given.ndim else of_one(found)
 
 

@@ -52,7 +52,7 @@ def _other_difference(packed: bytes, draw: np.random.Generator) -> np.ndarray:
     for _ in range(int(draw.integers(1, 20))):
         i = int(draw.integers(len(bits[part])))
         if draw.random() < 0.1:
-            places[part][i] = int(draw.choice([-1, 2**40, draw.integers(1000)]))
+            places[part][i] = int(draw.choice([-1, 2**40, int(draw.integers(1000))]))
         value = float(draw.choice(VALUES))
         whole = part == 3 or not abs(value) < 2**62 or draw.random() < 0.5
         bits[part][i] = int(np.nan_to_num(value)) % 2**62 if whole else int(np.float64(value).view(np.int64))
