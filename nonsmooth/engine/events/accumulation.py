@@ -17,7 +17,10 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at
 
 @kernel("i8(S, F, I)")
 def _choose(S: Scalars, w: Floats, k: Integers) -> int:
-    """Mark the contacts whose bounces have become shorter than their contact time; return how many."""
+    """Mark the contacts whose bounces have become shorter than their contact time; return how many.
+
+    What a jam has opened at this instant does not bounce: closed again it would jam again.
+    """
     closing = 0
     S.h_first = 1e300
     for c in range(S.n_contacts):
@@ -30,7 +33,8 @@ def _choose(S: Scalars, w: Floats, k: Integers) -> int:
         if approach > 0.0:
             # the next step shall not fly over the touch-down that is due after 2 rate / approach
             S.h_first = min(S.h_first, 3.0 * rate / approach)
-        if approach > 0.0 and rate <= approach * contact.contact_time and closed_twin(S, w, k, c) < 0:
+        bounces = S.jammed == 0 and approach > 0.0 and rate <= approach * contact.contact_time
+        if bounces and closed_twin(S, w, k, c) < 0:
             closing += 1
             contact.closes = 1
     return closing

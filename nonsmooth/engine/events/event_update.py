@@ -277,6 +277,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I, i8)")
 def _jam(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
     """Run the impact of a jam on the island of ``contact``; return the status."""
+    S.jammed = 1
     return PARADOX_REFUSED if S.policy == REFUSE else int(collide(S, w, k, JAM, contact, 0.0))
 
 
@@ -314,7 +315,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
 @room("i8(S, F, I, i8, i8)")
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
     """Carry the system through an instant that ``contact`` makes one by ``cause``; return the status."""
-    S.recorded = 0
+    S.recorded = S.jammed = 0
     resting = projected = 0
     approaching = touch(S, w, k)
     open_account(S, w, k)

@@ -77,6 +77,7 @@ INTEGER_SCALARS = (
     "unsettled",
     "repeated",
     "recorded",
+    "jammed",
     "sample_index",
     "n_doubtful",
     "looked",
