@@ -54,7 +54,7 @@ from nonsmooth.engine.memory.modes import (
     STICK,
     STICK_TO_SLIP,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel, room
 from nonsmooth.engine.native.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
@@ -183,8 +183,7 @@ def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     speed = slip_speed(S, w, k, c)
     contact.mode = SLIDE if speed > S.velocity_tolerance else STICK
     if speed > S.velocity_tolerance:
-        for i in range(2):
-            contact.direction[i] = contact.rate[1 + i] / speed
+        contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
 @kernel("i8(S, F, I, i8)")
@@ -263,8 +262,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
             contact = contact_at(S, w, k, c)
             contact.small_force_of = small_force(S, w, k, a)
             contact.mode_agreed = k[S.mode_tried + a]
-            for i in range(2):
-                contact.direction_agreed[i] = w[S.d + 2 * a + i]
+            contact.direction_agreed = active_at(S, w, k, a).direction
             if k[S.at_rest + a] == 1 and k[S.mode_tried + a] != OPEN:
                 turned += turn_facing(S, w, k, c, w[S.f + 3 * a + 1])
     # friction that turned out to oppose the other way has another bound
@@ -370,8 +368,7 @@ def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
             begin_contact(S, w, k, c)
         contact.mode = contact.mode_agreed
         if contact.mode == SLIDE:
-            for i in range(2):
-                contact.direction[i] = contact.direction_agreed[i]
+            contact.direction = contact.direction_agreed
 
 
 @kernel("void(S, F, I, i8, i8)")

@@ -99,11 +99,11 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
         if w[S.mu_static + a] > 0.0:
             k[S.tangent_held + a] = 1
             return
-    follow_slip(S, w, k, a, S.rate + 3 * c + 1, S.velocity_tolerance)
+    follow_slip(S, w, k, a, contact_at(S, w, k, c).slip, S.velocity_tolerance)
     if k[S.normal_held + a] == 0:
         # what pulls does not rub
         w[S.mu + a] *= 1.0 if contact.compliant_force > 0.0 else 0.0
-        friction_of_slip(S, w, a)
+        friction_of_slip(S, w, k, a)
 
 
 @kernel("f8(S, F, I, i8)")

@@ -59,7 +59,7 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
         contact = contact_at(S, w, k, c)
         for r in range(3):
             impulse = w[S.f + 3 * a + r]
-            damping = w[own_block(S, k, a) + 4 * r] * part / (1.0 + part)
+            damping = own_block(S, w, k, a).entries[4 * r] * part / (1.0 + part)
             loss -= 0.5 * impulse * (contact.rate[r] - damping * impulse)
             S.driven_work -= impulse * contact.prescribed_rate[r]
     return loss
@@ -70,7 +70,7 @@ def _damp(S: Scalars, w: Floats, k: Integers, part: float) -> None:
     """Add a part of its diagonal to the Delassus matrix of the active contacts."""
     for a in range(S.n_active):
         for r in range(3):
-            w[own_block(S, k, a) + 4 * r] *= 1.0 + part
+            own_block(S, w, k, a).entries[4 * r] *= 1.0 + part
 
 
 @kernel("i8(S, F, I)")

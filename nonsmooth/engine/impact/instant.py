@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, own_block, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
 from nonsmooth.engine.memory.modes import SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_map, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
+from nonsmooth.engine.numerics.vectors import length
 
 _NEXT_TO_ZERO = 1e-3
 """A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
@@ -18,9 +17,10 @@ _NEXT_TO_ZERO = 1e-3
 @kernel("i8(S, F, I, i8)")
 def is_jammed(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     """Return 1 if the active contact ``a`` slides at the Painleve singularity, its slip direction being known."""
-    c = k[S.active + a]
-    slides = k[S.mode + c] == SLIDE and k[S.normal_function + c] == 0
-    return 1 if slides and reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * w[own_block(S, k, a)] else 0
+    active = active_at(S, w, k, a)
+    contact = contact_at(S, w, k, active.slot)
+    slides = contact.mode == SLIDE and contact.normal_function == 0
+    return 1 if slides and reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * own_block(S, w, k, a).nn else 0
 
 
 @kernel("i8(S, F, I)")
@@ -31,23 +31,26 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
     impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
     """
     for a in range(S.n_active):
-        c = k[S.active + a]
-        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
-        w[S.mu + a] = 0.0
-        if k[S.mode + c] == SLIDE and speed > 0.0:
-            w[S.mu + a] = friction_coefficient(S, w, k, c, speed)
-            w[S.d + 2 * a], w[S.d + 2 * a + 1] = v1 / speed, v2 / speed
-        k[S.normal_held + a] = 1
-        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or is_jammed(S, w, k, a) == 1 else 0
+        active = active_at(S, w, k, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        v1, v2 = contact.slip
+        speed = length(contact.slip)
+        active.mu = 0.0
+        if contact.mode == SLIDE and speed > 0.0:
+            active.mu = friction_coefficient(S, w, k, c, speed)
+            active.direction = v1 / speed, v2 / speed
+        active.normal_held = 1
+        active.tangent_held = 1 if contact.mode == STICK or is_jammed(S, w, k, a) == 1 else 0
         for r in range(3):
-            w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
+            active.free[r] = contact.rate[r]
     resolve(S, w, k)
     for a in range(S.n_active):
-        if not w[S.f + 3 * a] >= 0.0:
+        active = active_at(S, w, k, a)
+        if not active.normal_force >= 0.0:
             return 0
         for r in range(3):
-            w[S.impulse + 3 * a + r] = w[S.f + 3 * a + r]
+            active.impulse[r] = active.force[r]
     _split_loss(S, w, k)
     return 1
 
@@ -57,12 +60,13 @@ def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
     """Let a law that maps velocities to impulses treat the colliding set."""
     m = S.n_active
     for a in range(m):
-        c = k[S.active + a]
-        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
+        active = active_at(S, w, k, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        speed = length(contact.slip)
         w[S.map_block + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
         for i in range(1, S.map_width):
-            w[S.map_block + i * m + a] = w[k[S.map_parameters + c] + i - 1]
+            w[S.map_block + i * m + a] = w[contact.map_parameters + i - 1]
     write_dense(S, w, k)
     behind = S.impulse + 3 * m
     for i in range(GUARD):
@@ -78,6 +82,7 @@ def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
 def _split_loss(S: Scalars, w: Floats, k: Integers) -> None:
     """Split the energy that the impulses take, contact by contact, by the mean rates they act on."""
     for a in range(S.n_active):
+        active = active_at(S, w, k, a)
         normal = tangential = 0.0
         for r in range(3):
             line = 3 * a + r
@@ -86,4 +91,4 @@ def _split_loss(S: Scalars, w: Floats, k: Integers) -> None:
                 normal -= w[S.impulse + line] * mean
             else:
                 tangential -= w[S.impulse + line] * mean
-        w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = normal, 0.0, tangential
+        active.stored, active.returned, active.rubbed = normal, 0.0, tangential

@@ -5,7 +5,8 @@ floats ``w`` and the heap of integers ``k`` (see :mod:`nonsmooth.engine.memory.l
 variable ``NONSMOOTH_PLAIN=1`` before the first import to run the same source as ordinary Python,
 without numba: for the debugger, for coverage, and to see that both agree.
 
-Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8`` and ``void``.
+Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8``, ``void``, ``v2``, a vector of two
+floats, and ``D``, a block of the Delassus matrix.
 """
 
 from __future__ import annotations
@@ -42,8 +43,16 @@ room_addresses: Callable[[], tuple[int, ...]] = _half.room_addresses
 call_room: Callable[..., Any] = _half.call_room
 """``call_room(name, memory, *numbers)``: call a room from Python."""
 
-contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.contact_at
-"""A contact with its fields by name (:mod:`nonsmooth.engine.memory.contact_fields`)."""
+contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["contact"]
+"""A contact with its fields by name (:mod:`nonsmooth.engine.memory.records`)."""
+active_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["active"]
+"""An active contact with its fields by name."""
+body_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["body"]
+"""A body with its fields by name."""
+impact_state: Callable[[Floats, int, int], Any] = _half.records["impact_state"]
+"""``impact_state(w, y, a)``: an active contact in the state of an impact, or the slope, at ``y``, by name."""
+delassus_block: Callable[[Floats, int, int], Any] = _half.records["delassus_block"]
+"""``delassus_block(w, S.delassus, block)``: a block on the diagonal of the Delassus matrix by name."""
 at: Callable[[Floats, int], Floats] = _half.at
 """The heap from an offset on."""
 
@@ -97,9 +106,11 @@ __all__ = [
     "Integers",
     "Memory",
     "Scalars",
+    "active_at",
     "address_of",
     "at",
     "block_at",
+    "body_at",
     "call_body",
     "call_compliance",
     "call_guard",
@@ -114,7 +125,9 @@ __all__ = [
     "call_watch",
     "calls",
     "contact_at",
+    "delassus_block",
     "forget_watch",
+    "impact_state",
     "jit",
     "kernel",
     "room",

@@ -23,8 +23,9 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.rooms import ROOMS
 from nonsmooth.engine.native.build import CFunction, KernelPasses, LawPasses, RoomPasses, ShimPasses, uncollected
 from nonsmooth.engine.native.cache import Store, folders
-from nonsmooth.engine.native.contact_view import contact_at as contact_at
 from nonsmooth.engine.native.forms import C_TYPES, FORMS
+from nonsmooth.engine.native.record_view import records as records
+from nonsmooth.engine.native.record_view import types_of
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, call_at, moved
 from nonsmooth.notices import say
 
@@ -42,6 +43,8 @@ _TYPES = {
     "I": INTEGERS,
     "f8": types.float64,
     "i8": types.int64,
+    "D": types_of["delassus_block"],
+    "v2": types.UniTuple(types.float64, 2),
     "void": types.void,
 }
 _pending: list[tuple[Any, Any]] = []

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from nonsmooth.engine.memory.contact_fields import NUMBERS
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.records import PACKED, RECORDS, Field, Fields
 from nonsmooth.engine.memory.rooms import ROOMS
-from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, SCALARS
+from nonsmooth.engine.memory.tables import SCALARS
 from nonsmooth.engine.native.forms import FORMS
 
 _functions: list[Callable[..., Any]] = []
@@ -50,32 +50,44 @@ def call_room(name: str, memory: Memory, *arguments: float) -> Any:
             memory.scalars[field] = value
 
 
-class _Contact:
-    """A contact with named fields."""
+class _Record:
+    """A record with named fields."""
 
-    __slots__ = ("_heaps", "_number", "_scalars")
+    __slots__ = ("_fields", "_heaps", "_number", "_scalars")
 
-    def __init__(self, scalars: Any, w: Any, k: Any, number: int) -> None:
+    def __init__(self, fields: Fields, scalars: Any, w: Any, k: Any, number: int) -> None:
+        object.__setattr__(self, "_fields", fields)
         object.__setattr__(self, "_scalars", scalars)
-        object.__setattr__(self, "_heaps", (w, k))
+        object.__setattr__(self, "_heaps", (k, w))
         object.__setattr__(self, "_number", number)
 
-    def _field(self, name: str) -> Any:
-        heap, numbers = self._heaps[0 if name in FLOAT_ARRAYS else 1], NUMBERS[name]
-        start = getattr(self._scalars, name) + numbers * self._number
-        return heap[start : start + numbers]
+    def _place(self, field: Field) -> Any:
+        start = field.first + (field.stride * self._number if field.array else self._number)
+        start += sum(getattr(self._scalars, name) for name in (field.array, field.behind) if name)
+        return self._heaps[field.is_float][start : start + field.numbers]
 
     def __getattr__(self, name: str) -> Any:
-        field = self._field(name)
-        return field[0] if NUMBERS[name] == 1 else field
+        field = self._fields[name]
+        place = self._place(field)
+        return tuple(place) if field.vector else place if field.numbers > 1 else place[0]
 
-    def __setattr__(self, name: str, value: float) -> None:
-        self._field(name)[0] = value
+    def __setattr__(self, name: str, value: Any) -> None:
+        field = self._fields[name]
+        place = self._place(field)
+        for i, number in enumerate(value if field.vector else (value,)):
+            place[i] = number
 
 
-def contact_at(scalars: Any, w: Any, k: Any, c: int) -> Any:
-    """Return contact ``c`` with its fields by name."""
-    return _Contact(scalars, w, k, c)
+def _indexed(kind: str) -> Callable[..., Any]:
+    return lambda scalars, w, k, number: _Record(RECORDS[kind], scalars, w, k, number)
+
+
+def _packed(kind: str) -> Callable[..., Any]:
+    stride = next(iter(PACKED[kind].values())).stride
+    return lambda w, start, number: _Record(PACKED[kind], None, w, None, start + stride * number)
+
+
+records = {kind: _indexed(kind) for kind in RECORDS} | {kind: _packed(kind) for kind in PACKED}
 
 
 def at(heap: memoryview, offset: int) -> memoryview:
