@@ -29,7 +29,7 @@ def _disc_excess(S: Scalars, w: Floats, k: Integers, i: int, a: int) -> float:
     w[S.right + i] = w[S.right + i + 1] = 0.0
     if out > 0.0:
         w[S.right + i], w[S.right + i + 1] = out * t1 / size, out * t2 / size
-    return out * out
+    return float(out * out)
 
 
 @kernel("void(S, F, I, i8, i8, i8, i8, f8)")

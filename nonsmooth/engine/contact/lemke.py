@@ -32,8 +32,8 @@ def _corner(S: Scalars, w: Floats, k: Integers, a: int, j: int, r: int) -> float
     d1, d2 = active_at(S, w, k, a).direction
     turn = 2.0 * math.pi * j / CORNERS
     if r == 1:
-        return -d1 * math.cos(turn) + d2 * math.sin(turn)
-    return -d2 * math.cos(turn) - d1 * math.sin(turn)
+        return float(-d1 * math.cos(turn) + d2 * math.sin(turn))
+    return float(-d2 * math.cos(turn) - d1 * math.sin(turn))
 
 
 @kernel("f8(S, F, I, i8, i8)")
@@ -47,7 +47,7 @@ def _push(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
         return 0.0
     if active.at_rest == 1:
         return g[0]
-    return g[0] - active.mu * (active.direction[0] * g[1] + active.direction[1] * g[2])
+    return float(g[0] - active.mu * (active.direction[0] * g[1] + active.direction[1] * g[2]))
 
 
 @kernel("i8(S, F, I)")

@@ -35,10 +35,10 @@ def _effect(S: Scalars, w: Floats, k: Integers, g: int, j: int) -> float:
     active = active_at(S, w, k, a)
     d1, d2 = active.direction
     if k[S.turn + j] == 1:
-        return d2 * w[g + 1] - d1 * w[g + 2]
+        return float(d2 * w[g + 1] - d1 * w[g + 2])
     if column != 3 * a or active.tangent_held == 1:
         return w[g + column - 3 * a]
-    return w[g] - active.mu * (d1 * w[g + 1] + d2 * w[g + 2])
+    return float(w[g] - active.mu * (d1 * w[g + 1] + d2 * w[g + 2]))
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")

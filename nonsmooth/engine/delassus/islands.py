@@ -23,7 +23,7 @@ def _linkage(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return a movable linkage of contact ``c``; the first one if none is."""
     contact = contact_at(S, w, k, c)
     a, b = contact.linkage_a, contact.linkage_b
-    return b if k[S.linkage_nu + a] == 0 and k[S.linkage_nu + b] > 0 else a
+    return int(b if k[S.linkage_nu + a] == 0 and k[S.linkage_nu + b] > 0 else a)
 
 
 @kernel("void(S, F, I, i8)")

@@ -391,7 +391,7 @@ def _at_event(S: Scalars, w: Floats, k: Integers) -> float:
         return _AT_EVENT
     share = efficiency(S, w, k, a, 0.0)
     returned = lost * share / ((1.0 - share) * active.energy_scale)
-    return max(_ROUND_OFF, _AT_EVENT * min(1.0, returned))
+    return float(max(_ROUND_OFF, _AT_EVENT * min(1.0, returned)))
 
 
 @kernel("void(S, F, I)")
