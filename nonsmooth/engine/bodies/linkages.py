@@ -8,87 +8,78 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.kinematics import side_row
-from nonsmooth.engine.memory.blocks import (
-    AXIS,
-    FRAME,
-    JOINT_ROW,
-    MOMENT,
-    POINT_A,
-    POINT_B,
-    RESIDUAL,
-    ROW_BIAS,
-    SPIN,
-    VELOCITY,
+from nonsmooth.engine.bodies.kinematics import side_wrench
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    at,
+    body_at,
+    call_pair,
+    frame_at,
+    joint_at,
+    joint_row,
+    kernel,
+    linkage_at,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_pair, kernel
+from nonsmooth.engine.numerics.vectors import Vector, minus, opposite
 
 _REDUNDANT = 1e-10
 """A pivot below this part of its diagonal belongs to a row that the rows before it imply."""
 
 
-@kernel("void(F, i8, i8, i8, f8, i8)")
-def _add_moment(w: Floats, frame: int, moment: int, n_u: int, sign: float, out: int) -> None:
-    for j in range(n_u):
-        o = frame + FRAME + 3 * n_u + j
-        w[out + j] += sign * (w[moment] * w[o] + w[moment + 1] * w[o + n_u] + w[moment + 2] * w[o + 2 * n_u])
-
-
-@kernel("f8(F, i8, i8, i8, i8)")
-def _speed(w: Floats, frame: int, axis: int, point: int, moment: int) -> float:
+@kernel("f8(F, i8, v3, v3, v3)")
+def _speed(w: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
     """Return how fast a frame moves along a row: axis . velocity of the point + moment . angular velocity."""
-    x, y, z = w[point] - w[frame], w[point + 1] - w[frame + 1], w[point + 2] - w[frame + 2]
-    ox, oy, oz = w[frame + SPIN], w[frame + SPIN + 1], w[frame + SPIN + 2]
-    return (
-        w[axis] * (w[frame + VELOCITY] + oy * z - oz * y)
-        + w[axis + 1] * (w[frame + VELOCITY + 1] + oz * x - ox * z)
-        + w[axis + 2] * (w[frame + VELOCITY + 2] + ox * y - oy * x)
-        + w[moment] * ox
-        + w[moment + 1] * oy
-        + w[moment + 2] * oz
+    frame = frame_at(w, place)
+    x, y, z = minus(point, frame.origin)
+    ox, oy, oz = frame.spin
+    vx, vy, vz = frame.velocity
+    return float(
+        axis[0] * (vx + oy * z - oz * y)
+        + axis[1] * (vy + oz * x - ox * z)
+        + axis[2] * (vz + ox * y - oy * x)
+        + moment[0] * ox
+        + moment[1] * oy
+        + moment[2] * oz
     )
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def _rows(S: Scalars, w: Floats, k: Integers, joint: int, linkage: int) -> int:
-    """Write rows, residuals, rates and biases of one joint behind those of the joints before; return their number."""
-    frame_a, frame_b, out = k[S.joint_frame_a + joint], k[S.joint_frame_b + joint], k[S.joint_out + joint]
-    call_pair(
-        k[S.joint_function + joint], at(w, frame_a), at(w, frame_b), at(w, k[S.joint_parameters + joint]), at(w, out)
-    )
-    n = k[S.linkage_nu + linkage]
-    first = k[S.joint_first + joint]
-    n_a, n_b = k[S.joint_nu_a + joint], k[S.joint_nu_b + joint]
-    for r in range(k[S.joint_rows + joint]):
-        o = out + JOINT_ROW * r
-        axis, moment = o + AXIS, o + MOMENT
-        line = k[S.linkage_jacobian + linkage] + (first + r) * n
-        side_a, side_b = line + k[S.joint_shift_a + joint], line + k[S.joint_shift_b + joint]
-        side_row(w, frame_a, o + POINT_A, -w[axis], -w[axis + 1], -w[axis + 2], n_a, side_a)
-        side_row(w, frame_b, o + POINT_B, w[axis], w[axis + 1], w[axis + 2], n_b, side_b)
-        _add_moment(w, frame_a, moment, n_a, -1.0, side_a)
-        _add_moment(w, frame_b, moment, n_b, 1.0, side_b)
-        w[k[S.linkage_residual + linkage] + first + r] = w[o + RESIDUAL]
-        w[k[S.linkage_bias + linkage] + first + r] = w[o + ROW_BIAS]
-        w[k[S.linkage_rate + linkage] + first + r] = _speed(w, frame_b, axis, o + POINT_B, moment) - _speed(
-            w, frame_a, axis, o + POINT_A, moment
+@kernel("void(S, F, I, i8, i8)")
+def _write_rows(S: Scalars, w: Floats, k: Integers, joint_number: int, number: int) -> None:
+    """Write rows, residuals, rates and biases of a joint of a linkage, behind those of the joints before."""
+    joint, linkage = joint_at(S, w, k, joint_number), linkage_at(S, w, k, number)
+    frame_a, frame_b = joint.frame_a, joint.frame_b
+    call_pair(joint.function, at(w, frame_a), at(w, frame_b), at(w, joint.parameters), at(w, joint.out))
+    for r in range(joint.rows):
+        row, i = joint_row(w, joint.out, r), joint.first + r
+        axis, moment = row.axis, row.moment
+        line = linkage.jacobian + i * linkage.nu
+        side_a, side_b = line + joint.shift_a, line + joint.shift_b
+        side_wrench(w, frame_a, row.point_a, opposite(axis), opposite(moment), joint.nu_a, side_a)
+        side_wrench(w, frame_b, row.point_b, axis, moment, joint.nu_b, side_b)
+        w[linkage.residual + i] = row.residual
+        w[linkage.bias + i] = row.bias
+        w[linkage.rate + i] = _speed(w, frame_b, axis, row.point_b, moment) - _speed(
+            w, frame_a, axis, row.point_a, moment
         )
-    return k[S.joint_rows + joint]
 
 
 @kernel("void(S, F, I, i8)")
-def _inverse_masses(S: Scalars, w: Floats, k: Integers, linkage: int) -> None:
+def _inverse_masses(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     """Write M^-1 of the linkage's bodies to K and R = A M^-1."""
-    n, m = k[S.linkage_nu + linkage], k[S.linkage_rows + linkage]
-    matrix, jacobian, r = k[S.linkage_inverse + linkage], k[S.linkage_jacobian + linkage], k[S.linkage_r + linkage]
+    linkage = linkage_at(S, w, k, number)
+    n, m = linkage.nu, linkage.rows
+    matrix, jacobian, r = linkage.inverse, linkage.jacobian, linkage.r
     for i in range(n * n):
         w[matrix + i] = 0.0
     for i in range(n * m):
         w[r + i] = 0.0
-    for body in range(k[S.linkage_body + linkage], k[S.linkage_body + linkage] + k[S.linkage_bodies + linkage]):
-        n_u = k[S.body_nu + body]
-        shift = k[S.body_u + body] - k[S.linkage_u + linkage]
-        inverse = k[S.body_tail + body] + k[S.body_nq + body] + n_u
+    for one in range(linkage.body, linkage.body + linkage.bodies):
+        body = body_at(S, w, k, one)
+        n_u = body.nu
+        shift = body.u - linkage.u
+        inverse = body.tail + body.nq + n_u
         for i in range(n_u):
             for j in range(n_u):
                 entry = w[inverse + i * n_u + j]
@@ -135,14 +126,15 @@ def substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
 
 
 @kernel("void(S, F, I, i8)")
-def evaluate_linkage(S: Scalars, w: Floats, k: Integers, linkage: int) -> None:
+def evaluate_linkage(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     """Write K, Y, residuals and rates of the joints, the part of u that is not prescribed, and the driven power."""
-    for joint in range(k[S.linkage_joint + linkage], k[S.linkage_joint + linkage] + k[S.linkage_joints + linkage]):
-        _rows(S, w, k, joint, linkage)
-    _inverse_masses(S, w, k, linkage)
-    n, m = k[S.linkage_nu + linkage], k[S.linkage_rows + linkage]
-    jacobian, r, y = k[S.linkage_jacobian + linkage], k[S.linkage_r + linkage], k[S.linkage_y + linkage]
-    matrix, factor = k[S.linkage_inverse + linkage], k[S.linkage_factor + linkage]
+    linkage = linkage_at(S, w, k, number)
+    for joint in range(linkage.joint, linkage.joint + linkage.joints):
+        _write_rows(S, w, k, joint, number)
+    _inverse_masses(S, w, k, number)
+    n, m = linkage.nu, linkage.rows
+    jacobian, r, y = linkage.jacobian, linkage.r, linkage.y
+    matrix, factor = linkage.inverse, linkage.factor
     for i in range(m):
         for j in range(i + 1):
             total = 0.0
@@ -160,51 +152,54 @@ def evaluate_linkage(S: Scalars, w: Floats, k: Integers, linkage: int) -> None:
             if entry != 0.0:
                 for j in range(n):
                     w[matrix + i * n + j] -= entry * w[y + line * n + j]
-    _prescribe(S, w, k, linkage)
+    _prescribe(S, w, k, number)
 
 
 @kernel("f8(S, F, I, i8)")
-def _power(S: Scalars, w: Floats, k: Integers, linkage: int) -> float:
+def _power(S: Scalars, w: Floats, k: Integers, number: int) -> float:
     """Return the power of the bodies' own forces on the velocities ``u_own``."""
-    power = 0.0
-    for body in range(k[S.linkage_body + linkage], k[S.linkage_body + linkage] + k[S.linkage_bodies + linkage]):
-        for i in range(k[S.body_nu + body]):
-            power += w[k[S.body_tail + body] + k[S.body_nq + body] + i] * w[S.u_own + k[S.body_u + body] + i]
+    linkage, power = linkage_at(S, w, k, number), 0.0
+    for one in range(linkage.body, linkage.body + linkage.bodies):
+        body = body_at(S, w, k, one)
+        for i in range(body.nu):
+            power += w[body.tail + body.nq + i] * w[S.u_own + body.u + i]
     return power
 
 
 @kernel("void(S, F, I, i8)")
-def _prescribe(S: Scalars, w: Floats, k: Integers, linkage: int) -> None:
+def _prescribe(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     """Take off the velocities that driven bodies impose through joints, and book their power but for contact forces."""
-    if k[S.linkage_driven + linkage] == 0:
+    linkage = linkage_at(S, w, k, number)
+    if linkage.driven == 0:
         return
-    n, m = k[S.linkage_nu + linkage], k[S.linkage_rows + linkage]
-    u, x = S.u_own + k[S.linkage_u + linkage], k[S.linkage_x + linkage]
-    S.driven_power -= _power(S, w, k, linkage)
+    n, m = linkage.nu, linkage.rows
+    u, x = S.u_own + linkage.u, linkage.x
+    S.driven_power -= _power(S, w, k, number)
     for line in range(m):
         total = 0.0
         for c in range(n):
-            total += w[k[S.linkage_jacobian + linkage] + line * n + c] * w[u + c]
+            total += w[linkage.jacobian + line * n + c] * w[u + c]
         w[x + line] = total
     for line in range(m):
         for c in range(n):
-            w[u + c] -= w[k[S.linkage_y + linkage] + line * n + c] * w[x + line]
-    S.driven_power += _power(S, w, k, linkage)
-    substitute(w, k[S.linkage_factor + linkage], m, x, 1)
+            w[u + c] -= w[linkage.y + line * n + c] * w[x + line]
+    S.driven_power += _power(S, w, k, number)
+    substitute(w, linkage.factor, m, x, 1)
     for line in range(m):
-        S.driven_power -= w[x + line] * w[k[S.linkage_bias + linkage] + line]
+        S.driven_power -= w[x + line] * w[linkage.bias + line]
 
 
 @kernel("void(S, F, I, i8)")
-def constrain(S: Scalars, w: Floats, k: Integers, linkage: int) -> None:
+def constrain(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     """Subtract from the accelerations ``du`` of a linkage what its joints do not allow: Y^T (A du + bias)."""
-    n, m = k[S.linkage_nu + linkage], k[S.linkage_rows + linkage]
-    du, x = S.du + k[S.linkage_u + linkage], k[S.linkage_x + linkage]
+    linkage = linkage_at(S, w, k, number)
+    n, m = linkage.nu, linkage.rows
+    du, x = S.du + linkage.u, linkage.x
     for line in range(m):
-        total = w[k[S.linkage_bias + linkage] + line]
+        total = w[linkage.bias + line]
         for c in range(n):
-            total += w[k[S.linkage_jacobian + linkage] + line * n + c] * w[du + c]
+            total += w[linkage.jacobian + line * n + c] * w[du + c]
         w[x + line] = total
     for line in range(m):
         for c in range(n):
-            w[du + c] -= w[k[S.linkage_y + linkage] + line * n + c] * w[x + line]
+            w[du + c] -= w[linkage.y + line * n + c] * w[x + line]

@@ -23,27 +23,26 @@ def lay_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write rows and columns of the active contact ``a``: Jacobian rows 0 to 2, or 0 and that of the column, 1."""
     active = active_at(S, w, k, a)
     c = active.slot
-    axes = contact_at(S, w, k, c).axes
+    contact = contact_at(S, w, k, c)
+    n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
     if active.tangent_held == 1:
+        evaluate_row(S, w, k, c, 0, n)
+        evaluate_row(S, w, k, c, 1, t1)
+        evaluate_row(S, w, k, c, 2, t2)
         for r in range(3):
-            evaluate_row(S, w, k, c, r, axes[3 * r], axes[3 * r + 1], axes[3 * r + 2])
             evaluate_row_response(S, w, k, c, r, r)
         return
     if active.normal_held == 0:
-        lay_wrench(S, w, k, c, S.f + 3 * a)
+        lay_wrench(S, w, k, c, active.force)
         return
     m1, m2 = active.mu * active.direction[0], active.mu * active.direction[1]
-    evaluate_row(S, w, k, c, 0, axes[0], axes[1], axes[2])
-    evaluate_row(
-        S,
-        w,
-        k,
-        c,
-        1,
-        axes[0] - m1 * axes[3] - m2 * axes[6],
-        axes[1] - m1 * axes[4] - m2 * axes[7],
-        axes[2] - m1 * axes[5] - m2 * axes[8],
+    push = (
+        n[0] - m1 * t1[0] - m2 * t2[0],
+        n[1] - m1 * t1[1] - m2 * t2[1],
+        n[2] - m1 * t1[2] - m2 * t2[2],
     )
+    evaluate_row(S, w, k, c, 0, n)
+    evaluate_row(S, w, k, c, 1, push)
     evaluate_row_response(S, w, k, c, 1, 0)
 
 

@@ -32,6 +32,7 @@ from nonsmooth.engine.native.kernel import (
     call_scalar,
     contact_at,
     kernel,
+    linkage_at,
     room,
 )
 from nonsmooth.engine.numerics.vectors import length
@@ -68,8 +69,8 @@ def follow_slip(S: Scalars, w: Floats, k: Integers, a: int, slip: tuple[float, f
 @kernel("void(S, F, I)")
 def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
     """Write M^-1 h of all bodies to ``du``, and what the joints leave of it."""
-    for i_body in range(S.n_bodies):
-        body = body_at(S, w, k, i_body)
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
         n_u = body.nu
         force = body.tail + body.nq
         for i in range(n_u):
@@ -78,9 +79,9 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
                 total += w[force + n_u + i * n_u + j] * w[force + j]
             w[S.du + body.u + i] = total
     if S.n_joints > 0:
-        for linkage in range(S.n_linkages):
-            if k[S.linkage_rows + linkage] > 0:
-                constrain(S, w, k, linkage)
+        for number in range(S.n_linkages):
+            if linkage_at(S, w, k, number).rows > 0:
+                constrain(S, w, k, number)
 
 
 @kernel("void(S, F, I, i8)")

@@ -21,7 +21,7 @@ from nonsmooth.engine.memory import tableau
 from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LAST_STAGE, LOADS, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
 
 _SHARE = tableau.NODES[1] / tableau.NODES[2]
@@ -92,7 +92,7 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
         k[S.normal_held + a] = 0
         w[S.f + 3 * a] = contact.compliant_force
         if contact.traction_function != 0:
-            rub_by_traction(S, w, k, c, S.f + 3 * a, y)
+            rub_by_traction(S, w, k, c, active_at(S, w, k, a).force, y)
             return
     if contact.mode == STICK:
         w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)

@@ -12,6 +12,34 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias, final
 
+from nonsmooth.engine.memory.blocks import (
+    ACCELERATION,
+    AXIS,
+    FEATURE,
+    FORCE,
+    GAP,
+    GEOMETRY,
+    JOINT_ROW,
+    LOAD_MOMENT,
+    LOAD_POINT,
+    MOMENT,
+    NORMAL,
+    PAST_END,
+    POINT_A,
+    POINT_B,
+    POSITION,
+    RESIDUAL,
+    ROTATION,
+    ROW_BIAS,
+    SIDE_A,
+    SIDE_B,
+    SLIDE_MATRIX,
+    SPIN,
+    SPIN_ACCELERATION,
+    TANGENT,
+    TURN_MATRIX,
+    VELOCITY,
+)
 from nonsmooth.engine.memory.tables import COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS
 
 
@@ -72,6 +100,18 @@ def _one(array: str, first: int = 0) -> Field:
     return Field(array, _stride(array), first)
 
 
+def _geometry(first: int, numbers: int = 1, vector: bool = True) -> Field:
+    return Field("geometry", GEOMETRY, first, numbers, vector and numbers > 1)
+
+
+def _without(prefix: str, *arrays: str) -> Fields:
+    return {array.removeprefix(prefix): _row(array) for array in arrays}
+
+
+def _packed(first: int, numbers: int = 1, stride: int = 0) -> Field:
+    return Field("", stride, first, numbers, vector=numbers == 3)
+
+
 CONTACT: Fields = {
     **_rows(
         # what it is
@@ -96,6 +136,27 @@ CONTACT: Fields = {
         "reach",
         "contact_time",
         "identity",
+        "geometry_function",
+        "geometry_parameters",
+        "normal_parameters",
+        "traction_parameters",
+        "traction_out",
+        "rates_function",
+        "rates_parameters",
+        "rates_out",
+        "state",
+        "n_state",
+        "state_start",
+        "state_copy",
+        "oriented",
+        "axis",
+        "facing",
+        "candidate",
+        "nu_a",
+        "nu_b",
+        "shift_a",
+        "shift_b",
+        "closing_rate",
         # where it stands
         "geometry",
         "axes",
@@ -150,7 +211,25 @@ CONTACT: Fields = {
         "depth",
         "rim",
     ),
+    "gap": _geometry(GAP),
+    "normal": _geometry(NORMAL, 3),
+    "tangent": _geometry(TANGENT, 3),
+    "point_a": _geometry(POINT_A, 3),
+    "point_b": _geometry(POINT_B, 3),
+    "slide_a": _geometry(SIDE_A + SLIDE_MATRIX, 4),
+    "turn_a": _geometry(SIDE_A + TURN_MATRIX, 4),
+    "slide_b": _geometry(SIDE_B + SLIDE_MATRIX, 4),
+    "turn_b": _geometry(SIDE_B + TURN_MATRIX, 4),
+    "feature_now": _geometry(FEATURE),
+    "beyond": _geometry(PAST_END),
+    "axis_n": _vector("axes", 0, 3),
+    "axis_1": _vector("axes", 3, 3),
+    "axis_2": _vector("axes", 6, 3),
+    "velocity": _vector("rate", 0, 3),
     "slip": _vector("rate", 1),
+    "slip_of_tangents": _vector("slip"),
+    "skew_1": _vector("skew", 0),
+    "skew_2": _vector("skew", 2),
     "direction": _vector("direction"),
     "direction_agreed": _vector("direction_agreed"),
     "total": _row("impact_total"),
@@ -225,21 +304,137 @@ ACTIVE: Fields = {
 }
 """Of an active contact, by its number among those of the island at hand; ``slot`` is that of the contact."""
 
-BODY: Fields = {
-    name.removeprefix("body_"): _one(name)
-    for name in (
-        "body_q",
-        "body_u",
-        "body_nq",
-        "body_nu",
-        "body_function",
-        "body_parameters",
-        "body_out",
-        "body_tail",
-        "body_quaternion",
-    )
-}
+BODY = _without(
+    "body_",
+    "body_q",
+    "body_u",
+    "body_nq",
+    "body_nu",
+    "body_function",
+    "body_parameters",
+    "body_out",
+    "body_tail",
+    "body_quaternion",
+)
 """Of a body."""
+
+LINKAGE: Fields = {
+    **_without(
+        "linkage_",
+        "linkage_u",
+        "linkage_nu",
+        "linkage_body",
+        "linkage_bodies",
+        "linkage_inverse",
+        "linkage_joint",
+        "linkage_joints",
+        "linkage_rows",
+        "linkage_driven",
+        "linkage_jacobian",
+        "linkage_r",
+        "linkage_y",
+        "linkage_factor",
+        "linkage_residual",
+        "linkage_rate",
+        "linkage_bias",
+        "linkage_x",
+        "linkage_root",
+        "linkage_group",
+        "linkage_head",
+    ),
+    "link_head": _one("link_head"),
+}
+"""Of a linkage."""
+
+JOINT = _without(
+    "joint_",
+    "joint_function",
+    "joint_parameters",
+    "joint_frame_a",
+    "joint_frame_b",
+    "joint_nu_a",
+    "joint_nu_b",
+    "joint_shift_a",
+    "joint_shift_b",
+    "joint_first",
+    "joint_rows",
+    "joint_out",
+)
+"""Of a joint."""
+
+LOAD = _without(
+    "load_",
+    "load_function",
+    "load_parameters",
+    "load_frame_a",
+    "load_frame_b",
+    "load_body_a",
+    "load_body_b",
+    "load_out",
+)
+"""Of a load."""
+
+UNIT: Fields = {
+    **_without("unit_", "unit_radius", "unit_speed", "unit_way", "unit_axes", "unit_lever", "unit_frame"),
+    "place": _vector("unit_place", 0, 3),
+    "places": _row("unit_place"),
+    "first_partner": Field("unit_partner", 1),
+    "end_partner": Field("unit_partner", 1, 1),
+}
+"""Of a unit (:mod:`nonsmooth.engine.bodies.listing`)."""
+
+POOL = _without(
+    "pool_",
+    "pool_function",
+    "pool_parameters",
+    "pool_out",
+    "pool_first",
+    "pool_contacts",
+    "pool_unit_a",
+    "pool_unit_b",
+)
+"""Of a pool of features (:mod:`nonsmooth.engine.bodies.pools`)."""
+
+OWN_GUARD = _without("own_guard_", "own_guard_function", "own_guard_parameters", "own_guard_spent", "own_guard_ends")
+"""Of a guard of the scenario."""
+
+GUARD: Fields = {
+    "value": Field("guard", 1),
+    "middle": Field("guard_middle", 1),
+    "first": Field("guard_first", 1),
+    "start": Field("guard_start", 1),
+    "end": Field("guard_end", 1),
+    "armed": Field("guard_armed", 1),
+    "deflated": Field("guard_deflated", 1),
+}
+"""Of a guard of the flow, three of each contact, then those of the scenario."""
+
+FRAME_OF_BODY: Fields = {
+    "origin": _packed(POSITION, 3),
+    "rotation": _packed(ROTATION, 9),
+    "velocity": _packed(VELOCITY, 3),
+    "spin": _packed(SPIN, 3),
+    "acceleration": _packed(ACCELERATION, 3),
+    "spin_acceleration": _packed(SPIN_ACCELERATION, 3),
+}
+"""Of a frame that a body writes (:mod:`nonsmooth.engine.memory.blocks`)."""
+
+ROW_OF_JOINT: Fields = {
+    "residual": _packed(RESIDUAL, 1, JOINT_ROW),
+    "axis": _packed(AXIS, 3, JOINT_ROW),
+    "moment": _packed(MOMENT, 3, JOINT_ROW),
+    "point_a": _packed(POINT_A, 3, JOINT_ROW),
+    "point_b": _packed(POINT_B, 3, JOINT_ROW),
+    "bias": _packed(ROW_BIAS, 1, JOINT_ROW),
+}
+"""Of a row that a joint writes."""
+
+WRENCH_OF_LOAD: Fields = {
+    "force": _packed(FORCE, 3),
+    "point": _packed(LOAD_POINT, 3),
+    "moment": _packed(LOAD_MOMENT, 3),
+}
+"""Of what a load writes."""
 
 IMPACT_STATE: Fields = {
     "impulse": Field("", 8, 0, 3),
@@ -267,7 +462,20 @@ RECORDS: Mapping[str, Fields] = {
     "contact": CONTACT,
     "active": ACTIVE,
     "body": BODY,
+    "linkage": LINKAGE,
+    "joint": JOINT,
+    "load": LOAD,
+    "unit": UNIT,
+    "pool": POOL,
+    "own_guard": OWN_GUARD,
+    "guard": GUARD,
 }
 """Records whose fields stand in arrays, by kind."""
-PACKED: Mapping[str, Fields] = {"impact_state": IMPACT_STATE, "delassus_block": DELASSUS_BLOCK}
-"""Records that stand one behind another in the heap of floats, by kind."""
+PACKED: Mapping[str, Fields] = {
+    "impact_state": IMPACT_STATE,
+    "delassus_block": DELASSUS_BLOCK,
+    "joint_row": ROW_OF_JOINT,
+    "frame": FRAME_OF_BODY,
+    "load_wrench": WRENCH_OF_LOAD,
+}
+"""Records in the heap of floats, by kind: one behind another, or with stride 0 each by itself."""

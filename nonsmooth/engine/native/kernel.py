@@ -5,8 +5,8 @@ floats ``w`` and the heap of integers ``k`` (see :mod:`nonsmooth.engine.memory.l
 variable ``NONSMOOTH_PLAIN=1`` before the first import to run the same source as ordinary Python,
 without numba: for the debugger, for coverage, and to see that both agree.
 
-Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8``, ``void``, ``v2``, a vector of two
-floats, and ``D``, a block of the Delassus matrix.
+Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8``, ``void``, ``v2`` and
+``v3``, tuples of two and three floats, and ``D``, a block of the Delassus matrix.
 """
 
 from __future__ import annotations
@@ -48,7 +48,27 @@ contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["con
 active_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["active"]
 """An active contact with its fields by name."""
 body_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["body"]
-"""A body with its fields by name."""
+"""A body with its fields by name; likewise"""
+linkage_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["linkage"]
+"""a linkage,"""
+joint_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["joint"]
+"""a joint,"""
+load_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["load"]
+"""a load,"""
+unit_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unit"]
+"""a unit,"""
+pool_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pool"]
+"""a pool,"""
+guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["guard"]
+"""a guard,"""
+own_guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["own_guard"]
+"""and a guard of the scenario, by its number among these."""
+frame_at: Callable[[Floats, int], Any] = _half.records["frame"]
+"""``frame_at(w, place)``: a frame that a body writes by name."""
+joint_row: Callable[[Floats, int, int], Any] = _half.records["joint_row"]
+"""``joint_row(w, joint.out, r)``: a row that a joint writes by name."""
+load_wrench: Callable[[Floats, int], Any] = _half.records["load_wrench"]
+"""``load_wrench(w, load.out)``: what a load writes by name."""
 impact_state: Callable[[Floats, int, int], Any] = _half.records["impact_state"]
 """``impact_state(w, y, a)``: an active contact in the state of an impact, or the slope, at ``y``, by name."""
 delassus_block: Callable[[Floats, int, int], Any] = _half.records["delassus_block"]
@@ -127,12 +147,22 @@ __all__ = [
     "contact_at",
     "delassus_block",
     "forget_watch",
+    "frame_at",
+    "guard_at",
     "impact_state",
     "jit",
+    "joint_at",
+    "joint_row",
     "kernel",
+    "linkage_at",
+    "load_at",
+    "load_wrench",
+    "own_guard_at",
+    "pool_at",
     "room",
     "room_addresses",
     "shared",
+    "unit_at",
     "unshared",
     "watch_address",
 ]

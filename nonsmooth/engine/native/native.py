@@ -45,6 +45,7 @@ _TYPES = {
     "i8": types.int64,
     "D": types_of["delassus_block"],
     "v2": types.UniTuple(types.float64, 2),
+    "v3": types.UniTuple(types.float64, 3),
     "void": types.void,
 }
 _pending: list[tuple[Any, Any]] = []

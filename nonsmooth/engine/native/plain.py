@@ -84,7 +84,7 @@ def _indexed(kind: str) -> Callable[..., Any]:
 
 def _packed(kind: str) -> Callable[..., Any]:
     stride = next(iter(PACKED[kind].values())).stride
-    return lambda w, start, number: _Record(PACKED[kind], None, w, None, start + stride * number)
+    return lambda w, start, number=0: _Record(PACKED[kind], None, w, None, start + stride * number)
 
 
 records = {kind: _indexed(kind) for kind in RECORDS} | {kind: _packed(kind) for kind in PACKED}

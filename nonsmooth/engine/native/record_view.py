@@ -126,16 +126,20 @@ def _packed(kind: str) -> Any:
     record = types_of[kind]
     stride = next(iter(PACKED[kind].values())).stride
 
-    def view(typingctx: Any, w: Any, start: Any, number: Any) -> Any:
-        def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            parts = cgutils.create_struct_proxy(record)(context, builder)
-            parts.w = args[0]
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        parts = cgutils.create_struct_proxy(record)(context, builder)
+        parts.w, parts.n = args[0], args[1]
+        if stride > 0:
             parts.n = builder.add(args[1], builder.mul(args[2], ir.Constant(ir.IntType(64), stride)))
-            return parts._getvalue()
+        return parts._getvalue()
 
+    def single(typingctx: Any, w: Any, start: Any) -> Any:
+        return record(FLOATS, types.int64), codegen
+
+    def one_of_many(typingctx: Any, w: Any, start: Any, number: Any) -> Any:
         return record(FLOATS, types.int64, types.int64), codegen
 
-    return intrinsic(view)
+    return intrinsic(one_of_many if stride > 0 else single)
 
 
 records = {kind: _indexed(kind) for kind in RECORDS} | {kind: _packed(kind) for kind in PACKED}
