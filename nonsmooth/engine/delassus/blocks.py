@@ -7,7 +7,7 @@ Rows of 3 x 3 blocks are compressed: that of active contact a is entry ``first_g
 from __future__ import annotations
 
 from nonsmooth.engine.memory.layout import MOST_BLOCKS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel, linkage_at
 
 _SIDES = 2
 """Entries of a contact in the lists of its linkages."""
@@ -21,15 +21,16 @@ def _hang(S: Scalars, w: Floats, k: Integers) -> None:
         active.block_mark = -1
         active.block_count = 0
         contact = contact_at(S, w, k, active.slot)
-        k[S.link_head + contact.linkage_a] = k[S.link_head + contact.linkage_b] = -1
+        linkage_at(S, w, k, contact.linkage_a).link_head = -1
+        linkage_at(S, w, k, contact.linkage_b).link_head = -1
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
         for side in range(2):
-            linkage = contact.linkage_a if side == 0 else contact.linkage_b
-            if k[S.linkage_nu + linkage] > 0:
-                k[S.link_next + _SIDES * a + side] = k[S.link_head + linkage]
-                k[S.link_head + linkage] = _SIDES * a + side
+            linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
+            if linkage.nu > 0:
+                k[S.link_next + _SIDES * a + side] = linkage.link_head
+                linkage.link_head = _SIDES * a + side
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -54,8 +55,7 @@ def _visit(S: Scalars, w: Floats, k: Integers, fill: int) -> None:
         active.block_mark = mark
         _note(S, w, k, a, a, fill)
         for side in range(2):
-            linkage = contact.linkage_a if side == 0 else contact.linkage_b
-            entry = k[S.link_head + linkage]
+            entry = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b).link_head
             while entry >= 0 and S.crowded == 0:
                 other = entry // _SIDES
                 neighbour = active_at(S, w, k, other)

@@ -7,7 +7,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, delassus_block, kernel
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    delassus_block,
+    kernel,
+    linkage_at,
+)
 
 
 @kernel("void(F, i8, i8, i8, i8)")
@@ -34,7 +43,7 @@ def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
             for side in range(2):
                 linkage = contact.linkage_a if side == 0 else contact.linkage_b
                 jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
-                n_u = k[S.linkage_nu + linkage]
+                n_u = linkage_at(S, w, k, linkage).nu
                 if n_u > 0 and pushing.linkage_a == linkage:
                     _add_block(w, jacobian, pushing.response_a, n_u, out)
                 if n_u > 0 and pushing.linkage_b == linkage:
@@ -80,10 +89,9 @@ def add_response(S: Scalars, w: Floats, k: Integers, f: int, du: int) -> None:
     for i in range(S.n_active):
         contact = contact_at(S, w, k, k[S.active + i])
         for side in range(2):
-            linkage = contact.linkage_a if side == 0 else contact.linkage_b
+            linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
             response = contact.response_a if side == 0 else contact.response_b
-            n_u = k[S.linkage_nu + linkage]
-            start = du + k[S.linkage_u + linkage]
+            n_u, start = linkage.nu, du + linkage.u
             for r in range(3):
                 force = w[f + 3 * i + r]
                 for j in range(n_u):

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel, linkage_at
 
 
 @kernel("i8(S, F, I, i8)")
-def _root(S: Scalars, w: Floats, k: Integers, linkage: int) -> int:
-    """Return the linkage that stands for all that are tied to this one, shortening the way there."""
-    root = linkage
-    while k[S.linkage_root + root] != root:
-        root = k[S.linkage_root + root]
-    while k[S.linkage_root + linkage] != root:
-        linkage, k[S.linkage_root + linkage] = k[S.linkage_root + linkage], root
+def _root(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Return the linkage that stands for all that contacts join to this one, shortening the way there."""
+    root = number
+    while linkage_at(S, w, k, root).root != root:
+        root = linkage_at(S, w, k, root).root
+    while linkage_at(S, w, k, number).root != root:
+        linkage = linkage_at(S, w, k, number)
+        number = linkage.root
+        linkage.root = root
     return root
 
 
@@ -23,7 +25,7 @@ def _linkage(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return a movable linkage of contact ``c``; the first one if none is."""
     contact = contact_at(S, w, k, c)
     a, b = contact.linkage_a, contact.linkage_b
-    return int(b if k[S.linkage_nu + a] == 0 and k[S.linkage_nu + b] > 0 else a)
+    return int(b if linkage_at(S, w, k, a).nu == 0 and linkage_at(S, w, k, b).nu > 0 else a)
 
 
 @kernel("void(S, F, I, i8)")
@@ -43,27 +45,27 @@ def group_members(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         if contact.member == 1:
             for side in range(2):
-                linkage = contact.linkage_a if side == 0 else contact.linkage_b
-                k[S.linkage_root + linkage] = linkage
-                k[S.linkage_group + linkage] = -1
+                number = contact.linkage_a if side == 0 else contact.linkage_b
+                linkage = linkage_at(S, w, k, number)
+                linkage.root, linkage.group = number, -1
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         a, b = contact.linkage_a, contact.linkage_b
-        if contact.member == 1 and k[S.linkage_nu + a] > 0 and k[S.linkage_nu + b] > 0:
-            k[S.linkage_root + _root(S, w, k, b)] = _root(S, w, k, a)
+        if contact.member == 1 and linkage_at(S, w, k, a).nu > 0 and linkage_at(S, w, k, b).nu > 0:
+            linkage_at(S, w, k, _root(S, w, k, b)).root = _root(S, w, k, a)
     groups = members = 0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.member == 0:
             continue
-        linkage = _linkage(S, w, k, c)
-        root = _root(S, w, k, linkage)
+        number = _linkage(S, w, k, c)
+        root = linkage_at(S, w, k, _root(S, w, k, number))
         # between two driven bodies every contact is an island of its own
-        if k[S.linkage_nu + linkage] == 0 or k[S.linkage_group + root] < 0:
-            k[S.linkage_group + root] = groups
+        if linkage_at(S, w, k, number).nu == 0 or root.group < 0:
+            root.group = groups
             k[S.group_start + groups] = 0
             groups += 1
-        contact.group_of = k[S.linkage_group + root]
+        contact.group_of = root.group
         k[S.group_start + contact.group_of] += 1
         members += 1
     # counts become starts, and the contacts fall into their places

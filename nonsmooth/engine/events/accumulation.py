@@ -91,17 +91,19 @@ def _left_over(S: Scalars, w: Floats, k: Integers) -> int:
     work = S.driven_work
     _begin_modes(S, w, k)
     _shut(S, w, k)
-    contact, worst = -1, S.velocity_tolerance
+    which, worst = -1, S.velocity_tolerance
     for c in range(S.n_contacts):
-        if k[S.closes + c] == 1 and w[S.rate + 3 * c] > worst:
-            contact, worst = c, w[S.rate + 3 * c]
+        contact = contact_at(S, w, k, c)
+        if contact.closes == 1 and contact.rate[0] > worst:
+            which, worst = c, contact.rate[0]
     S.driven_work = work
     for i in range(S.n_u):
         w[S.y + S.n_q + i] = w[S.y_stage + S.n_q + i]
     for c in range(S.n_contacts):
-        k[S.mode + c] = k[S.mode_agreed + c]
+        contact = contact_at(S, w, k, c)
+        contact.mode = contact.mode_agreed
     touch(S, w, k)
-    return contact
+    return which
 
 
 @kernel("i8(S, F, I)")
@@ -112,10 +114,10 @@ def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
     """
     closing = _choose(S, w, k)
     while closing > 0:
-        contact = _left_over(S, w, k)
-        if contact < 0:
+        which = _left_over(S, w, k)
+        if which < 0:
             break
-        k[S.closes + contact] = 0
+        contact_at(S, w, k, which).closes = 0
         closing -= 1
     if closing == 0:
         return 0
@@ -132,11 +134,12 @@ def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
     w[S.event_head + CLOSING_LOSS] = _shut(S, w, k)
     w[S.event_head + DRIVEN_WORK] = S.driven_work - before
     S.closing_loss += w[S.event_head + CLOSING_LOSS]
-    contact = -1
+    which = -1
     for c in range(S.n_contacts):
-        if k[S.closes + c] == 1:
-            contact = c
-    record_event(S, w, k, cause, contact, 0)
+        contact = contact_at(S, w, k, c)
+        if contact.closes == 1:
+            which = c
+    record_event(S, w, k, cause, which, 0)
 
 
 @kernel("i8(S, F, I)")

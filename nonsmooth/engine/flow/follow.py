@@ -15,7 +15,7 @@ from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.self_check import energy_of_bodies
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 
 _ATTEMPTS = 200
@@ -29,12 +29,12 @@ _SHORTEST = 0.1
 def orient_slips(S: Scalars, w: Floats, k: Integers, rates: int) -> None:
     """Take the slip directions of the rates as those of the step that begins."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] == SLIDE:
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE:
             v1, v2 = w[rates + 3 * c + 1], w[rates + 3 * c + 2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
             if speed > S.velocity_tolerance:
-                w[S.direction + 2 * c] = v1 / speed
-                w[S.direction + 2 * c + 1] = v2 / speed
+                contact.direction = v1 / speed, v2 / speed
 
 
 @kernel("i8(S, F, I)")
@@ -46,7 +46,8 @@ def _turned_round(S: Scalars, w: Floats, k: Integers) -> int:
     against = 0
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
-        if k[S.mode + c] == SLIDE and slip_guard(S, w, k, c) < -S.velocity_tolerance:
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE and slip_guard(S, w, k, c) < -S.velocity_tolerance:
             against = 1
     orient_slips(S, w, k, S.rate)
     return against
@@ -61,17 +62,18 @@ def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
     part = 1.0
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
+        contact = contact_at(S, w, k, c)
         last = slip_guard(S, w, k, c)
-        if k[S.mode + c] != SLIDE or last >= -S.velocity_tolerance:
+        if contact.mode != SLIDE or last >= -S.velocity_tolerance:
             continue
-        first = w[S.guard_first + friction_guard(c)]
+        first = guard_at(S, w, k, friction_guard(c)).first
         if first > S.velocity_tolerance:
             part = min(part, max(_SHORTEST, first / (first - last)))
             continue
         part = 0.0
-        w[S.guard_first + friction_guard(c)] = -first
+        guard_at(S, w, k, friction_guard(c)).first = -first
         for r in range(2):
-            w[S.direction + 2 * c + r] *= -1.0
+            contact.direction[r] *= -1.0
     return part
 
 
@@ -109,7 +111,7 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
             slope(S, w, k, S.t, S.y, S.slopes, 0)
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
-            w[S.guard_first + friction_guard(c)] = slip_guard(S, w, k, c)
+            guard_at(S, w, k, friction_guard(c)).first = slip_guard(S, w, k, c)
         left = t - S.t
         h = _found_step(S, w, k, min(wanted, left))
         if h < 0.0:
@@ -134,11 +136,12 @@ def _past_bounds(S: Scalars, w: Floats, k: Integers) -> int:
     least = largest = 0.0
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
-        if k[S.tied + c] == 1:
-            largest = max(largest, abs(w[S.force + 3 * c]))
+        contact = contact_at(S, w, k, c)
+        if contact.tied == 1:
+            largest = max(largest, abs(contact.force[0]))
             least = min(least, hold_guard(S, w, k, c))
-            if k[S.holds + c] == 1:
-                least = min(least, w[S.static_margin + c])
+            if contact.holds == 1:
+                least = min(least, contact.static_margin)
     return 1 if least < -_EXCESS * largest else 0
 
 

@@ -23,7 +23,17 @@ from nonsmooth.engine.impact.problem import (
 from nonsmooth.engine.impact.rates import IDLE, NOISE
 from nonsmooth.engine.impact.scales import scale_impact
 from nonsmooth.engine.memory.layout import TOTALS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, impact_state, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    impact_state,
+    kernel,
+    linkage_at,
+    room,
+)
 
 LARGE = 16
 """Impacts with more contacts than this are looked at through a window."""
@@ -40,8 +50,8 @@ _SIDES = 2
 def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their linkages."""
     S.n_colliding = S.n_active
-    for linkage in range(S.n_linkages):
-        k[S.linkage_head + linkage] = -1
+    for number in range(S.n_linkages):
+        linkage_at(S, w, k, number).head = -1
     for i in range(S.n_u):
         w[S.u_impact + i] = w[S.own + i]
     for i in range(S.n_colliding):
@@ -54,9 +64,9 @@ def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
         for j in range(TOTALS):
             contact.total[j] = 0.0
         for side in range(2):
-            linkage = contact.linkage_a if side == 0 else contact.linkage_b
-            k[S.chain + _SIDES * c + side] = k[S.linkage_head + linkage]
-            k[S.linkage_head + linkage] = _SIDES * c + side
+            linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
+            k[S.chain + _SIDES * c + side] = linkage.head
+            linkage.head = _SIDES * c + side
 
 
 @kernel("void(S, F, I, f8)")
@@ -80,8 +90,8 @@ def _draw(S: Scalars, w: Floats, k: Integers, fastest: float) -> None:
         for i in range(begin, end):
             for side in range(2):
                 contact = contact_at(S, w, k, k[S.active + i])
-                linkage = contact.linkage_a if side == 0 else contact.linkage_b
-                entry = k[S.linkage_head + linkage] if k[S.linkage_nu + linkage] > 0 else -1
+                linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
+                entry = linkage.head if linkage.nu > 0 else -1
                 while entry >= 0:
                     other = entry // _SIDES
                     neighbour = contact_at(S, w, k, other)
