@@ -238,8 +238,8 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
     contact = contact_at(S, w, k, c)
     S.looked = 1
     for side in range(2):
-        body = contact.body_a if side == 0 else contact.body_b
-        body = body_at(S, w, k, body)
+        number = contact.body_a if side == 0 else contact.body_b
+        body = body_at(S, w, k, number)
         if body.nu == 0:
             evaluate_driven_bodies(S, w, k, S.t + theta * h, S.y)
             continue
@@ -250,7 +250,7 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
                 i = body.q if part == 0 else S.n_q + body.u
                 n = body.nq if part == 0 else body.nu
                 dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, state + i)
-        evaluate_body(S, w, k, S.t + theta * h, state, body)
+        evaluate_body(S, w, k, S.t + theta * h, state, number)
     evaluate_geometry(S, w, k, c)
 
 

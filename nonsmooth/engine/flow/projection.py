@@ -121,8 +121,8 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel()
 def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
     """Bring every body's unit quaternion back to unit length; one that is farther off than explained fails the run."""
-    for body in range(S.n_bodies):
-        body = body_at(S, w, k, body)
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
         offset = body.quaternion
         if offset < 0:
             continue
@@ -131,7 +131,7 @@ def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(4):
             square += w[q + i] * w[q + i]
         if abs(square - 1.0) > EXPLAINED * 4.0 * S.rtol:
-            blame(S, QUATERNION_UNEXPLAINED, body, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * S.rtol)
+            blame(S, QUATERNION_UNEXPLAINED, number, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * S.rtol)
         factor = 1.0 / math.sqrt(square)
         for i in range(4):
             w[q + i] *= factor
@@ -149,15 +149,15 @@ def _displace(S: Scalars, w: Floats, k: Integers) -> None:
     """Move the bodies by the velocities in ``y_stage`` for unit time, unless the tolerances do not explain so much."""
     # dq = B du: let the bodies turn the displacement into coordinate rates
     evaluate_bodies(S, w, k, S.t, S.y_stage)
-    for body in range(S.n_bodies):
-        body = body_at(S, w, k, body)
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
         for i in range(body.nq):
             motion, most = w[body.tail + i], _explained_motion(S, w, body.q + i)
             if abs(motion) > most:
-                blame(S, MOTION_UNEXPLAINED, body, motion, most)
+                blame(S, MOTION_UNEXPLAINED, number, motion, most)
                 return
-    for body in range(S.n_bodies):
-        body = body_at(S, w, k, body)
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
         for i in range(body.nq):
             w[S.y + body.q + i] += w[body.tail + i]
     normalise_quaternions(S, w, k)

@@ -73,8 +73,8 @@ def _booked(S: Scalars) -> float:
 def energy_of_bodies(S: Scalars, w: Floats, k: Integers, which: int) -> float:
     """Return the kinetic (0) or potential (1) energy of the bodies as evaluated [J]."""
     total = 0.0
-    for body in range(S.n_bodies):
-        body = body_at(S, w, k, body)
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
         n_u = body.nu
         if n_u > 0:
             total += w[body.tail + body.nq + n_u + n_u * n_u + which]

@@ -51,43 +51,38 @@ def call_room(name: str, memory: Memory, *arguments: float) -> Any:
 
 
 class _Record:
-    """A record with named fields."""
+    """A record whose fields are properties."""
 
-    __slots__ = ("_fields", "_heaps", "_number", "_scalars")
+    __slots__ = ("S", "k", "n", "w")
 
-    def __init__(self, fields: Fields, scalars: Any, w: Any, k: Any, number: int) -> None:
-        object.__setattr__(self, "_fields", fields)
-        object.__setattr__(self, "_scalars", scalars)
-        object.__setattr__(self, "_heaps", (k, w))
-        object.__setattr__(self, "_number", number)
-
-    def _place(self, field: Field) -> Any:
-        start = field.first + (field.stride * self._number if field.array else self._number)
-        start += sum(getattr(self._scalars, name) for name in (field.array, field.behind) if name)
-        return self._heaps[field.is_float][start : start + field.numbers]
-
-    def __getattr__(self, name: str) -> Any:
-        field = self._fields[name]
-        place = self._place(field)
-        return tuple(place) if field.vector else place if field.numbers > 1 else place[0]
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        field = self._fields[name]
-        place = self._place(field)
-        for i, number in enumerate(value if field.vector else (value,)):
-            place[i] = number
+    def __init__(self, scalars: Any, w: Any, k: Any, number: int) -> None:
+        self.S, self.w, self.k, self.n = scalars, w, k, number
 
 
-def _indexed(kind: str) -> Callable[..., Any]:
-    return lambda scalars, w, k, number: _Record(RECORDS[kind], scalars, w, k, number)
+def _property(field: Field) -> property:
+    parts = [f"self.S.{name}" for name in (field.array, field.behind) if name]
+    start = " + ".join([*parts, f"{field.stride if field.array else 1} * self.n", str(field.first)])
+    heap = "self.w" if field.is_float else "self.k"
+    many = f"{heap}[{start} : {start} + {field.numbers}]"
+    one = f"{heap}[{start}]"
+    found = f"tuple({many})" if field.vector else many if field.numbers > 1 else one
+    target = ", ".join(f"{heap}[{start} + {i}]" for i in range(field.numbers)) if field.vector else one
+    scope: dict[str, Any] = {}
+    exec(f"def load(self): return {found}\ndef store(self, value): {target} = value", scope)
+    return property(scope["load"], scope["store"])
 
 
-def _packed(kind: str) -> Callable[..., Any]:
-    stride = next(iter(PACKED[kind].values())).stride
-    return lambda w, start, number=0: _Record(PACKED[kind], None, w, None, start + stride * number)
+def _kind(kind: str, fields: Fields) -> Any:
+    return type(kind, (_Record,), {"__slots__": (), **{name: _property(field) for name, field in fields.items()}})
 
 
-records = {kind: _indexed(kind) for kind in RECORDS} | {kind: _packed(kind) for kind in PACKED}
+def _packed(kind: str, fields: Fields) -> Callable[..., Any]:
+    record, stride = _kind(kind, fields), next(iter(fields.values())).stride
+    return lambda w, start, number=0: record(None, w, None, start + stride * number)
+
+
+records = {kind: _kind(kind, fields) for kind, fields in RECORDS.items()}
+records |= {kind: _packed(kind, fields) for kind, fields in PACKED.items()}
 
 
 def at(heap: memoryview, offset: int) -> memoryview:
