@@ -2,57 +2,55 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
-from nonsmooth.engine.contact.problem import friction_coefficient
-from nonsmooth.engine.delassus.delassus import add_product, own_block, write_dense
+from nonsmooth.engine.bodies.kinematics import row
+from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
+from nonsmooth.engine.contact.problem import friction_coefficient, lay_friction
+from nonsmooth.engine.delassus.delassus import add_product, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
-from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_NEXT_TO_ZERO = 1e-3
-"""A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
-
-
-@kernel("i8(S, F, I, i8)")
-def is_jammed(S: Scalars, w: Floats, k: Integers, a: int) -> int:
-    """Return 1 if the active contact ``a`` slides at the Painleve singularity, its slip direction being known."""
-    active = active_at(S, w, k, a)
-    contact = contact_at(S, w, k, active.slot)
-    slides = contact.mode == SLIDE and contact.normal_function == 0
-    return 1 if slides and reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * own_block(S, w, k, a).nn else 0
+_MOMENT = 0.1
+"""In a moment accelerations change velocities by this part of their tolerance."""
 
 
 @kernel("i8(S, F, I)")
 def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
-    """Stop the slips whose normal force grows without bound; return 1 if pushing impulses do that.
+    """Find the impulses of a moment in which the forces have no bound; return 1 if they change a velocity.
 
-    In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
-    impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
+    They are those of the inelastic impact on Coulomb's cone, its slip being the one that it leaves, under what the
+    accelerations do in so short a time that they change no velocity beyond its tolerance.  Where there are forces that
+    is all; where there are none the impulses are finite in the limit, and bring slips to rest.
     """
+    scale = 0.0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        c = active.slot
-        contact = contact_at(S, w, k, c)
-        v1, v2 = contact.slip
-        speed = length(contact.slip)
-        active.mu = 0.0
-        if contact.mode == SLIDE and speed > 0.0:
-            active.mu = friction_coefficient(S, w, k, c, speed)
-            active.direction = v1 / speed, v2 / speed
-        active.normal_held = 1
-        active.tangent_held = 1 if contact.mode == STICK or is_jammed(S, w, k, a) == 1 else 0
+        contact = contact_at(S, w, k, active.slot)
         for r in range(3):
-            active.free[r] = contact.rate[r]
-    resolve(S, w, k)
+            active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
+            scale = max(scale, abs(contact.bias[r]), abs(active.free[r]))
+    moment = _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        if not active.normal_force >= 0.0:
-            return 0
+        contact = contact_at(S, w, k, active.slot)
+        lay_friction(S, w, k, a)
+        active.at_rest = active.normal_held = 1
+        for r in range(3):
+            rate = contact.rate[r]
+            if r == 0 and abs(rate) <= S.velocity_tolerance:
+                rate = 0.0
+            active.free[r] = rate + moment * active.free[r]
+            active.force[r] = 0.0
+    gauss_seidel(S, w, k, SWEEPS)
+    moved = 0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
         for r in range(3):
             active.impulse[r] = active.force[r]
+            if abs(add_product(S, w, k, 0.0, a, r, S.f)) > S.velocity_tolerance:
+                moved = 1
     _split_loss(S, w, k)
-    return 1
+    return moved
 
 
 @kernel()

@@ -1,0 +1,109 @@
+"""Slip that is an unknown of the contact problem, where its direction turns too fast to be followed.
+
+At the end of a stage of an implicit step the slip is v0 + tau a, a the acceleration that the forces give and v0 what
+it would be without it.  Coulomb's friction opposes v0 + tau a, or holds it at zero: with v0 / tau added to the
+accelerations without forces that is the problem of incipient slip, and stopping, creeping and breaking away are one.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
+from nonsmooth.engine.contact.forces import reduced_coefficient
+from nonsmooth.engine.contact.polish import polish
+from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.trial import hold_tried
+from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, own_block
+from nonsmooth.engine.memory.modes import SLIDE, STICK
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.numerics.vectors import length
+
+_INCIPIENT = 1e-300
+
+
+@kernel("void(S, F, I, i8)")
+def _lay(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+    """Write acceleration without forces, coefficients, mode and slip direction of active contact ``a``."""
+    active = active_at(S, w, k, a)
+    c = active.slot
+    contact = contact_at(S, w, k, c)
+    contact.turned = 0.0
+    active.mu_static = friction_coefficient(S, w, k, c, 0.0)
+    active.mu = friction_coefficient(S, w, k, c, max(length(contact.slip), _INCIPIENT))
+    active.mode_tried = contact.mode
+    active.at_rest = 1 if active.mu > 0.0 else 0
+    active.direction = contact.direction
+    for r in range(3):
+        free = row(S, w, k, c, r, S.du)
+        active.free[r] = free + contact.bias[r]
+        if r > 0 and contact.mode == SLIDE:
+            active.free[r] = free + contact.rate[r] / S.ahead - row(S, w, k, c, r, S.guess)
+        S.acceleration_scale = max(S.acceleration_scale, abs(free), abs(contact.bias[r]))
+
+
+@kernel("i8(S, F, I)")
+def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
+    """Hold the slips that friction would turn round, and let go those that it cannot hold; return how many."""
+    changed = 0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        if contact_at(S, w, k, active.slot).mode != SLIDE or active.at_rest == 0:
+            continue
+        if active.mode_tried == STICK:
+            t1, t2 = active.friction
+            norm = length(active.friction)
+            if norm > active.mu * active.normal_force:
+                active.mode_tried = SLIDE
+                active.direction = -t1 / norm, -t2 / norm
+                changed += 1
+            continue
+        a1 = add_product(S, w, k, active.free[1], a, 1, S.f)
+        a2 = add_product(S, w, k, active.free[2], a, 2, S.f)
+        if a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
+            active.mode_tried = STICK
+            changed += 1
+    return changed
+
+
+@kernel()
+def _note(S: Scalars, w: Floats, k: Integers) -> None:
+    """Add what the forces do to ``du``, and note power, relaxation and what is held."""
+    add_response(S, w, k, S.f, S.du)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        slides = contact.mode == SLIDE
+        if slides and reduced_coefficient(S, w, k, a) <= 0.0:
+            S.singular = c
+        active.tangent_held = 0 if slides else 1
+        for r in range(3):
+            S.driven_power += active.force[r] * (row(S, w, k, c, r, S.own) - contact.rate[r])
+        if slides:
+            own, speed = own_block(S, w, k, a), max(length(contact.slip), S.velocity_tolerance)
+            S.stiffness = max(S.stiffness, active.mu * abs(active.normal_force) * max(own.t11, own.t22) / speed)
+
+
+@kernel()
+def hold_at_end(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write the forces ``f`` of the active contacts with which a stage ends, and add what they do to ``du``.
+
+    Geometry and rates are those of the state that the accelerations at ``guess`` lead to.  Where no forces are found,
+    or they are not unique, ``unsettled`` is raised.
+    """
+    S.acceleration_scale = 0.0
+    for a in range(S.n_active):
+        evaluate_contact(S, w, k, active_at(S, w, k, a).slot, 3)
+    assemble_delassus(S, w, k)
+    for a in range(S.n_active):
+        _lay(S, w, k, a)
+    settled = 0
+    for _round in range(2 + S.n_active):
+        if polish(S, w, k) == 0:
+            break
+        hold_tried(S, w, k)
+        if _stop_and_go(S, w, k) == 0:
+            settled = 1
+            break
+    if settled == 0 or S.deficient == 1:
+        S.unsettled = 1
+    _note(S, w, k)
