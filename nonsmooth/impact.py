@@ -175,7 +175,9 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
             ("friction", friction[i], friction[i].coefficient),
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_linkages": 0}, ("delassus", "contact", "impact"))
+    memory = allocate(
+        dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_articulations": 0}, ("delassus", "contact", "impact")
+    )
     memory.array("rooms", len(room_addresses()))[:] = room_addresses()
     memory.scalars["n_active"] = n
     memory.scalars["impact_rtol"] = tolerance

@@ -57,7 +57,7 @@ def test_rates_and_biases_are_derivatives(joint: Any, places: Any, turns: Any, u
         ]
         memory.array("y", 26)[:] = np.concatenate([*q, velocities])
         call_room("evaluate_at", memory)
-        offsets = [int(memory.array(f"linkage_{name}", 1)[0]) for name in ("residual", "rate", "bias", "jacobian")]
+        offsets = [int(memory.array(f"articulation_{name}", 1)[0]) for name in ("residual", "rate", "bias", "jacobian")]
         return [memory.floats[o : o + size].copy() for o, size in zip(offsets, (n, n, n, 12 * n), strict=True)]
 
     h = 1e-3

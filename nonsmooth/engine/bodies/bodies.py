@@ -1,21 +1,21 @@
-"""Bodies, loads and linkages at a state: frames, forces, inverse masses."""
+"""Bodies, loads and articulations at a state: frames, forces, inverse masses."""
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.articulations import evaluate_articulation
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
-from nonsmooth.engine.bodies.linkages import evaluate_linkage
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
     Scalars,
+    articulation_at,
     at,
     body_at,
     call_body,
     call_load,
     frame_at,
     kernel,
-    linkage_at,
     load_at,
     load_wrench,
     room,
@@ -68,9 +68,9 @@ def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -
         for i in range(S.n_u):
             w[S.u_own + i] = w[y + S.n_q + i]
         S.own = S.u_own
-        for number in range(S.n_linkages):
-            if linkage_at(S, w, k, number).rows > 0:
-                evaluate_linkage(S, w, k, number)
+        for number in range(S.n_articulations):
+            if articulation_at(S, w, k, number).rows > 0:
+                evaluate_articulation(S, w, k, number)
 
 
 @kernel("void(S, F, I, f8, i8)")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.articulations import substitute
 from nonsmooth.engine.bodies.compliance import lay_wrench
-from nonsmooth.engine.bodies.linkages import substitute
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, kernel, linkage_at
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, articulation_at, body_at, contact_at, kernel
 
 
 @kernel("void(S, F, I, i8)")
@@ -15,28 +15,28 @@ def _add_contacts(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
         contact = contact_at(S, w, k, c)
         lay_wrench(S, w, k, c, contact.force)
         for side in range(2):
-            linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
-            row = (contact.jacobian_a if side == 0 else contact.jacobian_b) + linkage.nu
-            for j in range(linkage.nu):
-                w[forces + linkage.u + j] += w[row + j]
+            articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+            row = (contact.jacobian_a if side == 0 else contact.jacobian_b) + articulation.nu
+            for j in range(articulation.nu):
+                w[forces + articulation.u + j] += w[row + j]
 
 
 @kernel("void(S, F, I, i8, i8)")
 def _solve_rows(S: Scalars, w: Floats, k: Integers, number: int, forces: int) -> None:
-    """Write the multipliers of a linkage's rows to its ``x``: -(A M^-1 A^T)^-1 (A M^-1 F + bias)."""
-    linkage = linkage_at(S, w, k, number)
-    n, m, own = linkage.nu, linkage.rows, forces + linkage.u
+    """Write the multipliers of an articulation's rows to its ``x``: -(A M^-1 A^T)^-1 (A M^-1 F + bias)."""
+    articulation = articulation_at(S, w, k, number)
+    n, m, own = articulation.nu, articulation.rows, forces + articulation.u
     for line in range(m):
-        total = w[linkage.bias + line]
+        total = w[articulation.bias + line]
         for i in range(n):
-            total += w[linkage.r + line * n + i] * w[own + i]
-        w[linkage.x + line] = -total
-    substitute(w, linkage.factor, m, linkage.x, 1)
+            total += w[articulation.r + line * n + i] * w[own + i]
+        w[articulation.x + line] = -total
+    substitute(w, articulation.factor, m, articulation.x, 1)
 
 
 @kernel()
 def evaluate_joint_forces(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write the force along every row of the joints to the ``x`` of its linkage, contact forces being known.
+    """Write the force along every row of the joints to the ``x`` of its articulation, contact forces being known.
 
     A row that others imply bears none.
     """
@@ -47,6 +47,6 @@ def evaluate_joint_forces(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(body.nu):
             w[forces + body.u + i] = w[h + i]
     _add_contacts(S, w, k, forces)
-    for number in range(S.n_linkages):
-        if linkage_at(S, w, k, number).rows > 0:
+    for number in range(S.n_articulations):
+        if articulation_at(S, w, k, number).rows > 0:
             _solve_rows(S, w, k, number, forces)

@@ -10,12 +10,12 @@ from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
     Scalars,
+    articulation_at,
     at,
     call_pair,
     contact_at,
     frame_at,
     kernel,
-    linkage_at,
     room,
 )
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, opposite
@@ -83,14 +83,14 @@ def side_wrench(w: Floats, frame: int, point: Vector, force: Vector, moment: Vec
 def _row_a(S: Scalars, w: Floats, k: Integers, c: int, r: int) -> int:
     """Return where row ``r`` of the first Jacobian of contact ``c`` has the coordinates of the body in contact."""
     contact = contact_at(S, w, k, c)
-    return int(contact.jacobian_a + r * linkage_at(S, w, k, contact.linkage_a).nu + contact.shift_a)
+    return int(contact.jacobian_a + r * articulation_at(S, w, k, contact.articulation_a).nu + contact.shift_a)
 
 
 @kernel("i8(S, F, I, i8, i8)")
 def _row_b(S: Scalars, w: Floats, k: Integers, c: int, r: int) -> int:
     """Return the same of the second Jacobian."""
     contact = contact_at(S, w, k, c)
-    return int(contact.jacobian_b + r * linkage_at(S, w, k, contact.linkage_b).nu + contact.shift_b)
+    return int(contact.jacobian_b + r * articulation_at(S, w, k, contact.articulation_b).nu + contact.shift_b)
 
 
 @kernel("void(S, F, I, i8, i8, v3, v3)")
@@ -117,11 +117,11 @@ def evaluate_row_response(S: Scalars, w: Floats, k: Integers, c: int, r: int, s:
     """
     contact = contact_at(S, w, k, c)
     for side in range(2):
-        linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
-        n_u = linkage.nu
+        articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+        n_u = articulation.nu
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
         response = (contact.response_a if side == 0 else contact.response_b) + s * n_u
-        matrix = linkage.inverse
+        matrix = articulation.inverse
         for i in range(n_u):
             total = 0.0
             for j in range(n_u):
@@ -136,11 +136,11 @@ def push_response(S: Scalars, w: Floats, k: Integers, c: int, s: int, force: flo
     """Add the accelerations that a force in column ``s`` of contact ``c`` gives to ``du``."""
     contact = contact_at(S, w, k, c)
     for side in range(2):
-        linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
+        articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
         response = contact.response_a if side == 0 else contact.response_b
-        n_u = linkage.nu
+        n_u = articulation.nu
         for i in range(n_u):
-            w[du + linkage.u + i] += w[response + s * n_u + i] * force
+            w[du + articulation.u + i] += w[response + s * n_u + i] * force
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")
@@ -148,7 +148,7 @@ def row(S: Scalars, w: Floats, k: Integers, c: int, r: int, du: int) -> float:
     """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
     total = 0.0
     contact = contact_at(S, w, k, c)
-    a, b = linkage_at(S, w, k, contact.linkage_a), linkage_at(S, w, k, contact.linkage_b)
+    a, b = articulation_at(S, w, k, contact.articulation_a), articulation_at(S, w, k, contact.articulation_b)
     n_a, n_b = a.nu, b.nu
     for i in range(n_a):
         total += w[contact.jacobian_a + r * n_a + i] * w[du + a.u + i]

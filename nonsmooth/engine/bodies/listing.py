@@ -28,11 +28,11 @@ from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
     Scalars,
+    articulation_at,
     at,
     contact_at,
     frame_at,
     kernel,
-    linkage_at,
     room,
     unit_at,
 )
@@ -71,9 +71,9 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
     for i in range(PAIR):
         contact.geometry[i] = 0.0
-    # Jacobians keep zeros where other bodies of a linkage stand
+    # Jacobians keep zeros where other bodies of an articulation stand
     for side in range(2):
-        n_u = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b).nu
+        n_u = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b).nu
         jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
         for i in range(3 * n_u):
             w[jacobian + i] = 0.0

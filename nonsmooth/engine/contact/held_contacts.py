@@ -13,7 +13,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_respon
 from nonsmooth.engine.contact.forces import friction_of_slip, solve_doubtful, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel, linkage_at
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import band_row
 
@@ -52,13 +52,13 @@ def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int
     contact, pushing = contact_at(S, w, k, c), contact_at(S, w, k, d)
     total = 0.0
     for side in range(2):
-        linkage = contact.linkage_a if side == 0 else contact.linkage_b
-        n_u = linkage_at(S, w, k, linkage).nu
+        articulation = contact.articulation_a if side == 0 else contact.articulation_b
+        n_u = articulation_at(S, w, k, articulation).nu
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
-        if n_u > 0 and pushing.linkage_a == linkage:
+        if n_u > 0 and pushing.articulation_a == articulation:
             for i in range(n_u):
                 total += w[jacobian + i] * w[pushing.response_a + s * n_u + i]
-        if n_u > 0 and pushing.linkage_b == linkage:
+        if n_u > 0 and pushing.articulation_b == articulation:
             for i in range(n_u):
                 total += w[jacobian + i] * w[pushing.response_b + s * n_u + i]
     return total

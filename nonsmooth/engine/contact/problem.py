@@ -6,9 +6,9 @@ solvers of :mod:`nonsmooth.engine.memory.solvers`.
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.articulations import constrain
 from nonsmooth.engine.bodies.compliance import decouple_normals
 from nonsmooth.engine.bodies.kinematics import row
-from nonsmooth.engine.bodies.linkages import constrain
 from nonsmooth.engine.contact.search import find_modes
 from nonsmooth.engine.contact.trial import verify
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
@@ -27,12 +27,12 @@ from nonsmooth.engine.native.kernel import (
     Integers,
     Scalars,
     active_at,
+    articulation_at,
     at,
     body_at,
     call_scalar,
     contact_at,
     kernel,
-    linkage_at,
     room,
 )
 from nonsmooth.engine.numerics.vectors import length
@@ -79,8 +79,8 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
                 total += w[force + n_u + i * n_u + j] * w[force + j]
             w[S.du + body.u + i] = total
     if S.n_joints > 0:
-        for number in range(S.n_linkages):
-            if linkage_at(S, w, k, number).rows > 0:
+        for number in range(S.n_articulations):
+            if articulation_at(S, w, k, number).rows > 0:
                 constrain(S, w, k, number)
 
 

@@ -1,4 +1,4 @@
-"""The structure of the Delassus matrix by blocks: which of the active contacts share a movable linkage.
+"""The structure of the Delassus matrix by blocks: which of the active contacts share a movable articulation.
 
 Rows of 3 x 3 blocks are compressed: that of active contact a is entry ``first_grouped`` + a of ``block_start``, and
 ``block_column`` holds the active contacts that it couples with, in ascending order and itself among them.
@@ -7,30 +7,30 @@ Rows of 3 x 3 blocks are compressed: that of active contact a is entry ``first_g
 from __future__ import annotations
 
 from nonsmooth.engine.memory.layout import MOST_BLOCKS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel, linkage_at
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
 
 _SIDES = 2
-"""Entries of a contact in the lists of its linkages."""
+"""Entries of a contact in the lists of its articulations."""
 
 
 @kernel()
 def _hang(S: Scalars, w: Floats, k: Integers) -> None:
-    """Hang the active contacts on their movable linkages."""
+    """Hang the active contacts on their movable articulations."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         active.block_mark = -1
         active.block_count = 0
         contact = contact_at(S, w, k, active.slot)
-        linkage_at(S, w, k, contact.linkage_a).link_head = -1
-        linkage_at(S, w, k, contact.linkage_b).link_head = -1
+        articulation_at(S, w, k, contact.articulation_a).link_head = -1
+        articulation_at(S, w, k, contact.articulation_b).link_head = -1
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
         for side in range(2):
-            linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
-            if linkage.nu > 0:
-                k[S.link_next + _SIDES * a + side] = linkage.link_head
-                linkage.link_head = _SIDES * a + side
+            articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+            if articulation.nu > 0:
+                k[S.link_next + _SIDES * a + side] = articulation.link_head
+                articulation.link_head = _SIDES * a + side
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -47,7 +47,7 @@ def _note(S: Scalars, w: Floats, k: Integers, row: int, column: int, fill: int) 
 
 @kernel("void(S, F, I, i8)")
 def _visit(S: Scalars, w: Floats, k: Integers, fill: int) -> None:
-    """Note every pair of active contacts that share a movable linkage, once for each of the two."""
+    """Note every pair of active contacts that share a movable articulation, once for each of the two."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
@@ -55,7 +55,7 @@ def _visit(S: Scalars, w: Floats, k: Integers, fill: int) -> None:
         active.block_mark = mark
         _note(S, w, k, a, a, fill)
         for side in range(2):
-            entry = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b).link_head
+            entry = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b).link_head
             while entry >= 0 and S.crowded == 0:
                 other = entry // _SIDES
                 neighbour = active_at(S, w, k, other)

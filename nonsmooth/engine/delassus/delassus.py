@@ -1,6 +1,6 @@
 """The Delassus matrix of the active contacts and what their forces do to the velocities.
 
-It is stored by blocks, of contacts that share a movable linkage only (:mod:`nonsmooth.engine.delassus.blocks`).
+It is stored by blocks, of contacts that share a movable articulation only (:mod:`nonsmooth.engine.delassus.blocks`).
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from nonsmooth.engine.native.kernel import (
     Integers,
     Scalars,
     active_at,
+    articulation_at,
     contact_at,
     delassus_block,
     kernel,
-    linkage_at,
 )
 
 
@@ -41,12 +41,12 @@ def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
             for i in range(9):
                 w[out + i] = 0.0
             for side in range(2):
-                linkage = contact.linkage_a if side == 0 else contact.linkage_b
+                articulation = contact.articulation_a if side == 0 else contact.articulation_b
                 jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
-                n_u = linkage_at(S, w, k, linkage).nu
-                if n_u > 0 and pushing.linkage_a == linkage:
+                n_u = articulation_at(S, w, k, articulation).nu
+                if n_u > 0 and pushing.articulation_a == articulation:
                     _add_block(w, jacobian, pushing.response_a, n_u, out)
-                if n_u > 0 and pushing.linkage_b == linkage:
+                if n_u > 0 and pushing.articulation_b == articulation:
                     _add_block(w, jacobian, pushing.response_b, n_u, out)
 
 
@@ -89,9 +89,9 @@ def add_response(S: Scalars, w: Floats, k: Integers, f: int, du: int) -> None:
     for i in range(S.n_active):
         contact = contact_at(S, w, k, k[S.active + i])
         for side in range(2):
-            linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
+            articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
             response = contact.response_a if side == 0 else contact.response_b
-            n_u, start = linkage.nu, du + linkage.u
+            n_u, start = articulation.nu, du + articulation.u
             for r in range(3):
                 force = w[f + 3 * i + r]
                 for j in range(n_u):

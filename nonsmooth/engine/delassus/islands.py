@@ -4,28 +4,28 @@ from __future__ import annotations
 
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel, linkage_at
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
 
 
 @kernel("i8(S, F, I, i8)")
 def _root(S: Scalars, w: Floats, k: Integers, number: int) -> int:
-    """Return the linkage that stands for all that contacts join to this one, shortening the way there."""
+    """Return the articulation that stands for all that contacts join to this one, shortening the way there."""
     root = number
-    while linkage_at(S, w, k, root).root != root:
-        root = linkage_at(S, w, k, root).root
-    while linkage_at(S, w, k, number).root != root:
-        linkage = linkage_at(S, w, k, number)
-        number = linkage.root
-        linkage.root = root
+    while articulation_at(S, w, k, root).root != root:
+        root = articulation_at(S, w, k, root).root
+    while articulation_at(S, w, k, number).root != root:
+        articulation = articulation_at(S, w, k, number)
+        number = articulation.root
+        articulation.root = root
     return root
 
 
 @kernel("i8(S, F, I, i8)")
-def _linkage(S: Scalars, w: Floats, k: Integers, c: int) -> int:
-    """Return a movable linkage of contact ``c``; the first one if none is."""
+def _articulation(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return a movable articulation of contact ``c``; the first one if none is."""
     contact = contact_at(S, w, k, c)
-    a, b = contact.linkage_a, contact.linkage_b
-    return int(b if linkage_at(S, w, k, a).nu == 0 and linkage_at(S, w, k, b).nu > 0 else a)
+    a, b = contact.articulation_a, contact.articulation_b
+    return int(b if articulation_at(S, w, k, a).nu == 0 and articulation_at(S, w, k, b).nu > 0 else a)
 
 
 @kernel("void(S, F, I, i8)")
@@ -45,23 +45,23 @@ def group_members(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         if contact.member == 1:
             for side in range(2):
-                number = contact.linkage_a if side == 0 else contact.linkage_b
-                linkage = linkage_at(S, w, k, number)
-                linkage.root, linkage.group = number, -1
+                number = contact.articulation_a if side == 0 else contact.articulation_b
+                articulation = articulation_at(S, w, k, number)
+                articulation.root, articulation.group = number, -1
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        a, b = contact.linkage_a, contact.linkage_b
-        if contact.member == 1 and linkage_at(S, w, k, a).nu > 0 and linkage_at(S, w, k, b).nu > 0:
-            linkage_at(S, w, k, _root(S, w, k, b)).root = _root(S, w, k, a)
+        a, b = contact.articulation_a, contact.articulation_b
+        if contact.member == 1 and articulation_at(S, w, k, a).nu > 0 and articulation_at(S, w, k, b).nu > 0:
+            articulation_at(S, w, k, _root(S, w, k, b)).root = _root(S, w, k, a)
     groups = members = 0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.member == 0:
             continue
-        number = _linkage(S, w, k, c)
-        root = linkage_at(S, w, k, _root(S, w, k, number))
+        number = _articulation(S, w, k, c)
+        root = articulation_at(S, w, k, _root(S, w, k, number))
         # between two driven bodies every contact is an island of its own
-        if linkage_at(S, w, k, number).nu == 0 or root.group < 0:
+        if articulation_at(S, w, k, number).nu == 0 or root.group < 0:
             root.group = groups
             k[S.group_start + groups] = 0
             groups += 1

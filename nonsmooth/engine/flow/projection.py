@@ -16,10 +16,10 @@ from nonsmooth.engine.native.kernel import (
     Integers,
     Scalars,
     active_at,
+    articulation_at,
     body_at,
     contact_at,
     kernel,
-    linkage_at,
     room,
 )
 
@@ -209,8 +209,8 @@ def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(S.n_y):
             w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
         worst = 0.0
-        for number in range(S.n_linkages):
-            residuals = linkage_at(S, w, k, number).residual
+        for number in range(S.n_articulations):
+            residuals = articulation_at(S, w, k, number).residual
             worst = max(worst, _add_correction(S, w, k, number, residuals, S.y_stage + S.n_q))
         if iteration == 0 and worst > _explained_residual(S, w, k):
             break
@@ -221,8 +221,8 @@ def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
         _displace(S, w, k)
     if not worst <= _APART * S.gap_tolerance and S.failed == RUNNING:
         blame(S, JOINTS_APART, -1, worst, _APART * S.gap_tolerance)
-    for number in range(S.n_linkages):
-        _add_correction(S, w, k, number, linkage_at(S, w, k, number).rate, S.y + S.n_q)
+    for number in range(S.n_articulations):
+        _add_correction(S, w, k, number, articulation_at(S, w, k, number).rate, S.y + S.n_q)
 
 
 @kernel("f8(S, F, I)")
@@ -236,12 +236,12 @@ def _explained_residual(S: Scalars, w: Floats, k: Integers) -> float:
 
 @kernel("f8(S, F, I, i8, i8, i8)")
 def _add_correction(S: Scalars, w: Floats, k: Integers, number: int, wrong: int, out: int) -> float:
-    """Subtract Y^T times what is ``wrong``, residuals or rates of a linkage, from velocities; return the largest."""
-    linkage, worst = linkage_at(S, w, k, number), 0.0
-    n, first = linkage.nu, out + linkage.u
-    for line in range(linkage.rows):
+    """Subtract Y^T times what is ``wrong``, residuals or rates of an articulation, from velocities; return the largest."""
+    articulation, worst = articulation_at(S, w, k, number), 0.0
+    n, first = articulation.nu, out + articulation.u
+    for line in range(articulation.rows):
         value = w[wrong + line]
         worst = max(worst, abs(value))
         for i in range(n):
-            w[first + i] -= w[linkage.y + line * n + i] * value
+            w[first + i] -= w[articulation.y + line * n + i] * value
     return worst

@@ -28,10 +28,10 @@ from nonsmooth.engine.native.kernel import (
     Integers,
     Scalars,
     active_at,
+    articulation_at,
     contact_at,
     impact_state,
     kernel,
-    linkage_at,
     room,
 )
 
@@ -43,15 +43,15 @@ _FAINT = 30.0
 """Rates and deformations of the error of so many steps are not told from rest behind the wave."""
 _MOST_WINDOWS = 1000000
 _SIDES = 2
-"""Entries of a contact in the chains of its linkages."""
+"""Entries of a contact in the chains of its articulations."""
 
 
 @kernel("void(S, F, I)")
 def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
-    """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their linkages."""
+    """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their articulations."""
     S.n_colliding = S.n_active
-    for number in range(S.n_linkages):
-        linkage_at(S, w, k, number).head = -1
+    for number in range(S.n_articulations):
+        articulation_at(S, w, k, number).head = -1
     for i in range(S.n_u):
         w[S.u_impact + i] = w[S.own + i]
     for i in range(S.n_colliding):
@@ -64,9 +64,9 @@ def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
         for j in range(TOTALS):
             contact.total[j] = 0.0
         for side in range(2):
-            linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
-            k[S.chain + _SIDES * c + side] = linkage.head
-            linkage.head = _SIDES * c + side
+            articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+            k[S.chain + _SIDES * c + side] = articulation.head
+            articulation.head = _SIDES * c + side
 
 
 @kernel("void(S, F, I, f8)")
@@ -90,8 +90,8 @@ def _draw(S: Scalars, w: Floats, k: Integers, fastest: float) -> None:
         for i in range(begin, end):
             for side in range(2):
                 contact = contact_at(S, w, k, k[S.active + i])
-                linkage = linkage_at(S, w, k, contact.linkage_a if side == 0 else contact.linkage_b)
-                entry = linkage.head if linkage.nu > 0 else -1
+                articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+                entry = articulation.head if articulation.nu > 0 else -1
                 while entry >= 0:
                     other = entry // _SIDES
                     neighbour = contact_at(S, w, k, other)

@@ -49,8 +49,8 @@ active_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["acti
 """An active contact with its fields by name."""
 body_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["body"]
 """A body with its fields by name; likewise"""
-linkage_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["linkage"]
-"""a linkage,"""
+articulation_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["articulation"]
+"""an articulation,"""
 joint_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["joint"]
 """a joint,"""
 load_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["load"]
@@ -154,7 +154,7 @@ __all__ = [
     "joint_at",
     "joint_row",
     "kernel",
-    "linkage_at",
+    "articulation_at",
     "load_at",
     "load_wrench",
     "own_guard_at",

@@ -1,4 +1,4 @@
-"""Linkages: bodies tied by joints, which the rest of the engine sees as one body with fewer ways to move.
+"""Articulations: bodies tied by joints, which the rest of the engine sees as one body with fewer ways to move.
 
 With the joints' rows A (A u + prescribed = 0) the accelerations that forces give are K = M^-1 - R^T Y,
 R = A M^-1, Y = (A R^T)^-1 R, so that contact forces, impulses and projections respect the joints at all times.
@@ -13,6 +13,7 @@ from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
     Scalars,
+    articulation_at,
     at,
     body_at,
     call_pair,
@@ -20,7 +21,6 @@ from nonsmooth.engine.native.kernel import (
     joint_at,
     joint_row,
     kernel,
-    linkage_at,
 )
 from nonsmooth.engine.numerics.vectors import Vector, minus, opposite
 
@@ -47,38 +47,38 @@ def _speed(w: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -
 
 @kernel("void(S, F, I, i8, i8)")
 def _write_rows(S: Scalars, w: Floats, k: Integers, joint_number: int, number: int) -> None:
-    """Write rows, residuals, rates and biases of a joint of a linkage, behind those of the joints before."""
-    joint, linkage = joint_at(S, w, k, joint_number), linkage_at(S, w, k, number)
+    """Write rows, residuals, rates and biases of a joint of an articulation, behind those of the joints before."""
+    joint, articulation = joint_at(S, w, k, joint_number), articulation_at(S, w, k, number)
     frame_a, frame_b = joint.frame_a, joint.frame_b
     call_pair(joint.function, at(w, frame_a), at(w, frame_b), at(w, joint.parameters), at(w, joint.out))
     for r in range(joint.rows):
         row, i = joint_row(w, joint.out, r), joint.first + r
         axis, moment = row.axis, row.moment
-        line = linkage.jacobian + i * linkage.nu
+        line = articulation.jacobian + i * articulation.nu
         side_a, side_b = line + joint.shift_a, line + joint.shift_b
         side_wrench(w, frame_a, row.point_a, opposite(axis), opposite(moment), joint.nu_a, side_a)
         side_wrench(w, frame_b, row.point_b, axis, moment, joint.nu_b, side_b)
-        w[linkage.residual + i] = row.residual
-        w[linkage.bias + i] = row.bias
-        w[linkage.rate + i] = _speed(w, frame_b, axis, row.point_b, moment) - _speed(
+        w[articulation.residual + i] = row.residual
+        w[articulation.bias + i] = row.bias
+        w[articulation.rate + i] = _speed(w, frame_b, axis, row.point_b, moment) - _speed(
             w, frame_a, axis, row.point_a, moment
         )
 
 
 @kernel("void(S, F, I, i8)")
 def _inverse_masses(S: Scalars, w: Floats, k: Integers, number: int) -> None:
-    """Write M^-1 of the linkage's bodies to K and R = A M^-1."""
-    linkage = linkage_at(S, w, k, number)
-    n, m = linkage.nu, linkage.rows
-    matrix, jacobian, r = linkage.inverse, linkage.jacobian, linkage.r
+    """Write M^-1 of the articulation's bodies to K and R = A M^-1."""
+    articulation = articulation_at(S, w, k, number)
+    n, m = articulation.nu, articulation.rows
+    matrix, jacobian, r = articulation.inverse, articulation.jacobian, articulation.r
     for i in range(n * n):
         w[matrix + i] = 0.0
     for i in range(n * m):
         w[r + i] = 0.0
-    for one in range(linkage.body, linkage.body + linkage.bodies):
+    for one in range(articulation.body, articulation.body + articulation.bodies):
         body = body_at(S, w, k, one)
         n_u = body.nu
-        shift = body.u - linkage.u
+        shift = body.u - articulation.u
         inverse = body.tail + body.nq + n_u
         for i in range(n_u):
             for j in range(n_u):
@@ -126,15 +126,15 @@ def substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
 
 
 @kernel("void(S, F, I, i8)")
-def evaluate_linkage(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+def evaluate_articulation(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     """Write K, Y, residuals and rates of the joints, the part of u that is not prescribed, and the driven power."""
-    linkage = linkage_at(S, w, k, number)
-    for joint in range(linkage.joint, linkage.joint + linkage.joints):
+    articulation = articulation_at(S, w, k, number)
+    for joint in range(articulation.joint, articulation.joint + articulation.joints):
         _write_rows(S, w, k, joint, number)
     _inverse_masses(S, w, k, number)
-    n, m = linkage.nu, linkage.rows
-    jacobian, r, y = linkage.jacobian, linkage.r, linkage.y
-    matrix, factor = linkage.inverse, linkage.factor
+    n, m = articulation.nu, articulation.rows
+    jacobian, r, y = articulation.jacobian, articulation.r, articulation.y
+    matrix, factor = articulation.inverse, articulation.factor
     for i in range(m):
         for j in range(i + 1):
             total = 0.0
@@ -158,8 +158,8 @@ def evaluate_linkage(S: Scalars, w: Floats, k: Integers, number: int) -> None:
 @kernel("f8(S, F, I, i8)")
 def _power(S: Scalars, w: Floats, k: Integers, number: int) -> float:
     """Return the power of the bodies' own forces on the velocities ``u_own``."""
-    linkage, power = linkage_at(S, w, k, number), 0.0
-    for one in range(linkage.body, linkage.body + linkage.bodies):
+    articulation, power = articulation_at(S, w, k, number), 0.0
+    for one in range(articulation.body, articulation.body + articulation.bodies):
         body = body_at(S, w, k, one)
         for i in range(body.nu):
             power += w[body.tail + body.nq + i] * w[S.u_own + body.u + i]
@@ -169,37 +169,37 @@ def _power(S: Scalars, w: Floats, k: Integers, number: int) -> float:
 @kernel("void(S, F, I, i8)")
 def _prescribe(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     """Take off the velocities that driven bodies impose through joints, and book their power but for contact forces."""
-    linkage = linkage_at(S, w, k, number)
-    if linkage.driven == 0:
+    articulation = articulation_at(S, w, k, number)
+    if articulation.driven == 0:
         return
-    n, m = linkage.nu, linkage.rows
-    u, x = S.u_own + linkage.u, linkage.x
+    n, m = articulation.nu, articulation.rows
+    u, x = S.u_own + articulation.u, articulation.x
     S.driven_power -= _power(S, w, k, number)
     for line in range(m):
         total = 0.0
         for c in range(n):
-            total += w[linkage.jacobian + line * n + c] * w[u + c]
+            total += w[articulation.jacobian + line * n + c] * w[u + c]
         w[x + line] = total
     for line in range(m):
         for c in range(n):
-            w[u + c] -= w[linkage.y + line * n + c] * w[x + line]
+            w[u + c] -= w[articulation.y + line * n + c] * w[x + line]
     S.driven_power += _power(S, w, k, number)
-    substitute(w, linkage.factor, m, x, 1)
+    substitute(w, articulation.factor, m, x, 1)
     for line in range(m):
-        S.driven_power -= w[x + line] * w[linkage.bias + line]
+        S.driven_power -= w[x + line] * w[articulation.bias + line]
 
 
 @kernel("void(S, F, I, i8)")
 def constrain(S: Scalars, w: Floats, k: Integers, number: int) -> None:
-    """Subtract from the accelerations ``du`` of a linkage what its joints do not allow: Y^T (A du + bias)."""
-    linkage = linkage_at(S, w, k, number)
-    n, m = linkage.nu, linkage.rows
-    du, x = S.du + linkage.u, linkage.x
+    """Subtract from the accelerations ``du`` of an articulation what its joints do not allow: Y^T (A du + bias)."""
+    articulation = articulation_at(S, w, k, number)
+    n, m = articulation.nu, articulation.rows
+    du, x = S.du + articulation.u, articulation.x
     for line in range(m):
-        total = w[linkage.bias + line]
+        total = w[articulation.bias + line]
         for c in range(n):
-            total += w[linkage.jacobian + line * n + c] * w[du + c]
+            total += w[articulation.jacobian + line * n + c] * w[du + c]
         w[x + line] = total
     for line in range(m):
         for c in range(n):
-            w[du + c] -= w[linkage.y + line * n + c] * w[x + line]
+            w[du + c] -= w[articulation.y + line * n + c] * w[x + line]
