@@ -8,7 +8,7 @@ from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_E
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.checks import check_guards, check_start
@@ -98,7 +98,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     assert counts.keys() <= set(COUNTS)
     memory = allocate(dict.fromkeys(COUNTS, 0) | counts, engine.rooms)
     heap = Heap(memory)
-    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     places = lay_bodies(system, memory, heap)
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)

@@ -11,7 +11,7 @@ from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, COUNTS, FLOAT_ARRAY
 from nonsmooth.model.image import Image, Integers
 from nonsmooth.model.laid_out import LaidOut
 
-_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
+_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "entry_points")
 _COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]
 _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,), CATALOGUE)).encode()).digest()
 

@@ -14,11 +14,11 @@ from nonsmooth.engine.native.kernel import (
     body_at,
     call_body,
     call_load,
+    entry_point,
     frame_at,
     kernel,
     load_at,
     load_wrench,
-    room,
 )
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import minus, opposite
@@ -109,7 +109,7 @@ def _apply(S: Scalars, w: Floats, k: Integers, number: int, t: float, y: int) ->
             S.load_power += added * w[y + S.n_q + body.u + j]
 
 
-@room()
+@entry_point()
 def evaluate_at(S: Scalars, w: Floats, k: Integers) -> None:
     """Evaluate all bodies and contacts at the present time and state."""
     evaluate_bodies(S, w, k, S.t, S.y)

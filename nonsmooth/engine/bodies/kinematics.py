@@ -14,9 +14,9 @@ from nonsmooth.engine.native.kernel import (
     at,
     call_pair,
     contact_at,
+    entry_point,
     frame_at,
     kernel,
-    room,
 )
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, opposite
 
@@ -238,7 +238,7 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
             stretch_bias(S, w, k, c)
 
 
-@room("void(S, F, I, i8, i8)")
+@entry_point("void(S, F, I, i8, i8)")
 def evaluate_contact(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None:
     """Write everything about contact ``c``, the bodies being evaluated; ``rows`` of the bias."""
     evaluate_geometry(S, w, k, c)

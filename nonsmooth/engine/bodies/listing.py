@@ -31,9 +31,9 @@ from nonsmooth.engine.native.kernel import (
     articulation_at,
     at,
     contact_at,
+    entry_point,
     frame_at,
     kernel,
-    room,
     unit_at,
 )
 from nonsmooth.engine.numerics.vectors import distance, dot
@@ -150,7 +150,7 @@ def _widest_axis(S: Scalars, w: Floats, k: Integers) -> int:
     return best
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
     """Fill the slots for the present state; return the status."""
     _leave(S, w, k)

@@ -6,11 +6,11 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import evaluate_compliant_force, refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def touch(S: Scalars, w: Floats, k: Integers) -> int:
     """Find and evaluate the touching contacts; return 1 if one of them approaches."""
     evaluate_bodies(S, w, k, S.t, S.y)

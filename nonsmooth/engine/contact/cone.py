@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, own_block
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.engine.numerics.vectors import length
@@ -91,7 +91,7 @@ def _cut_to_disc(g11: float, g12: float, g22: float, c1: float, c2: float, radiu
     return x * (radius / norm), y * (radius / norm)
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def gauss_seidel(S: Scalars, w: Floats, k: Integers, sweeps: int) -> int:
     """Sweep until the forces settle; leave ``f``, ``tangent_held`` and, for incipient slip, ``d``.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.contact.components import contact_of
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
 from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, project_on_null
@@ -166,7 +166,7 @@ def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> i
     return 1
 
 
-@room("i8(S, F, I, f8, f8)")
+@entry_point("i8(S, F, I, f8, f8)")
 def distribute(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 

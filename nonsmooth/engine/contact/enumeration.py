@@ -8,7 +8,7 @@ from nonsmooth.engine.contact.trial import hold_tried, verify
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import MOST_ENUMERATED
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import length
 
@@ -77,7 +77,7 @@ def _sweep_slips(S: Scalars, w: Floats, k: Integers) -> None:
         active.mu_static = active.static_kept
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def enumerate_modes(S: Scalars, w: Floats, k: Integers, first: int) -> int:
     """Try every combination of modes from number ``first`` on; return the number behind the first verified, or 0.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.components import contact_of
 from nonsmooth.engine.delassus.delassus import add_product, own_block
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import (
@@ -31,7 +31,7 @@ DEAR = 500
 """Elementary operations that count as one evaluation of a contact."""
 
 
-@room()
+@entry_point()
 def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     """Complete ``f``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)

@@ -18,7 +18,7 @@ import math
 
 from nonsmooth.engine.contact.forces import DEAR, friction_of_slip
 from nonsmooth.engine.delassus.delassus import write_dense
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 
 STAGES = 12
@@ -149,7 +149,7 @@ def _leaving(S: Scalars, w: Floats, k: Integers, n: int, s: int) -> int:
     return chosen
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     """Write the forces of the faceted problem to ``f``; return 1 if there are none, its path ending in a ray."""
     m = S.n_active

@@ -13,7 +13,7 @@ from nonsmooth.engine.contact.forces import DEAR
 from nonsmooth.engine.contact.gauss_seidel import sweep
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, own_block
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
@@ -131,7 +131,7 @@ def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
     return 1
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     """Improve the forces by sweeps, ten times more of them in every stage, and Newton steps; return 1 if settled."""
     sweeps = _SWEEPS

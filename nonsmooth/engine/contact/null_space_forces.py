@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.components import contact_of, direction_of
 from nonsmooth.engine.contact.distribution import distribute
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.null_band import project_on_null
 from nonsmooth.engine.numerics.vectors import length
 
@@ -52,7 +52,7 @@ def _keep_null_space_force(S: Scalars, w: Floats, k: Integers, n: int) -> None:
         contact.null_space_force[r] = w[S.f + k[S.column + i]] - w[S.f_raw + i]
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
     """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it leaves every bound room."""
     n = S.n_unknown

@@ -9,7 +9,7 @@ from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, minimum_norm
 from nonsmooth.engine.numerics.null_band import solve_shifted
@@ -128,7 +128,7 @@ def _solve(S: Scalars, w: Floats, n: int) -> None:
     minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, n)
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def polish(S: Scalars, w: Floats, k: Integers) -> int:
     """Turn the directions ``d`` of incipient slip until no acceleration is left across them, the modes being given.
 

@@ -32,8 +32,8 @@ from nonsmooth.engine.native.kernel import (
     body_at,
     call_scalar,
     contact_at,
+    entry_point,
     kernel,
-    room,
 )
 from nonsmooth.engine.numerics.vectors import length
 
@@ -103,7 +103,7 @@ def lay_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
         active.mu = friction_coefficient(S, w, k, c, _INCIPIENT)
 
 
-@room()
+@entry_point()
 def set_up(S: Scalars, w: Floats, k: Integers) -> None:
     """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics and M^-1 h being known."""
     assemble_delassus(S, w, k)
@@ -120,7 +120,7 @@ def set_up(S: Scalars, w: Floats, k: Integers) -> None:
     decouple_normals(S, w, k)
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     """Find modes and forces of the active contacts, ``mode_tried`` holding the past modes; return 1 if found.
 
@@ -149,7 +149,7 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     return 0
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def solve_from_rates(S: Scalars, w: Floats, k: Integers) -> int:
     """Solve on G and b as given, the friction following from the slip velocities in ``rate``; return 1 if solved."""
     for a in range(S.n_active):

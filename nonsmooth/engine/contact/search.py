@@ -16,7 +16,7 @@ from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.trial import identify, judge, set_scales, verify
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import length
 
@@ -142,12 +142,11 @@ def _rubs(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         pull = active.mu * active.normal_force
-        for i in range(2):
-            if (
-                active.mode_tried == SLIDE
-                and not abs(active.force[1 + i] + pull * active.direction[i]) <= S.small_force
-            ):
-                return 0
+        if active.mode_tried != SLIDE:
+            continue
+        (t1, t2), (d1, d2) = active.friction, active.direction
+        if not (abs(t1 + pull * d1) <= S.small_force and abs(t2 + pull * d2) <= S.small_force):
+            return 0
     return 1
 
 
@@ -303,7 +302,7 @@ def _prefer_stick(S: Scalars, w: Floats, k: Integers) -> None:
         _take_answer(S, w, k)
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def find_modes(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     """Search by one solver, ``mode_past`` holding the past modes; return 1 if a verified answer is found."""
     found = 0

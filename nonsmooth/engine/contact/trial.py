@@ -6,7 +6,7 @@ from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
 from nonsmooth.engine.delassus.delassus import add_product, own_block
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _TOLERANCE = 1e-9
@@ -70,7 +70,7 @@ def small_force(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     return float(_TOLERANCE * size + _SOLVED * S.small_force)
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def verify(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
     """Find the forces of the modes under trial; return 1 if modes and forces fulfil the laws themselves.
 

@@ -68,10 +68,10 @@ from nonsmooth.engine.native.kernel import (
     Integers,
     Scalars,
     contact_at,
+    entry_point,
     guard_at,
     kernel,
     own_guard_at,
-    room,
 )
 from nonsmooth.engine.numerics.vectors import length
 
@@ -360,7 +360,7 @@ def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, which)
     _commit(S, w, k, h)
-    if contact_at(S, w, k, which).tied == 1 and _null_space_forces_hold(S, w, k, guard) == 1:
+    if contact_at(S, w, k, which).redundant == 1 and _null_space_forces_hold(S, w, k, guard) == 1:
         return RUNNING
     return _carry_out(S, w, k, cause, which)
 
@@ -396,15 +396,15 @@ def _own_event(S: Scalars, w: Floats, k: Integers, number: int) -> int:
 def _break_direction(S: Scalars, w: Floats, k: Integers, which: int) -> None:
     """Let a contact that breaks away slip against the friction that held it, that of least norm if it is not unique."""
     contact = contact_at(S, w, k, which)
-    t1 = contact.force[1] - contact.null_space_force[1] * contact.tied
-    t2 = contact.force[2] - contact.null_space_force[2] * contact.tied
+    t1 = contact.force[1] - contact.null_space_force[1] * contact.redundant
+    t2 = contact.force[2] - contact.null_space_force[2] * contact.redundant
     norm = length((t1, t2))
     if norm > 0.0:
         turn_facing(S, w, k, which, t1)
         contact.direction = -t1 / norm, -t2 / norm
 
 
-@room("i8(S, F, I, i8, i8)")
+@entry_point("i8(S, F, I, i8, i8)")
 def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> int:
     """Run until the end time, a failure, full buffers or ``most_steps``; return the status.
 

@@ -47,13 +47,22 @@ from nonsmooth.engine.memory.modes import (
     PARADOX_REFUSED,
     REFUSE,
     RUNNING,
-    SETTLE_ENDLESS,
     SLIDE,
     START,
     STICK,
     STICK_TO_SLIP,
+    UPDATE_ENDLESS,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, guard_at, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    guard_at,
+    kernel,
+)
 from nonsmooth.engine.native.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
@@ -96,7 +105,7 @@ def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> i
     return 0
 
 
-@room("i8(S, F, I, i8, i8, f8)")
+@entry_point("i8(S, F, I, i8, i8, f8)")
 def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: float) -> int:
     """Run the impact law on the touching contacts, island by island, book and record it; return the status.
 
@@ -208,9 +217,9 @@ def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 
 @kernel("i8(S, F, I, i8, i8)")
-def _tied(S: Scalars, w: Floats, k: Integers, c: int, which: int) -> int:
+def _share_a_bound(S: Scalars, w: Floats, k: Integers, c: int, which: int) -> int:
     """Return 1 if the forces of two contacts are not unique, so that they share one bound."""
-    return 1 if contact_at(S, w, k, c).tied + contact_at(S, w, k, which).tied == 2 else 0
+    return 1 if contact_at(S, w, k, c).redundant + contact_at(S, w, k, which).redundant == 2 else 0
 
 
 @kernel("void(S, F, I, i8, i8)")
@@ -232,7 +241,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
             if cause == LIFT_OFF and (c == which or _force_gone(S, w, k, c) == 1):
                 mode = OPEN
             # a group whose forces are not unique has one bound and breaks away together
-            if cause == STICK_TO_SLIP and (c == which or _tied(S, w, k, c, which) == 1):
+            if cause == STICK_TO_SLIP and (c == which or _share_a_bound(S, w, k, c, which) == 1):
                 mode = SLIDE
             contact.mode_agreed = mode
     group_members(S, w, k)
@@ -248,7 +257,7 @@ def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, which: int, ca
         return
     speed = slip_speed(S, w, k, c)
     slides = speed > S.velocity_tolerance or contact.traction_function != 0
-    breaks = cause == STICK_TO_SLIP and (c == which or _tied(S, w, k, c, which) == 1)
+    breaks = cause == STICK_TO_SLIP and (c == which or _share_a_bound(S, w, k, c, which) == 1)
     contact.mode_agreed = SLIDE if slides or breaks else STICK
     contact.member = 1 - rubs_unasked(S, w, k, c)
     contact.direction_agreed = contact.direction
@@ -325,7 +334,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
     return 1 if closed > 1 and creeping > 0 else 0
 
 
-@room("i8(S, F, I, i8, i8)")
+@entry_point("i8(S, F, I, i8, i8)")
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = 0
@@ -339,7 +348,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         approaching = _approaches(S, w, k)
     for _attempt in range(_ATTEMPTS):
         if interrupted(S, S.n_contacts) == 1:
-            return SETTLE_ENDLESS
+            return UPDATE_ENDLESS
         if approaching == 1 and hand_over(S, w, k) == 1:
             approaching = touch(S, w, k)
             continue
@@ -357,7 +366,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
             approaching = touch(S, w, k)
             continue
         if S.stopped == 1:
-            return SETTLE_ENDLESS
+            return UPDATE_ENDLESS
         if solved == 0:
             for a in range(S.n_active):
                 active = active_at(S, w, k, a)
@@ -380,7 +389,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
             projected += 1
             S.closing_loss += project_closed(S, w, k, 1)
         approaching = touch(S, w, k)
-    return SETTLE_ENDLESS
+    return UPDATE_ENDLESS
 
 
 @kernel("void(S, F, I)")

@@ -33,10 +33,10 @@ from nonsmooth.engine.native.kernel import (
     Scalars,
     body_at,
     contact_at,
+    entry_point,
     frame_at,
     guard_at,
     kernel,
-    room,
 )
 from nonsmooth.engine.numerics.runge_kutta import dense_part
 from nonsmooth.engine.numerics.vectors import minus
@@ -206,7 +206,7 @@ def _too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> in
     return 1 if (g0 if past1 > 0.0 else g0 + g1) > way else 0
 
 
-@room("void(S, F, I, f8)")
+@entry_point("void(S, F, I, f8)")
 def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """List the open contacts whose gaps may close within the step by the speeds alone; the bodies stand at its end.
 
@@ -376,7 +376,7 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     return 0.0
 
 
-@room("f8(S, F, I, f8, f8, i8)")
+@entry_point("f8(S, F, I, f8, f8, i8)")
 def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float, asked: int) -> float:
     """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
 

@@ -18,11 +18,20 @@ from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, fri
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
 from nonsmooth.engine.memory.modes import SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, body_at, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    body_at,
+    contact_at,
+    entry_point,
+    kernel,
+)
 from nonsmooth.engine.numerics.vectors import length
 
 
-@room("i8(S, F, I, f8, i8, i8)")
+@entry_point("i8(S, F, I, f8, i8, i8)")
 def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosing: int) -> int:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
@@ -62,7 +71,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
             active = active_at(S, w, k, a)
             c = active.slot
             contact = contact_at(S, w, k, c)
-            contact.tied = active.redundant
+            contact.redundant = active.redundant
             contact.holds = active.tangent_held
             contact.static_margin = _static_margin(S, w, k, a)
             for r in range(3):
@@ -137,7 +146,7 @@ def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     return float(contact.slip[0] * contact.direction[0] + contact.slip[1] * contact.direction[1])
 
 
-@room("void(S, F, I, f8, i8, i8, i8)")
+@entry_point("void(S, F, I, f8, i8, i8, i8)")
 def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosing: int) -> None:
     """Write dy/dt: coordinate rates, accelerations, and four powers.
 

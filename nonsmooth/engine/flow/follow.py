@@ -16,7 +16,7 @@ from nonsmooth.engine.flow.projection import normalise_quaternions, project_clos
 from nonsmooth.engine.flow.self_check import energy_of_bodies
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 
 _ATTEMPTS = 200
@@ -73,8 +73,7 @@ def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
             continue
         part = 0.0
         guard_at(S, w, k, friction_guard(c)).first = -first
-        for r in range(2):
-            contact.direction[r] *= -1.0
+        contact.direction = -contact.direction[0], -contact.direction[1]
     return part
 
 
@@ -101,7 +100,7 @@ def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return -1.0
 
 
-@room("i8(S, F, I, f8)")
+@entry_point("i8(S, F, I, f8)")
 def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
     """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
     group_closed(S, w, k)
@@ -138,7 +137,7 @@ def _past_bounds(S: Scalars, w: Floats, k: Integers) -> int:
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
-        if contact.tied == 1:
+        if contact.redundant == 1:
             largest = max(largest, abs(contact.force[0]))
             least = min(least, hold_guard(S, w, k, c))
             if contact.holds == 1:
@@ -146,7 +145,7 @@ def _past_bounds(S: Scalars, w: Floats, k: Integers) -> int:
     return 1 if least < -_EXCESS * largest else 0
 
 
-@room("void(S, F, I, i8)")
+@entry_point("void(S, F, I, i8)")
 def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
     """Evaluate bodies, closed contacts and joints with their forces, and the energies, at the present state.
 

@@ -30,7 +30,7 @@ from nonsmooth.engine.flow.guards import (
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_slope, dense_state
 
@@ -80,7 +80,7 @@ def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
     return 0
 
 
-@room("void(S, F, I, f8, f8, i8)")
+@entry_point("void(S, F, I, f8, f8, i8)")
 def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
@@ -210,7 +210,7 @@ def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, a
     return 0.0
 
 
-@room("f8(S, F, I, f8)")
+@entry_point("f8(S, F, I, f8)")
 def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
 
@@ -399,7 +399,7 @@ def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     return 0
 
 
-@room("f8(S, F, I, f8, f8)")
+@entry_point("f8(S, F, I, f8, f8)")
 def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 

@@ -19,8 +19,8 @@ from nonsmooth.engine.native.kernel import (
     articulation_at,
     body_at,
     contact_at,
+    entry_point,
     kernel,
-    room,
 )
 
 _DAMPING = 1e-8
@@ -35,7 +35,7 @@ _APART = 1e4
 """A residual that stays above this many gap tolerances cannot be closed."""
 
 
-@room("f8(S, F, I, i8)")
+@entry_point("f8(S, F, I, i8)")
 def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
 
@@ -163,7 +163,7 @@ def _displace(S: Scalars, w: Floats, k: Integers) -> None:
     normalise_quaternions(S, w, k)
 
 
-@room("f8(S, F, I, i8)")
+@entry_point("f8(S, F, I, i8)")
 def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
 
@@ -200,7 +200,7 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     return loss
 
 
-@room()
+@entry_point()
 def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
     """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
     worst, before = 0.0, 1e300
@@ -236,7 +236,7 @@ def _explained_residual(S: Scalars, w: Floats, k: Integers) -> float:
 
 @kernel("f8(S, F, I, i8, i8, i8)")
 def _add_correction(S: Scalars, w: Floats, k: Integers, number: int, wrong: int, out: int) -> float:
-    """Subtract Y^T times what is ``wrong``, residuals or rates of an articulation, from velocities; return the largest."""
+    """Subtract Y^T times what is ``wrong``, residuals or rates, from the velocities; return the largest of it."""
     articulation, worst = articulation_at(S, w, k, number), 0.0
     n, first = articulation.nu, out + articulation.u
     for line in range(articulation.rows):

@@ -13,7 +13,7 @@ from nonsmooth.engine.flow.flow import slope
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
 
 _STIFF = 2.0
@@ -153,7 +153,7 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return error
 
 
-@room("f8(S, F, I, f8)")
+@entry_point("f8(S, F, I, f8)")
 def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
 

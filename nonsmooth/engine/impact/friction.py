@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
-from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, own_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, evaluate_impact_rates, normal_force
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, impact_state, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    impact_state,
+    kernel,
+)
 from nonsmooth.engine.numerics.vectors import length
 
 _IDLE = 1e-10
@@ -53,7 +62,7 @@ def _hold_idle(S: Scalars, w: Floats, k: Integers) -> None:
                 active.tangent_held = 1
 
 
-@room("void(S, F, I, f8)")
+@entry_point("void(S, F, I, f8)")
 def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     """Decide which contacts at rest stick and which way the others start to slide.
 
@@ -93,8 +102,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         else:
             active.direction = contact.direction
         active.mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
-        for r in range(1, 3):
-            active.force[r] = -active.mu * active.normal_force * active.direction[r - 1]
+        friction_of_slip(S, w, k, a)
     if open_question == 1:
         for i in range(3 * S.n_active):
             w[S.b + i] = 0.0

@@ -23,7 +23,16 @@ from nonsmooth.engine.impact.rates import (
 )
 from nonsmooth.engine.impact.step import try_impact_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, impact_state, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    impact_state,
+    kernel,
+)
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
@@ -167,7 +176,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
     return theta
 
 
-@room("f8(S, F, I, f8)")
+@entry_point("f8(S, F, I, f8)")
 def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Step to the first guard to fire within ``h``, kept in ``trigger``; return the error of that step.
 

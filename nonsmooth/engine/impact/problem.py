@@ -38,7 +38,16 @@ from nonsmooth.engine.impact.rates import (
 from nonsmooth.engine.impact.scales import scale_impact
 from nonsmooth.engine.impact.step import try_impact_step, try_linear_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, impact_state, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    impact_state,
+    kernel,
+)
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 from nonsmooth.engine.numerics.vectors import length
@@ -251,7 +260,7 @@ def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
     return 1 if acting > 0 and _CROWDED * acting < S.n_active else 0
 
 
-@room("i8(S, F, I, f8)")
+@entry_point("i8(S, F, I, f8)")
 def energetic_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> int:
     """Carry the active contacts from the rates ``impact_z0`` through the impact; return how it ended.
 
@@ -276,7 +285,7 @@ def first_step(S: Scalars, shortest: float) -> float:
     return shortest * (_FAR if S.n_active == 1 else float(S.impact_rtol) ** _FIRST)
 
 
-@room("i8(S, F, I, f8, f8, i8)")
+@entry_point("i8(S, F, I, f8, f8, i8)")
 def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, windowed: int) -> int:
     """Integrate from the phases and the state at hand, with a first step of ``h``; return how it ended.
 

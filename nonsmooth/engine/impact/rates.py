@@ -20,9 +20,9 @@ from nonsmooth.engine.native.kernel import (
     at,
     call_scalar,
     contact_at,
+    entry_point,
     impact_state,
     kernel,
-    room,
 )
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
@@ -75,7 +75,7 @@ def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
         active.gap_rate, active.slip = z0, (z1, z2)
 
 
-@room("void(S, F, I, i8)")
+@entry_point("void(S, F, I, i8)")
 def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write the forces ``f`` of the active contacts at the impact state ``y`` in the present phases."""
     evaluate_impact_rates(S, w, k, y)

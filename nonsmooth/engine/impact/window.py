@@ -30,9 +30,9 @@ from nonsmooth.engine.native.kernel import (
     active_at,
     articulation_at,
     contact_at,
+    entry_point,
     impact_state,
     kernel,
-    room,
 )
 
 LARGE = 16
@@ -148,7 +148,7 @@ def _store(S: Scalars, w: Floats, k: Integers) -> None:
     add_response(S, w, k, S.impulse, S.u_impact)
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     """Do what ``energetic_impact`` does, for many contacts; the Delassus matrix of all of them is not needed."""
     fastest = 0.0

@@ -36,12 +36,12 @@ _half = importlib.import_module("nonsmooth.engine.native.plain" if PLAIN else "n
 
 kernel: _Decorator = _half.kernel
 """An engine function, compiled into its callers."""
-room: _Decorator = _half.room
+entry_point: _Decorator = _half.entry_point
 """An engine function compiled apart, reached by its address, by Python too."""
-room_addresses: Callable[[], tuple[int, ...]] = _half.room_addresses
-"""The addresses of all rooms, which belong at the head of ``k``."""
-call_room: Callable[..., Any] = _half.call_room
-"""``call_room(name, memory, *numbers)``: call a room from Python."""
+entry_addresses: Callable[[], tuple[int, ...]] = _half.entry_addresses
+"""The addresses of all entry points, which belong at the head of ``k``."""
+call_entry: Callable[..., Any] = _half.call_entry
+"""``call_entry(name, memory, *numbers)``: call an entry point from Python."""
 
 contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["contact"]
 """A contact with its fields by name (:mod:`nonsmooth.engine.memory.records`)."""
@@ -128,17 +128,18 @@ __all__ = [
     "Scalars",
     "active_at",
     "address_of",
+    "articulation_at",
     "at",
     "block_at",
     "body_at",
     "call_body",
     "call_compliance",
+    "call_entry",
     "call_guard",
     "call_load",
     "call_map",
     "call_pair",
     "call_rates",
-    "call_room",
     "call_scalar",
     "call_support",
     "call_traction",
@@ -146,6 +147,8 @@ __all__ = [
     "calls",
     "contact_at",
     "delassus_block",
+    "entry_addresses",
+    "entry_point",
     "forget_watch",
     "frame_at",
     "guard_at",
@@ -154,13 +157,10 @@ __all__ = [
     "joint_at",
     "joint_row",
     "kernel",
-    "articulation_at",
     "load_at",
     "load_wrench",
     "own_guard_at",
     "pool_at",
-    "room",
-    "room_addresses",
     "shared",
     "unit_at",
     "unshared",

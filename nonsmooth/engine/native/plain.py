@@ -7,15 +7,15 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.records import PACKED, RECORDS, Field, Fields
-from nonsmooth.engine.memory.rooms import ROOMS
 from nonsmooth.engine.memory.tables import SCALARS
 from nonsmooth.engine.native.forms import FORMS
 
 _functions: list[Callable[..., Any]] = []
 _watches: dict[int, Callable[[float], float]] = {}
-_rooms: dict[str, Callable[..., Any]] = {}
+_entries: dict[str, Callable[..., Any]] = {}
 
 
 def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
@@ -23,28 +23,28 @@ def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], A
     return lambda function: function
 
 
-def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
-    """Leave the function as it is, and let :func:`call_room` find it."""
+def entry_point(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+    """Leave the function as it is, and let :func:`call_entry` find it."""
 
     def decorate(function: Callable[..., Any]) -> Any:
-        _rooms[function.__name__] = function
+        _entries[function.__name__] = function
         return function
 
     return decorate
 
 
-def room_addresses() -> tuple[int, ...]:
-    """Return as many numbers as there are rooms; nothing reads them."""
+def entry_addresses() -> tuple[int, ...]:
+    """Return as many numbers as there are entry points; nothing reads them."""
     importlib.import_module("nonsmooth.engine.events.event_loop")
-    return (0,) * len(ROOMS)
+    return (0,) * len(ENTRY_POINTS)
 
 
-def call_room(name: str, memory: Memory, *arguments: float) -> Any:
-    """Call a room on the memory of one trajectory."""
+def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call an entry point on the memory of one trajectory."""
     record = memory.scalars[0]
     scalars = SimpleNamespace(**{field: record[field].item() for field in SCALARS.names or ()})
     try:
-        return _rooms[name](scalars, memoryview(memory.floats.data), memoryview(memory.integers.data), *arguments)
+        return _entries[name](scalars, memoryview(memory.floats.data), memoryview(memory.integers.data), *arguments)
     finally:
         for field, value in vars(scalars).items():
             memory.scalars[field] = value

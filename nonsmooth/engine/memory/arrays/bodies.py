@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, blocks, ends, fixed, per
 from nonsmooth.engine.memory.blocks import GEOMETRY
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS
-from nonsmooth.engine.memory.rooms import ROOMS
 
 ARRAYS = Arrays(
     floats={
@@ -41,7 +41,7 @@ ARRAYS = Arrays(
         "u_own": per(1, "n_u"),
     },
     integers={
-        "rooms": fixed(len(ROOMS)),
+        "entry_points": fixed(len(ENTRY_POINTS)),
         "body_q": per(1, "n_bodies"),
         "body_u": per(1, "n_bodies"),
         "body_nq": per(1, "n_bodies"),
