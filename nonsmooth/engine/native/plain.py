@@ -8,8 +8,9 @@ from types import SimpleNamespace
 from typing import Any
 
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
+from nonsmooth.engine.memory.fields import Field, Fields
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.records import PACKED, RECORDS, Field, Fields
+from nonsmooth.engine.memory.records import PACKED, RECORDS
 from nonsmooth.engine.memory.tables import SCALARS
 from nonsmooth.engine.native.forms import FORMS
 
@@ -65,8 +66,8 @@ def _property(field: Field) -> property:
     heap = "self.w" if field.is_float else "self.k"
     many = f"{heap}[{start} : {start} + {field.numbers}]"
     one = f"{heap}[{start}]"
-    found = f"tuple({many})" if field.vector else many if field.numbers > 1 else one
-    target = ", ".join(f"{heap}[{start} + {i}]" for i in range(field.numbers)) if field.vector else one
+    found = f"tuple({many})" if field.is_vector else many if field.numbers > 1 else one
+    target = ", ".join(f"{heap}[{start} + {i}]" for i in range(field.numbers)) if field.is_vector else one
     scope: dict[str, Any] = {}
     exec(f"def load(self): return {found}\ndef store(self, value): {target} = value", scope)
     return property(scope["load"], scope["store"])

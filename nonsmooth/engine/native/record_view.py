@@ -20,7 +20,8 @@ from numba.extending import (
     register_model,
 )
 
-from nonsmooth.engine.memory.records import PACKED, RECORDS, Field, Fields
+from nonsmooth.engine.memory.fields import Field, Fields
+from nonsmooth.engine.memory.records import PACKED, RECORDS
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, get_field, moved, tag
 
 
@@ -51,7 +52,7 @@ class _RecordFields(AttributeTemplate):  # type: ignore[misc]
         if field is None:
             return None
         heap = _heap_of(field)
-        if field.vector:
+        if field.is_vector:
             return types.UniTuple(heap.dtype, field.numbers)
         return heap.dtype if field.numbers == 1 else heap
 
@@ -83,7 +84,7 @@ def _load(context: Any, builder: Any, heap: Any, place: Any) -> Any:
 def _get_field(context: Any, builder: Any, record: Record, value: Any, name: str) -> Any:
     field = record.fields[name]
     heap, place = _heap_of(field), _place(context, builder, record, value, field)
-    if field.vector:
+    if field.is_vector:
         places = [_entry(context, builder, heap, place, i) for i in range(field.numbers)]
         numbers = [_load(context, builder, heap, one) for one in places]
         return context.make_tuple(builder, types.UniTuple(heap.dtype, field.numbers), numbers)
@@ -95,7 +96,7 @@ def _set_field(context: Any, builder: Any, signature: Any, args: Any, name: str)
     record, given = signature.args
     field = record.fields[name]
     heap, place = _heap_of(field), _place(context, builder, record, args[0], field)
-    if field.vector:
+    if field.is_vector:
         vector = types.UniTuple(heap.dtype, field.numbers)
         numbers = cgutils.unpack_tuple(builder, context.cast(builder, args[1], given, vector))
         for i, number in enumerate(numbers):
