@@ -36,7 +36,7 @@ BODY = without(
 )
 """Of a body."""
 
-LINKAGE: Fields = {
+ARTICULATION: Fields = {
     **without(
         "articulation_",
         "articulation_u",

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from nonsmooth.engine.memory.body_records import (
+    ARTICULATION,
     BODY,
     FRAME_OF_BODY,
     JOINT,
-    LINKAGE,
     LOAD,
     POOL,
     ROW_OF_JOINT,
@@ -28,7 +28,7 @@ RECORDS: Mapping[str, Fields] = {
     "contact": CONTACT,
     "active": ACTIVE,
     "body": BODY,
-    "articulation": LINKAGE,
+    "articulation": ARTICULATION,
     "joint": JOINT,
     "load": LOAD,
     "unit": UNIT,
