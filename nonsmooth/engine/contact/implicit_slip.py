@@ -12,7 +12,7 @@ from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, own_block
+from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -66,7 +66,7 @@ def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
 
 @kernel()
 def _note(S: Scalars, w: Floats, k: Integers) -> None:
-    """Add what the forces do to ``du``, and note power, relaxation and what is held."""
+    """Add what the forces do to ``du``, and note power and what is held."""
     add_response(S, w, k, S.f, S.du)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -78,9 +78,6 @@ def _note(S: Scalars, w: Floats, k: Integers) -> None:
         active.tangent_held = 0 if slides else 1
         for r in range(3):
             S.driven_power += active.force[r] * (row(S, w, k, c, r, S.own) - contact.rate[r])
-        if slides:
-            own, speed = own_block(S, w, k, a), max(length(contact.slip), S.velocity_tolerance)
-            S.stiffness = max(S.stiffness, active.mu * abs(active.normal_force) * max(own.t11, own.t22) / speed)
 
 
 @kernel()

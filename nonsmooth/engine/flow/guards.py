@@ -183,6 +183,14 @@ def _arm(S: Scalars, w: Floats, k: Integers, i: int) -> None:
     guard.armed = 1 if guard.first > 0.0 else 0
 
 
+@kernel("f8(S, F, I, i8)")
+def _least(S: Scalars, w: Floats, k: Integers, i: int) -> float:
+    """Return above what guard ``i`` of a contact is armed: a force that counts as none is neither positive nor not."""
+    contact = contact_at(S, w, k, contact_of(i))
+    rests = contact.mode != OPEN and contact.normal_function == 0
+    return float(contact.small_force_of) if rests and (is_friction_guard(i) == 0 or contact.mode == STICK) else 0.0
+
+
 @kernel()
 def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the kept guards as those of the start: arm the positive ones, deflate those that start from zero."""
@@ -207,8 +215,8 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
             friction.deflated = 1
             friction.start = min(0.0, friction.start) - _ROUND_OFF * S.velocity_tolerance
             friction.first = 0.0
-        _arm(S, w, k, normal_guard(c))
-        _arm(S, w, k, friction_guard(c))
+        normal.armed = 1 if normal.first > _least(S, w, k, normal_guard(c)) else 0
+        friction.armed = 1 if friction.first > _least(S, w, k, friction_guard(c)) else 0
     for g in range(S.n_own_guards):
         guard, own = guard_at(S, w, k, first_own_guard(S) + g), own_guard_at(S, w, k, g)
         _start(S, w, k, first_own_guard(S) + g)
@@ -227,8 +235,9 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
 def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
     """Arm the guards that have become positive within the step."""
     for i in range(number_of_guards(S)):
-        guard = guard_at(S, w, k, i)
-        if guard.value > 0.0 and (forces == 1 or i >= first_own_guard(S) or _is_open(S, w, k, i) == 1):
+        guard, own = guard_at(S, w, k, i), i >= first_own_guard(S)
+        least = 0.0 if own else _least(S, w, k, i)
+        if guard.value > least and (own or forces == 1 or _is_open(S, w, k, i) == 1):
             guard.armed = 1
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
+from nonsmooth.engine.contact.newton import STAGES, search_by_newton
 from nonsmooth.engine.contact.problem import friction_coefficient, lay_friction
 from nonsmooth.engine.delassus.delassus import add_product, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
@@ -29,19 +30,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         for r in range(3):
             active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
             scale = max(scale, abs(contact.bias[r]), abs(active.free[r]))
-    moment = _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
-        lay_friction(S, w, k, a)
-        active.at_rest = active.normal_held = 1
-        for r in range(3):
-            rate = contact.rate[r]
-            if r == 0 and abs(rate) <= S.velocity_tolerance:
-                rate = 0.0
-            active.free[r] = rate + moment * active.free[r]
-            active.force[r] = 0.0
-    gauss_seidel(S, w, k, SWEEPS)
+    plastic_impulses(S, w, k, _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0)
     moved = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -51,6 +40,30 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
                 moved = 1
     _split_loss(S, w, k)
     return moved
+
+
+@kernel("void(S, F, I, f8)")
+def plastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
+    """Write to ``f`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
+
+    The rates are those at hand and what the accelerations, which stand in ``b``, make of them in a ``moment`` [s].
+    """
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        lay_friction(S, w, k, a)
+        active.mu_static = active.mu = active.mu_static if active.at_rest == 1 else active.mu
+        active.at_rest = active.normal_held = 1
+        for r in range(3):
+            rate = contact.rate[r]
+            if r == 0 and moment > 0.0 and abs(rate) <= S.velocity_tolerance:
+                rate = 0.0
+            active.free[r] = rate + moment * active.free[r]
+            active.force[r] = 0.0
+    for stage in range(STAGES):
+        if search_by_newton(S, w, k, stage) == 1:
+            break
+    gauss_seidel(S, w, k, SWEEPS)
 
 
 @kernel()
