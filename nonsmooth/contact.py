@@ -13,7 +13,7 @@ from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
 from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.model.delassus import write_delassus
@@ -154,7 +154,7 @@ def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:
     n = len(friction)
     bound = [bind(law.coefficient, "scalar", law.parameters(), type(law).__name__) for law in friction]
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n}, ("delassus", "contact"))
-    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     memory.scalars["n_active"], memory.scalars["solver"] = n, solver
     memory.array("active", n)[:] = np.arange(n)
     memory.array("direction", 2 * n)[::2] = 1.0

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.memory.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.model.delassus import read_delassus
 
@@ -141,11 +141,11 @@ class ContactResult:
         trial = replace(self._memory, **whole)
         trial.array("mode_past", n)[:] = -1
         number = 0
-        while number := int(call_room("enumerate_modes", trial, number)):
+        while number := int(call_entry("enumerate_modes", trial, number)):
             if self._differs(trial, small):
                 return False
         for solver in (LEMKE, GAUSS_SEIDEL, NEWTON):
-            if call_room("find_modes", trial, solver) == 1 and self._differs(trial, small):
+            if call_entry("find_modes", trial, solver) == 1 and self._differs(trial, small):
                 return False
         return True
 

@@ -14,7 +14,7 @@ from nonsmooth.contact import check_friction
 from nonsmooth.engine.impact.problem import FINISHED
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.model.delassus import write_delassus
@@ -175,8 +175,10 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
             ("friction", friction[i], friction[i].coefficient),
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_linkages": 0}, ("delassus", "contact", "impact"))
-    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory = allocate(
+        dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_articulations": 0}, ("delassus", "contact", "impact")
+    )
+    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     memory.scalars["n_active"] = n
     memory.scalars["impact_rtol"] = tolerance
     memory.array("active", n)[:] = np.arange(n)

@@ -11,7 +11,7 @@ from typing import Any
 
 from nonsmooth.binding import interpreted
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.native.kernel import call_room, forget_watch, watch_address
+from nonsmooth.engine.native.kernel import call_entry, forget_watch, watch_address
 
 _FIRST = 256
 """Work that the engine does before it lets the watch look for the first time, in evaluations of a contact,"""
@@ -22,7 +22,7 @@ _REPORTED_EVERY = 0.1
 
 
 class Watch:
-    """While entered, rooms that are called through it report now and then, and Ctrl-C ends them where nothing is lost.
+    """While entered, what is called through it reports now and then, and Ctrl-C ends it where nothing is lost.
 
     The engine calls the watch in the thread that waits for it, so that signals are served there.  The first Ctrl-C is
     kept until the engine has come back; a second one goes to whatever runs in Python.  A handler of the user's own for
@@ -31,7 +31,7 @@ class Watch:
     Parameters
     ----------
     memory : Memory
-        What the rooms are called on.
+        What the entry points are called on.
     report : callable, optional
         Called with the time reached [s].
     """
@@ -69,7 +69,7 @@ class Watch:
             self._stop_if_asked()
 
     def call(self, name: str, *arguments: float) -> Any:
-        """Call a room.
+        """Call an entry point.
 
         Raises
         ------
@@ -80,7 +80,7 @@ class Watch:
         """
         self._stop_if_asked()
         self._last = self._reported = time.perf_counter()
-        result = call_room(name, self._memory, *arguments)
+        result = call_entry(name, self._memory, *arguments)
         self._stop_if_asked()
         return result
 

@@ -24,7 +24,7 @@ from xdist import is_xdist_worker
 import nonsmooth as ns
 from bodies import Dumbbell, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 
 settings.register_profile("tests", deadline=None, derandomize=True, print_blob=False)
 settings.load_profile("tests")
@@ -36,7 +36,7 @@ _ADDRESS = re.compile(r"\b0x[0-9a-f]{6,}")
 def pytest_sessionstart(session: pytest.Session) -> None:
     """Compile the engine once, before the workers of pytest-xdist start and before the time of any test runs."""
     if not is_xdist_worker(session):
-        room_addresses()
+        entry_addresses()
     # under nohup and in the background of a script Ctrl-C is ignored, by the processes that tests start, too
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)

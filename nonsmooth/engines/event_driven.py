@@ -79,5 +79,5 @@ class EventDriven(Engine):
         }
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        """Call the room of that name."""
+        """Call the entry point of that name."""
         return int(call("advance", most_steps, int(wary)))

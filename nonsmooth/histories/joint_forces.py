@@ -13,8 +13,8 @@ from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_B
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
+from nonsmooth.model.articulations import articulations
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.linkages import linkages
 
 if TYPE_CHECKING:
     import xarray
@@ -102,13 +102,13 @@ class _Joint:
 
 
 def _joints(laid: LaidOut) -> list[_Joint]:
-    """Return the joints in the order of the system; the engine has them linkage by linkage."""
+    """Return the joints in the order of the system; the engine has them articulation by articulation."""
     memory, floats = laid.memory, laid.memory.floats
     found: dict[int, _Joint] = {}
     number = 0
-    for index, linkage in enumerate(linkages(laid.system)):
-        along = int(memory.array("linkage_x", index + 1)[index])
-        for tie in linkage.joints:
+    for index, articulation in enumerate(articulations(laid.system)):
+        along = int(memory.array("articulation_x", index + 1)[index])
+        for tie in articulation.joints:
             origin, out, first, n = (
                 int(memory.array(f"joint_{name}", number + 1)[number]) for name in ("frame_b", "out", "first", "rows")
             )

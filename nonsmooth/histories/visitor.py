@@ -12,7 +12,7 @@ import numpy as np
 
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
 from nonsmooth.engine.memory.modes import OPEN, REASONS, RUNNING, SLIDE, STICK
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.model.assembly import lay
@@ -140,7 +140,7 @@ class Visitor:
             self._put_event = -2
             self._put_state(int(self._event_row[event]) if event >= 0 else row)
             self._put_modes(event)
-            call_room("evaluate_forces", self.laid.memory, 1)
+            call_entry("evaluate_forces", self.laid.memory, 1)
             self._put_event = event
         self._put_state(row)
 

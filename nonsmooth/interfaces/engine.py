@@ -24,8 +24,8 @@ class Engine(Component, ABC):
     2. ``rooms`` are the rooms of :mod:`nonsmooth.engine` whose arrays it works with; those of the bodies and those that
        record there always are, all others have no length.
     3. ``counts`` gives the lengths that its options decide, ``settings`` the scalars of the record ``S``.
-    4. ``advance`` goes on, from wherever the memory stands, with compiled rooms or otherwise.  All that it needs to go
-       on later, in another process too, it leaves in the memory.
+    4. ``advance`` goes on, from wherever the memory stands, with compiled entry points or otherwise.  All that it needs
+       to go on later, in another process too, it leaves in the memory.
     """
 
     @property
@@ -70,8 +70,8 @@ class Engine(Component, ABC):
         Parameters
         ----------
         call : callable
-            ``call(room, *numbers)`` calls a compiled room on the memory, watched: with progress, and with Ctrl-C where
-            nothing is lost.
+            ``call(name, *numbers)`` calls a compiled entry point on the memory, watched: with progress, and with Ctrl-C
+            where nothing is lost.
         memory : Memory
             The memory.
         most_steps : int

@@ -8,13 +8,13 @@ from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_E
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine
+from nonsmooth.model.articulations import articulations
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import initial_state, lay_contacts
-from nonsmooth.model.linkages import linkages
 from nonsmooth.model.pools import lay_pools
 from nonsmooth.model.units import find_units, lay_units
 from nonsmooth.system.system import System
@@ -67,7 +67,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     n_q = sum(body.n_q for body in bodies)
     n_u = sum(body.n_u for body in bodies)
     n_states = sum(len(initial_state(contact)) for contact in contacts)
-    groups = linkages(system)
+    groups = articulations(system)
     units = find_units(contacts)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     head = EVENT_HEAD + n_u + n_y + BOOKED
@@ -82,7 +82,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "n_own_guards": len(system.guards),
         "n_loads": len(system.loads),
         "n_joints": len(system.joints),
-        "n_linkages": len(groups),
+        "n_articulations": len(groups),
         "n_q": n_q,
         "n_u": n_u,
         "n_y": n_y,
@@ -98,7 +98,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     assert counts.keys() <= set(COUNTS)
     memory = allocate(dict.fromkeys(COUNTS, 0) | counts, engine.rooms)
     heap = Heap(memory)
-    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     places = lay_bodies(system, memory, heap)
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)

@@ -12,8 +12,8 @@ from nonsmooth.binding.source import described
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
+from nonsmooth.model.articulations import articulations
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.linkages import linkages
 from nonsmooth.model.pools import find_pools
 from nonsmooth.system.contact import Contact, Tie
 
@@ -74,7 +74,7 @@ def _block_of_slot(model: LaidOut, slot: int) -> Block:
 
 
 def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
-    ties = [tie for linkage in linkages(model.system) for tie in linkage.joints]
+    ties = [tie for articulation in articulations(model.system) for tie in articulation.joints]
     for number, tie in enumerate(ties):
         assert isinstance(tie.component, Joint)
         function, size = tie.component.evaluator, JOINT_ROW * tie.component.n_rows

@@ -10,9 +10,9 @@ from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
+from nonsmooth.model.articulations import articulations
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.linkages import linkages
 from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
@@ -68,18 +68,18 @@ def _check_joints(model: LaidOut) -> None:
     # speeds of a joint are judged by those of its bodies
     scale = max(1.0, float(np.max(np.abs(memory.array("y", model.n_q + model.n_u)), initial=0.0)))
     number = 0
-    for index, linkage in enumerate(linkages(model.system)):
-        for tie in linkage.joints:
+    for index, articulation in enumerate(articulations(model.system)):
+        for tie in articulation.joints:
             _check_joint(model, tie, number, index, _OPEN * scale)
             number += 1
 
 
-def _check_joint(model: LaidOut, tie: Tie, number: int, linkage: int, allowed: float) -> None:
+def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allowed: float) -> None:
     memory = model.memory
     rows = int(memory.array("joint_rows", number + 1)[number])
     first = int(memory.array("joint_first", number + 1)[number])
     for what, unit in (("residual", "m or rad"), ("rate", "m/s or rad/s")):
-        start = int(memory.array(f"linkage_{what}", linkage + 1)[linkage]) + first
+        start = int(memory.array(f"articulation_{what}", articulation + 1)[articulation]) + first
         values = memory.floats[start : start + rows]
         if not float(np.max(np.abs(values))) <= allowed:
             raise InvalidInput(

@@ -11,7 +11,7 @@ from nonsmooth.engine.memory.blocks import GEOMETRY
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.model.pools import failed_search
@@ -54,7 +54,7 @@ class LaidOut:
         PluginError
             If a search for features fails.
         """
-        status = call_room("list_contacts", self.memory)
+        status = call_entry("list_contacts", self.memory)
         if status == NOT_FINITE:
             raise PluginError(failed_search(self.memory, self.system.contacts))
         if status != RUNNING:
@@ -68,7 +68,7 @@ class LaidOut:
     def energy(self) -> tuple[float, float]:
         """Return kinetic and potential energy [J] of the present state."""
         bodies = self.system.bodies
-        call_room("evaluate_at", self.memory)
+        call_entry("evaluate_at", self.memory)
         kinetic = potential = 0.0
         tails = self.memory.array("body_tail", len(bodies))
         for body, tail in zip(bodies, tails, strict=True):
@@ -80,7 +80,7 @@ class LaidOut:
 
     def gaps(self) -> np.ndarray:
         """Return the gaps [m, n_contacts] at the present state; infinite for contacts too far to be listed."""
-        call_room("evaluate_at", self.memory)
+        call_entry("evaluate_at", self.memory)
         n = int(self.memory.scalars["n_contacts"][0])
         gaps = np.full(len(self.system.contacts), np.inf)
         listed = self.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, 0]

@@ -10,22 +10,22 @@ from nonsmooth.binding.compile import bind
 from nonsmooth.engine.memory.blocks import FRAME, JOINT_ROW, LOAD
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import Joint, Load
-from nonsmooth.model.linkages import Linkage
+from nonsmooth.model.articulations import Articulation
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
 
 @dataclass
 class Place:
-    """Where a body stands: its number, velocities and the first of them, frames on the heap, and its linkage."""
+    """Where a body stands: its number, velocities and the first of them, frames on the heap, and its articulation."""
 
     number: int
     nu: int
     u: int
     frames: tuple[int, ...]
-    linkage: int = -1
+    articulation: int = -1
     shift: int = 0
-    linkage_nu: int = 0
+    articulation_nu: int = 0
 
 
 Places = Mapping[int, Place]
@@ -72,15 +72,15 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
     return places
 
 
-def lay_joints(memory: Memory, heap: Heap, linkages: Sequence[Linkage], places: Places) -> None:
-    """Lay the linkages and, linkage by linkage, their joints."""
+def lay_joints(memory: Memory, heap: Heap, articulations: Sequence[Articulation], places: Places) -> None:
+    """Lay the articulations and, articulation by articulation, their joints."""
     joint = 0
-    for number, linkage in enumerate(linkages):
-        bodies, ties = linkage.bodies, linkage.joints
+    for number, articulation in enumerate(articulations):
+        bodies, ties = articulation.bodies, articulation.joints
         u, n = places[id(bodies[0])].u, sum(body.n_u for body in bodies)
         for body in bodies:
             place = places[id(body)]
-            place.linkage, place.shift, place.linkage_nu = number, place.u - u, n
+            place.articulation, place.shift, place.articulation_nu = number, place.u - u, n
         first, rows = joint, 0
         for tie in ties:
             rows += _lay_joint(memory, heap, joint, tie, rows, places)
@@ -88,9 +88,9 @@ def lay_joints(memory: Memory, heap: Heap, linkages: Sequence[Linkage], places: 
         fields = {
             "u": u,
             "nu": n,
-            "body": linkage.first,
+            "body": articulation.first,
             "bodies": len(bodies),
-            "inverse": heap.block(n * n) if ties else _inverse(memory, linkage.first),
+            "inverse": heap.block(n * n) if ties else _inverse(memory, articulation.first),
             "joint": first,
             "joints": len(ties),
             "rows": rows,
@@ -104,7 +104,7 @@ def lay_joints(memory: Memory, heap: Heap, linkages: Sequence[Linkage], places: 
             "bias": heap.block(rows),
             "x": heap.block(rows),
         }
-        _write(memory, "linkage", number, fields)
+        _write(memory, "articulation", number, fields)
 
 
 def _inverse(memory: Memory, body: int) -> int:

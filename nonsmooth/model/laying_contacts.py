@@ -84,7 +84,7 @@ def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places
     _lay_states(memory, contacts, rows)
     _lay_sides(rows, contacts, places)
     lay_floats(memory, contacts)
-    widths = [places[id(body)].linkage_nu for contact in contacts for body in (contact.first, contact.second)]
+    widths = [places[id(body)].articulation_nu for contact in contacts for body in (contact.first, contact.second)]
     size, slots = 3 * max(widths, default=0), int(memory.scalars["n_slots"][0])
     for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
         memory.array(name, slots)[:] = heap.block(size * slots) + size * np.arange(slots)
@@ -120,7 +120,7 @@ def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) ->
             "frame": [place.frames[frame] for place, frame in zip(stand, frames, strict=True)],
             "nu": [place.nu for place in stand],
             "shift": [place.shift for place in stand],
-            "linkage": [place.linkage for place in stand],
+            "articulation": [place.articulation for place in stand],
         }
         for name, values in columns.items():
             rows[:, COLUMN[f"{name}_{side}"]] = values

@@ -8,7 +8,7 @@ from typing import final
 import numpy as np
 
 from nonsmooth.engine.memory.blocks import FRAME
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
@@ -74,7 +74,7 @@ class Probe:
 
     def frame(self, number: int) -> Vector:
         """Return the motion of a frame (:mod:`nonsmooth.engine.memory.blocks`)."""
-        call_room("evaluate_at", self.model.memory)
+        call_entry("evaluate_at", self.model.memory)
         return self._part("out", number * (FRAME + 6 * self.body.n_u), FRAME).copy()
 
     def jacobian(self, number: int) -> Vector:
@@ -86,7 +86,7 @@ class Probe:
         """Return dq/dt for velocities, shape [n_q]."""
         kept = self.u.copy()
         self.u[:] = u
-        call_room("evaluate_at", self.model.memory)
+        call_entry("evaluate_at", self.model.memory)
         self.u[:] = kept
         return self._part("tail", 0, self.body.n_q).copy()
 
@@ -104,7 +104,7 @@ class Probe:
     def rates(self, u: Vector) -> Vector:
         """Return gap rate and slip velocity [m/s] of its contacts for velocities, shape [n, 3]."""
         self.u[:] = u
-        call_room("evaluate_at", self.model.memory)
+        call_entry("evaluate_at", self.model.memory)
         n = int(self.model.memory.scalars["n_contacts"][0])
         rates = np.full((len(self.contacts), 3), np.nan)
         rates[self.model.memory.array("identity", n)] = self.model.memory.array("rate", 3 * n).reshape(n, 3)

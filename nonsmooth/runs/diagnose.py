@@ -19,7 +19,7 @@ from nonsmooth.engine.memory.modes import (
     QUATERNION_UNEXPLAINED,
     STEP_TOO_SMALL,
 )
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.blocks import blocks
@@ -72,7 +72,7 @@ def _in_the_blocks(model: LaidOut) -> str:
     t = float(scalars["t"][0])
     for time in (t, t + float(scalars["h"][0]), t + 10.0 * float(scalars["time_tolerance"][0])):
         scalars["t"] = time
-        call_room("evaluate_at", model.memory)
+        call_entry("evaluate_at", model.memory)
         scalars["t"] = t
         for block in blocks(model):
             if not np.all(np.isfinite(model.memory.floats[block.start : block.start + block.written])):

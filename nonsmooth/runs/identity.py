@@ -11,7 +11,7 @@ from nonsmooth.engine.memory.tables import ARRAYS_OF, CONSTANT_SCALARS, COUNTS, 
 from nonsmooth.model.image import Image, Integers
 from nonsmooth.model.laid_out import LaidOut
 
-_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
+_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "entry_points")
 _CHANGING = {"facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent", *CATALOGUE}
 """Integers of the bodies that a run changes; all others say where something stands."""
 _STANDING = (*_FUNCTIONS, *(name for name in ARRAYS_OF["bodies"].integers if name not in _CHANGING))

@@ -21,10 +21,10 @@ from nonsmooth.engine.memory.modes import (
     IMPACT_ENDLESS,
     NO_CONTACT_SOLUTION,
     PAUSED,
-    SETTLE_ENDLESS,
     START,
     STEP_TOO_SMALL,
     STOPPED,
+    UPDATE_ENDLESS,
 )
 from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.model.laid_out import LaidOut
@@ -35,7 +35,7 @@ _LONG = 10_000
 """So many of those in a row are told."""
 _LAST = 200
 _NAMED = 3
-_AT_ONE_INSTANT = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS)
+_AT_ONE_INSTANT = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS)
 
 _Event = tuple[int, int]
 """Cause and contact, or guard."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.native.forms import FORMS
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import UnknownName
 from nonsmooth.testing.budget import Call, OutOfTime, make_all, where
 from nonsmooth.testing.examine import described
@@ -106,7 +106,7 @@ class Functions:
         def behind(name: str, check: Callable[[], None]) -> Callable[[], None]:
             def run() -> None:
                 self.check(name)
-                room_addresses()
+                entry_addresses()
                 check()
 
             return run

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, PAIR, ROTATION, SPIN, VELOCITY
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits
@@ -99,7 +99,7 @@ class Rig:
         """Put the bodies somewhere, with velocities and angular velocities in world axes, shape [12]."""
         q = np.concatenate([np.concatenate(pose) for pose in poses])
         self._model.memory.array("y", 26)[:] = np.concatenate([q, u])
-        call_room("evaluate_at", self._model.memory)
+        call_entry("evaluate_at", self._model.memory)
 
     def _row(self, name: str, width: int) -> Array:
         return self._model.memory.array(name, width).copy()

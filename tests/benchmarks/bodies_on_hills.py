@@ -20,7 +20,7 @@ import nonsmooth as ns
 from bodies import Ball, BoxBody, DrivenBody, MeshBody, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import IMPACT
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Body
 from tests.bodies.meshes.parts import hills, torus
 
@@ -64,7 +64,7 @@ def main() -> None:
     if given.balls + given.boxes + given.rings > len(_CELLS):
         parser.error(f"there is room for {len(_CELLS)} bodies")
     warnings.simplefilter("ignore")
-    room_addresses()
+    entry_addresses()
     start = time.perf_counter()
     system = scene(given.edges, given.balls, given.boxes, given.rings, given.seed)
     made = time.perf_counter()

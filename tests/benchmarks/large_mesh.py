@@ -19,14 +19,14 @@ import nonsmooth as ns
 from bodies import Ball, DrivenBody, EllipsoidBody, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import IMPACT
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 from tests.bodies.meshes.parts import hills
 
 
 def main(sides: list[int], radius: float, ellipsoid: bool, t_end: float) -> None:
     """Print the rows."""
     warnings.simplefilter("ignore")
-    room_addresses()
+    entry_addresses()
     print("| triangles | mesh | contacts | patches | run | impacts | residual | memory | told |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     before, told = _memory(), io.StringIO()

@@ -21,7 +21,7 @@ from numba.core import event
 
 from nonsmooth import System, simulate, with_laws
 from nonsmooth.binding.compile import bind
-from nonsmooth.engine.native.kernel import room_addresses
+from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.plugins.file import load
 from scenarios.dumbbell.scenario import DumbbellScenario
@@ -84,7 +84,7 @@ def law_of(text: str, name: str, folder: Path) -> FrictionLaw:
 
 def preparation(folder: Path) -> tuple[list[float], list[str]]:
     """Return how long some new laws take from file to address [s], and the names of what numba compiled for them."""
-    room_addresses()
+    entry_addresses()
     seconds = []
     with event.install_recorder("numba:run_pass") as recorder:
         for _ in range(NEW_LAWS):

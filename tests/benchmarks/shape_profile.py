@@ -28,9 +28,9 @@ import nonsmooth as ns
 from bodies import BoxBody, Dumbbell, Ellipsoid, EllipsoidBody, Harmonic, HullBody, Plate, RigidBody
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.binding.compile import bind
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import CATALOGUE
-from nonsmooth.engine.memory.rooms import ROOMS
-from nonsmooth.engine.native.kernel import address_of, call_pair, room_addresses
+from nonsmooth.engine.native.kernel import address_of, call_pair, entry_addresses
 from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.image import Image
@@ -42,7 +42,7 @@ from scenarios.dice_throw.scenario import DiceThrow
 from scenarios.mesh_drop.scenario import MeshDrop
 
 REPETITIONS = 2
-_SEARCH = ROOMS.index("list_contacts")
+_SEARCH = ENTRY_POINTS.index("list_contacts")
 _SHIM = """def shim(a, b, p, out):
  began = clock()
  call_pair({inner}, a, b, p, out)
@@ -155,7 +155,7 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
     for functions in (catalogue, in_slots):
         functions[:] = [shims[int(one)] for one in functions]
     prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 3)
-    search = prototype(room_addresses()[_SEARCH])
+    search = prototype(entry_addresses()[_SEARCH])
 
     def timed_search(*heaps: int) -> int:
         began = time.perf_counter()
@@ -164,7 +164,7 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
         return status
 
     kept = prototype(timed_search)
-    memory.array("rooms", len(ROOMS))[_SEARCH] = ctypes.cast(kept, ctypes.c_void_p).value
+    memory.array("entry_points", len(ENTRY_POINTS))[_SEARCH] = ctypes.cast(kept, ctypes.c_void_p).value
     return kept
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
 from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import call_room, room_addresses
+from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.model.delassus import write_delassus
 
 Floats = NDArray[np.float64]
@@ -64,7 +64,7 @@ def lay_out(problem: Problem, solver: int) -> Memory:
     """Return the engine's memory with the problem in it."""
     n = len(problem.bias) // 3
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n}, ("delassus", "contact"))
-    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     memory.scalars["n_active"], memory.scalars["solver"] = n, solver
     memory.scalars["acceleration_scale"] = np.max(np.abs(problem.bias))
     memory.array("active", n)[:] = np.arange(n)
@@ -85,7 +85,7 @@ def measure(problem: Problem, solver: int, repetitions: int) -> tuple[float, boo
         memory.array("mode_tried", n)[:] = -1
         memory.array("d", 2 * n).reshape(n, 2)[:] = (1.0, 0.0)
         began = time.perf_counter()
-        solved = call_room("solve_contact", memory) == 1
+        solved = call_entry("solve_contact", memory) == 1
         least = min(least, time.perf_counter() - began)
     return least, solved
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import nonsmooth as ns
 from bodies import FreeBody, Rest
 from nonsmooth.engine.memory.blocks import GEOMETRY
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits
@@ -125,7 +125,7 @@ class Rig:
         """Put the bodies at (position, quaternion) each, with velocities u [12]."""
         q = np.concatenate([np.concatenate(pose) for pose in poses])
         self._model.memory.array("y", 26)[:] = np.concatenate([q, u])
-        call_room("evaluate_at", self._model.memory)
+        call_entry("evaluate_at", self._model.memory)
 
     def _rows(self, name: str, width: int) -> Array:
         n = int(self._model.memory.scalars["n_contacts"][0])

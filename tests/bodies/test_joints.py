@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from bodies import Ball, BallJoint, Distance, Dumbbell, Fixed, FreeBody, Harmonic, Hinge, Plate, Slider
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import lay_out
 
@@ -56,8 +56,8 @@ def test_rates_and_biases_are_derivatives(joint: Any, places: Any, turns: Any, u
             for i, (p, o) in enumerate(starts)
         ]
         memory.array("y", 26)[:] = np.concatenate([*q, velocities])
-        call_room("evaluate_at", memory)
-        offsets = [int(memory.array(f"linkage_{name}", 1)[0]) for name in ("residual", "rate", "bias", "jacobian")]
+        call_entry("evaluate_at", memory)
+        offsets = [int(memory.array(f"articulation_{name}", 1)[0]) for name in ("residual", "rate", "bias", "jacobian")]
         return [memory.floats[o : o + size].copy() for o, size in zip(offsets, (n, n, n, 12 * n), strict=True)]
 
     h = 1e-3

@@ -25,7 +25,7 @@ from bodies import (
     Table,
 )
 from nonsmooth.engine.memory.modes import IMPACT
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Motion
 from nonsmooth.model.assembly import lay_out
@@ -113,7 +113,7 @@ class _Frame:
 
     def __call__(self, t: float) -> Any:
         self.model.memory.scalars["t"] = t
-        call_room("evaluate_at", self.model.memory)
+        call_entry("evaluate_at", self.model.memory)
         return self.model.memory.floats[self.out : self.out + 24].copy()
 
 

@@ -14,7 +14,7 @@ from laws import Coulomb, Unilateral
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import call_room, room_addresses
+from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.model.delassus import write_delassus
 
 
@@ -22,7 +22,7 @@ def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory
     """Lay out one contact problem; ``slip`` holds unit vectors of sliding contacts, zeros at rest."""
     n = len(mu)
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n}, ("delassus", "contact"))
-    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     memory.scalars["n_active"] = n
     memory.array("active", n)[:] = np.arange(n)
     write_delassus(memory, np.asarray(delassus))
@@ -38,7 +38,7 @@ def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory
 
 def _solve(memory: Memory, n: int) -> tuple[bool, Any, Any]:
     """Return whether it was solved, forces and modes."""
-    found = call_room("solve_contact", memory) == 1
+    found = call_entry("solve_contact", memory) == 1
     return found, memory.array("f", 3 * n).reshape(n, 3).copy(), memory.array("mode_tried", n).copy()
 
 

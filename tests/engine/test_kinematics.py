@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Plate
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Motion
 from nonsmooth.model.assembly import assemble
@@ -99,7 +99,7 @@ def test_rates_and_bias_are_derivatives(
         state = np.concatenate([np.asarray(position) + dt * np.asarray(u[:3]), _turn(q0, u[3:], dt), u])
         memory.array("y", 13)[:] = state
         memory.scalars["t"] = time + dt
-        call_room("evaluate_at", memory)
+        call_entry("evaluate_at", memory)
         return model.gaps(), memory.array("rate", 3 * n).copy()
 
     u = np.concatenate([velocity, spin])

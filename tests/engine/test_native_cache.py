@@ -92,11 +92,11 @@ def test_what_is_damaged_is_not_loaded(
 
 _RUN = """
 import sys
-from nonsmooth.engine.native.kernel import room_addresses
-from nonsmooth.engine.memory.rooms import ROOMS
+from nonsmooth.engine.native.kernel import entry_addresses
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from numba.core import event
 with event.install_recorder("numba:run_pass") as passes:
-    assert len(room_addresses()) == len(ROOMS)
+    assert len(entry_addresses()) == len(ENTRY_POINTS)
 print(len(passes.buffer))
 """
 

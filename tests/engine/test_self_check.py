@@ -27,7 +27,7 @@ from bodies import (
 from bodies.contacts.plane.plane_point import evaluate_ball_over_plane
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, ContactKinematics, Joint, Shape
 from nonsmooth.interfaces.body import Vector
@@ -149,17 +149,17 @@ def test_contacts_that_nearly_repeat_each_other_move_nothing_far(angle: float) -
     system.contact(tilted, ball, **LAWS)
     system.place(ball, position=(RADIUS * np.tan(0.5 * angle), 0.0, RADIUS))
     memory = assemble(system, EventDriven()).memory
-    call_room("advance", memory, 0, 0)
+    call_entry("advance", memory, 0, 0)
     memory.array("mode", 2)[:] = 2
     y = memory.array("y", 7)
     y[2] -= 1e-12
     before = y.copy()
-    call_room("project_closed", memory, 1)
+    call_entry("project_closed", memory, 1)
     moved = np.linalg.norm((y - before)[:3])
     assert 1e-13 < moved < 1e-8
     assert np.linalg.norm(y[3:]) == pytest.approx(1.0, abs=1e-15)
     if angle == 1e-3:
-        call_room("evaluate_at", memory)
+        call_entry("evaluate_at", memory)
         assert np.abs(memory.array("geometry", 62)[::31]).max() < 1e-14
 
 

@@ -15,7 +15,7 @@ from nonsmooth import System
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.modes import NO_SLOT, STICK
 from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import call_room, room_addresses
+from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.delassus import read_delassus, write_delassus
@@ -44,7 +44,7 @@ def _row(n: int, order: Any, plate: bool) -> System:
 
 def _started(system: System) -> Memory:
     memory = assemble(system, EventDriven()).memory
-    call_room("advance", memory, 0, 0)
+    call_entry("advance", memory, 0, 0)
     return memory
 
 
@@ -66,8 +66,8 @@ def test_chain_costs_what_it_is_long(shuffled: bool) -> None:
     narrow = {}
     for n in (16, 64):
         memory = _started(_row(n, random.permutation(n) if shuffled else np.arange(n), False))
-        call_room("project_closed", memory, 1)
-        call_room("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0)
+        call_entry("project_closed", memory, 1)
+        call_entry("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0)
         narrow[n] = _sizes(memory)[2]
     assert narrow == {16: 1, 64: 1}
 
@@ -77,7 +77,7 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
     bands = []
     for n in (10, 20, 40):
         memory = _started(_row(n, np.random.default_rng(n).permutation(n), True))
-        call_room("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0)
+        call_entry("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0)
         m, blocks, half = _sizes(memory)
         assert memory.scalars["null_banded"][0] == 1
         # a contact with the plate meets up to two of the row, one of the row two with the plate and two of its own
@@ -89,7 +89,7 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
 def _memory(matrix: Any, bias: Any, mu: float, sliding: Any) -> Memory:
     n = len(bias) // 3
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n}, ("delassus", "contact"))
-    memory.array("rooms", len(room_addresses()))[:] = room_addresses()
+    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     memory.scalars["n_active"] = n
     memory.scalars["acceleration_scale"] = np.max(np.abs(bias))
     memory.array("active", n)[:] = np.arange(n)
@@ -136,7 +136,7 @@ def test_regular_band_is_solved(n: int, seed: int, mu: float) -> None:
     matrix, bias = jacobian @ jacobian.T, random.normal(size=3 * n)
     sliding = random.random(n) < 0.3
     memory = _memory(matrix, bias, mu, sliding)
-    call_room("resolve", memory)
+    call_entry("resolve", memory)
     assert int(memory.array("block_start", n + 1)[n]) == 3 * n - 2
     f = memory.array("f", 3 * n)
     held = np.ones(3 * n, bool)
@@ -159,7 +159,7 @@ def test_least_norm_in_a_band_is_that_of_the_pseudoinverse(n: int, share: float)
     bias = jacobian @ random.normal(size=6 * n)
     memories = [_memory(g, bias, 0.2, sliding) for g in (matrix, matrix + TINY)]
     for memory in memories:
-        call_room("resolve", memory)
+        call_entry("resolve", memory)
     assert [int(memory.scalars["null_banded"][0]) for memory in memories] == [1, 0]
     assert [int(memory.scalars["deficient"][0]) for memory in memories] == [1, 1]
     forces = [memory.array("f", 3 * m) for memory in memories]
@@ -188,7 +188,7 @@ def test_contact_problem_in_a_band_has_the_dense_motion(push: float) -> None:
     motions = []
     for g in (matrix, matrix + TINY):
         memory = _memory(g, jacobian @ free, 0.3, np.zeros(len(matrix) // 3, bool))
-        assert call_room("solve_contact", memory) == 1
+        assert call_entry("solve_contact", memory) == 1
         motions.append(matrix @ memory.array("f", len(matrix)) + jacobian @ free)
     np.testing.assert_allclose(motions[0], motions[1], rtol=0, atol=1e-8)
 
@@ -197,7 +197,7 @@ def test_too_many_blocks_end_the_run() -> None:
     """Without room for the blocks of an island the run ends with that reason, and nothing is written beyond them."""
     memory = assemble(_row(6, np.arange(6), False), EventDriven()).memory
     memory.scalars["n_slots"] = 2
-    assert call_room("advance", memory, 0, 0) == NO_SLOT
+    assert call_entry("advance", memory, 0, 0) == NO_SLOT
     assert memory.array("block_start", 6).tolist() == [0, 1, 2, 3, 4, 5]
 
 

@@ -12,7 +12,7 @@ from bodies import Ball, BoxBody, CapsuleBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import CAUSES
-from nonsmooth.engine.native.kernel import PLAIN, call_room
+from nonsmooth.engine.native.kernel import PLAIN, call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble
 
@@ -92,7 +92,7 @@ def test_closings_bring_to_rest_lose_energy_and_push_nothing_into_anything(kind:
             scale = max(kinetic[0], 1e-16)
             assert kinetic[1] <= kinetic[0] + 1e-9 * scale
             assert kinetic[0] - kinetic[1] == pytest.approx(events.closing_loss[e], abs=1e-6 * scale)
-            call_room("evaluate_at", model.memory)
+            call_entry("evaluate_at", model.memory)
             geometry = model.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
             rates = model.memory.array("rate", 3 * n).reshape(n, 3)[:, 0]
             # past the end of its features a gap has no rate

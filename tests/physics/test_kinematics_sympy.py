@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from bodies import Dumbbell, Harmonic
 from nonsmooth.engine.memory.blocks import FRAME
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble
 
@@ -227,7 +227,7 @@ def _model_at(build: Any, body: Dumbbell, motion: Harmonic, q: Any, rate: Any, t
     names = ("position", "orientation", "velocity", "angular_velocity")
     model.memory.array("y", 13)[:] = np.concatenate([start[n] for n in names])
     model.memory.scalars["t"] = time
-    call_room("evaluate_at", model.memory)
+    call_entry("evaluate_at", model.memory)
     return model
 
 

@@ -1,1 +1,1 @@
-"""Motion of bodies, linkages and contacts, and the search for those that come near."""
+"""Motion of bodies, articulations and contacts, and the search for those that come near."""

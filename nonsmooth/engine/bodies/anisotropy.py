@@ -8,10 +8,8 @@ stay what they are.  The geometry keeps its own tangents, of unit length; ``skew
 
 from __future__ import annotations
 
-import math
-
-from nonsmooth.engine.memory.blocks import ROTATION
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, contact_at, frame_at, kernel
+from nonsmooth.engine.numerics.vectors import Pair, Vector, dot, length
 
 _SIDE, _AXIS, _FORWARD, _BACKWARD, _ACROSS = 0, 1, 4, 5, 6
 """Where these numbers of the law stand: the body that it is fixed to, its axis, and its ratios."""
@@ -27,73 +25,76 @@ def _least(x: float, y: float, z: float) -> int:
     return 1 if abs(y) <= abs(z) else 2
 
 
-@kernel("void(S, F, I, i8, i8)")
-def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, tangents: int) -> None:
-    """Write the tangential rows of ``axes`` of contact ``c``, ``slip`` being known.
-
-    ``tangents`` says where the unit tangents stand, one after the other.
-    """
-    law, axis = k[S.axis + c], k[S.axis + c] + _AXIS
-    frame = k[S.frame_a + c] if w[law + _SIDE] == 0.0 else k[S.frame_b + c]
-    p1 = p2 = 0.0
-    for i in range(3):
-        r = frame + ROTATION + 3 * i
-        world = w[r] * w[axis] + w[r + 1] * w[axis + 1] + w[r + 2] * w[axis + 2]
-        p1 += world * w[tangents + i]
-        p2 += world * w[tangents + 3 + i]
-    length = math.sqrt(p1 * p1 + p2 * p2)
-    if length < _UPRIGHT:
+@kernel("void(S, F, I, i8, v3, v3)")
+def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, t1: Vector, t2: Vector) -> None:
+    """Write the tangential rows of ``axes`` of contact ``c``, the slip along the unit tangents being known."""
+    contact = contact_at(S, w, k, c)
+    law, axis = at(w, contact.axis), at(w, contact.axis + _AXIS)
+    rotation = frame_at(w, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
+    world = (
+        rotation[0] * axis[0] + rotation[1] * axis[1] + rotation[2] * axis[2],
+        rotation[3] * axis[0] + rotation[4] * axis[1] + rotation[5] * axis[2],
+        rotation[6] * axis[0] + rotation[7] * axis[1] + rotation[8] * axis[2],
+    )
+    p1, p2 = dot(world, t1), dot(world, t2)
+    size = length((p1, p2))
+    if size < _UPRIGHT:
         # another axis of the body in its place: a direction that turns with the body, whoever looks on
-        r = frame + ROTATION + _least(w[axis], w[axis + 1], w[axis + 2])
-        p1 = w[r] * w[tangents] + w[r + 3] * w[tangents + 1] + w[r + 6] * w[tangents + 2]
-        p2 = w[r] * w[tangents + 3] + w[r + 3] * w[tangents + 4] + w[r + 6] * w[tangents + 5]
-        length = math.sqrt(p1 * p1 + p2 * p2)
-    e1, e2 = p1 / length, p2 / length
-    v1, v2 = w[S.slip + 2 * c], w[S.slip + 2 * c + 1]
+        r = _least(axis[0], axis[1], axis[2])
+        world = rotation[r], rotation[r + 3], rotation[r + 6]
+        p1, p2 = dot(world, t1), dot(world, t2)
+        size = length((p1, p2))
+    e1, e2 = p1 / size, p2 / size
+    v1, v2 = contact.slip_of_tangents
     forward = e1 * v1 + e2 * v2
     if abs(forward) > S.velocity_tolerance:
-        k[S.facing + c] = 1 if forward > 0.0 else -1
-    along = w[law + _FORWARD] if k[S.facing + c] == 1 else w[law + _BACKWARD]
-    skew = S.skew + 4 * c
-    w[skew], w[skew + 1] = along * e1, along * e2
-    w[skew + 2], w[skew + 3] = -w[law + _ACROSS] * e2, w[law + _ACROSS] * e1
-    for r in range(2):
-        s1, s2 = w[skew + 2 * r], w[skew + 2 * r + 1]
-        for i in range(3):
-            w[S.axes + 9 * c + 3 + 3 * r + i] = s1 * w[tangents + i] + s2 * w[tangents + 3 + i]
+        contact.facing = 1 if forward > 0.0 else -1
+    along, across = law[_FORWARD] if contact.facing == 1 else law[_BACKWARD], law[_ACROSS]
+    contact.skew_1, contact.skew_2 = (along * e1, along * e2), (-across * e2, across * e1)
+    contact.axis_1 = _between(contact.skew_1, t1, t2)
+    contact.axis_2 = _between(contact.skew_2, t1, t2)
 
 
-@kernel("void(S, F, I, i8, i8)")
-def stretch_bias(S: Scalars, w: Floats, k: Integers, c: int, bias: int) -> None:
-    """Turn the tangential second-order terms at ``bias`` from the unit tangents to the rows."""
-    b1, b2, skew = w[bias + 1], w[bias + 2], S.skew + 4 * c
-    w[bias + 1] = w[skew] * b1 + w[skew + 1] * b2
-    w[bias + 2] = w[skew + 2] * b1 + w[skew + 3] * b2
+@kernel("v3(v2, v3, v3)")
+def _between(s: Pair, t1: Vector, t2: Vector) -> Vector:
+    return s[0] * t1[0] + s[1] * t2[0], s[0] * t1[1] + s[1] * t2[1], s[0] * t1[2] + s[1] * t2[2]
+
+
+@kernel("void(S, F, I, i8)")
+def stretch_bias(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+    """Turn the tangential second-order terms of contact ``c`` from the unit tangents to the rows."""
+    contact = contact_at(S, w, k, c)
+    b1, b2 = contact.bias[1], contact.bias[2]
+    (s11, s12), (s21, s22) = contact.skew_1, contact.skew_2
+    contact.bias[1], contact.bias[2] = s11 * b1 + s12 * b2, s21 * b1 + s22 * b2
 
 
 @kernel("void(S, F, I, i8, i8)")
 def unstretch_force(S: Scalars, w: Floats, k: Integers, c: int, force: int) -> None:
     """Turn the force or impulse at ``force`` from the rows to the unit tangents."""
-    f1, f2, skew = w[force + 1], w[force + 2], S.skew + 4 * c
-    w[force + 1] = w[skew] * f1 + w[skew + 2] * f2
-    w[force + 2] = w[skew + 1] * f1 + w[skew + 3] * f2
+    contact = contact_at(S, w, k, c)
+    f1, f2 = w[force + 1], w[force + 2]
+    (s11, s12), (s21, s22) = contact.skew_1, contact.skew_2
+    w[force + 1], w[force + 2] = s11 * f1 + s21 * f2, s12 * f1 + s22 * f2
 
 
 @kernel("f8(S, F, I, i8, f8)")
 def facing_force(S: Scalars, w: Floats, k: Integers, c: int, f1: float) -> float:
     """Return the first tangential force as it is along the row of the slip that it opposes."""
-    if k[S.oriented + c] == 0 or f1 * k[S.facing + c] <= 0.0:
+    contact = contact_at(S, w, k, c)
+    if contact.oriented == 0 or f1 * contact.facing <= 0.0:
         return f1
-    law = k[S.axis + c]
-    ratio = w[law + _FORWARD] / w[law + _BACKWARD]
-    return f1 * ratio if k[S.facing + c] == 1 else f1 / ratio
+    law = at(w, contact.axis)
+    ratio = law[_FORWARD] / law[_BACKWARD]
+    return f1 * ratio if contact.facing == 1 else f1 / ratio
 
 
 @kernel("i8(S, F, I, i8, f8)")
 def turn_facing(S: Scalars, w: Floats, k: Integers, c: int, f1: float) -> int:
     """Let contact ``c`` face against its first tangential force; return 1 if it did not."""
-    if k[S.oriented + c] == 0 or f1 * k[S.facing + c] <= 0.0:
+    contact = contact_at(S, w, k, c)
+    if contact.oriented == 0 or f1 * contact.facing <= 0.0:
         return 0
-    law = k[S.axis + c]
-    k[S.facing + c] = -k[S.facing + c]
-    return 1 if w[law + _FORWARD] != w[law + _BACKWARD] else 0
+    law = at(w, contact.axis)
+    contact.facing = -contact.facing
+    return 1 if law[_FORWARD] != law[_BACKWARD] else 0

@@ -11,7 +11,8 @@ from __future__ import annotations
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
 from nonsmooth.engine.memory.modes import NO_SLOT, NOT_FINITE, OPEN, RUNNING
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_pair, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_pair, kernel, pool_at, unit_at
+from nonsmooth.engine.numerics.vectors import dot, minus
 
 _WIDTH = len(CATALOGUE)
 _MODE, _CANDIDATE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
@@ -24,13 +25,13 @@ def is_empty(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     return 1 if candidate > 0 and w[candidate] == 0.0 else 0
 
 
-@kernel("i8(S, F, I, i8)")
-def _are_near(S: Scalars, w: Floats, k: Integers, pool: int) -> int:
-    one, two, square = k[S.pool_unit_a + pool], k[S.pool_unit_b + pool], 0.0
-    for i in range(3):
-        square += (w[S.unit_place + 3 * one + i] - w[S.unit_place + 3 * two + i]) ** 2
-    near = w[S.unit_radius + one] + w[S.unit_radius + two] + S.margin_of_list
-    return 1 if square <= near * near else 0
+@kernel("i8(S, F, I, i8, i8)")
+def are_near(S: Scalars, w: Floats, k: Integers, one: int, two: int) -> int:
+    """Return 1 if the balls of two units are nearer than the margin of the list."""
+    a, b = unit_at(S, w, k, one), unit_at(S, w, k, two)
+    way = minus(a.place, b.place)
+    near = a.radius + b.radius + S.margin_of_list
+    return 1 if dot(way, way) <= near * near else 0
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -47,26 +48,21 @@ def _keep(S: Scalars, w: Floats, k: Integers, declared: int, found: int, n: int)
             return
     if k[S.catalogue + _WIDTH * declared + _MODE] == OPEN:
         w[candidate] = 0.0
-        floats = S.catalogue_floats + CATALOGUE_FLOATS * declared
-        w[floats + DIRECTION], w[floats + DIRECTION + 1], w[floats + CLOSING_RATE] = 1.0, 0.0, 0.0
+        floats = at(w, S.catalogue_floats + CATALOGUE_FLOATS * declared)
+        floats[DIRECTION], floats[DIRECTION + 1], floats[CLOSING_RATE] = 1.0, 0.0, 0.0
 
 
 @kernel("i8(S, F, I)")
 def fill_pools(S: Scalars, w: Floats, k: Integers) -> int:
     """Put the features nearer than the margin into the contacts of their pools; return the status."""
-    for pool in range(S.n_pools):
-        out = k[S.pool_out + pool]
+    for number in range(S.n_pools):
+        pool = pool_at(S, w, k, number)
+        out, first, contacts = pool.out, pool.first, pool.contacts
         found, n = out + 1, 0
-        first, contacts = k[S.pool_first + pool], k[S.pool_contacts + pool]
-        if _are_near(S, w, k, pool) == 1:
+        if are_near(S, w, k, pool.unit_a, pool.unit_b) == 1:
             w[out] = S.margin_of_list
-            call_pair(
-                k[S.pool_function + pool],
-                at(w, k[S.unit_frame + k[S.pool_unit_a + pool]]),
-                at(w, k[S.unit_frame + k[S.pool_unit_b + pool]]),
-                at(w, k[S.pool_parameters + pool]),
-                at(w, out),
-            )
+            frame_a, frame_b = unit_at(S, w, k, pool.unit_a).frame, unit_at(S, w, k, pool.unit_b).frame
+            call_pair(pool.function, at(w, frame_a), at(w, frame_b), at(w, pool.parameters), at(w, out))
             if not w[out] >= 0.0:
                 return NOT_FINITE
             n = int(w[out])

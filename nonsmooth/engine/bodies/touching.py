@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import evaluate_compliant_force, refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates
-from nonsmooth.engine.memory.blocks import GAP, PAST_END
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
+from nonsmooth.engine.numerics.vectors import length
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def touch(S: Scalars, w: Floats, k: Integers) -> int:
     """Find and evaluate the touching contacts; return 1 if one of them approaches."""
     evaluate_bodies(S, w, k, S.t, S.y)
@@ -24,14 +22,14 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
         evaluate_geometry(S, w, k, c)
         evaluate_rates(S, w, k, c)
         rate = contact.rate[0]
-        if contact.geometry[PAST_END] > S.gap_tolerance and contact.geometry[GAP] > 0.0:
+        if contact.beyond > S.gap_tolerance and contact.gap > 0.0:
             contact.touching = 0
             continue
         if contact.normal_function != 0:
             _touch_compliant(S, w, k, c)
             continue
         near = max(S.gap_tolerance, S.time_tolerance * abs(rate))
-        if contact.mode == OPEN and contact.geometry[GAP] > near:
+        if contact.mode == OPEN and contact.gap > near:
             contact.touching = 0
             continue
         evaluate_contact(S, w, k, c, 3)
@@ -44,7 +42,7 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
 def _touch_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Find whether the compliant contact ``c`` touches, and evaluate it; it does not collide."""
     contact = contact_at(S, w, k, c)
-    gap, rate = contact.geometry[GAP], contact.rate[0]
+    gap, rate = contact.gap, contact.rate[0]
     end = 0.0 if contact.mode == OPEN else contact.reach
     slow = rate <= S.velocity_tolerance
     if gap > end + S.gap_tolerance or (gap > end - S.gap_tolerance and not slow):
@@ -57,6 +55,4 @@ def _touch_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> None:
 @kernel("f8(S, F, I, i8)")
 def slip_speed(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the slip speed of contact ``c`` [m/s]."""
-    contact = contact_at(S, w, k, c)
-    v1, v2 = contact.rate[1], contact.rate[2]
-    return math.sqrt(v1 * v1 + v2 * v2)
+    return length(contact_at(S, w, k, c).slip)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.contact.components import contact_of
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
 from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, project_on_null
+from nonsmooth.engine.numerics.vectors import length
 
 _STEPS = 60
 _NO_GAIN = 1e-9
@@ -20,25 +19,27 @@ _CHEAP = 1e-7
 """the Hessian counts by this, relative to H."""
 
 
-@kernel("f8(S, F, i8, i8)")
-def _disc_excess(S: Scalars, w: Floats, i: int, a: int) -> float:
+@kernel("f8(S, F, I, i8, i8)")
+def _disc_excess(S: Scalars, w: Floats, k: Integers, i: int, a: int) -> float:
     """Write the friction of a contact with a given normal force less its projection on the disc; return its square."""
-    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
-    bound, length = w[S.mu_static + a] * w[S.f + 3 * a], math.sqrt(t1 * t1 + t2 * t2)
-    out = max(0.0, length - bound)
+    active = active_at(S, w, k, a)
+    t1, t2 = active.friction
+    bound, size = active.mu_static * active.normal_force, length(active.friction)
+    out = max(0.0, size - bound)
     w[S.right + i] = w[S.right + i + 1] = 0.0
     if out > 0.0:
-        w[S.right + i], w[S.right + i + 1] = out * t1 / length, out * t2 / length
-    return out * out
+        w[S.right + i], w[S.right + i + 1] = out * t1 / size, out * t2 / size
+    return float(out * out)
 
 
-@kernel("void(S, F, i8, i8, i8, i8, f8)")
-def _add_disc_curve(S: Scalars, w: Floats, i: int, a: int, line1: int, line2: int, factor: float) -> None:
+@kernel("void(S, F, I, i8, i8, i8, i8, f8)")
+def _add_disc_curve(S: Scalars, w: Floats, k: Integers, i: int, a: int, line1: int, line2: int, factor: float) -> None:
     """Add the Hessian of the half square of what :func:`_disc_excess` writes."""
-    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
-    bound, length = w[S.mu_static + a] * w[S.f + 3 * a], math.sqrt(t1 * t1 + t2 * t2)
-    if length > bound:
-        c1, c2, round_ = t1 / length, t2 / length, 1.0 - bound / length
+    active = active_at(S, w, k, a)
+    t1, t2 = active.friction
+    bound, size = active.mu_static * active.normal_force, length(active.friction)
+    if size > bound:
+        c1, c2, round_ = t1 / size, t2 / size, 1.0 - bound / size
         w[line1 + i] += factor * (c1 * c1 + round_ * c2 * c2)
         w[line2 + i + 1] += factor * (c2 * c2 + round_ * c1 * c1)
         w[line1 + i + 1] += factor * (1.0 - round_) * c1 * c2
@@ -52,22 +53,23 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
     for i in range(n):
         line = k[S.column + i]
         a = contact_of(line)
-        if line == 3 * a + 1 and k[S.normal_held + a] == 0:
-            square += _disc_excess(S, w, i, a)
+        active = active_at(S, w, k, a)
+        if line == 3 * a + 1 and active.normal_held == 0:
+            square += _disc_excess(S, w, k, i, a)
         if line != 3 * a:
             continue
-        normal = w[S.f + line] - inset * k[S.redundant + a]
+        normal = active.normal_force - inset * active.redundant
         w[S.right + i] = min(0.0, normal)
-        if k[S.tangent_held + a] == 1:
-            t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
-            mu, length = w[S.mu_static + a], math.sqrt(t1 * t1 + t2 * t2)
+        if active.tangent_held == 1:
+            t1, t2 = active.friction
+            mu, size = active.mu_static, length(active.friction)
             w[S.right + i + 1] = w[S.right + i + 2] = 0.0
-            if mu * length <= -normal:
+            if mu * size <= -normal:
                 w[S.right + i + 1], w[S.right + i + 2] = t1, t2
-            elif length > mu * normal:
-                out = (length - mu * normal) / (1.0 + mu * mu)
+            elif size > mu * normal:
+                out = (size - mu * normal) / (1.0 + mu * mu)
                 w[S.right + i] = -mu * out
-                w[S.right + i + 1], w[S.right + i + 2] = out * t1 / length, out * t2 / length
+                w[S.right + i + 1], w[S.right + i + 2] = out * t1 / size, out * t2 / size
             else:
                 w[S.right + i] = 0.0
             square += w[S.right + i + 1] ** 2 + w[S.right + i + 2] ** 2
@@ -81,25 +83,26 @@ def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: in
     for i in range(n):
         line = k[S.column + i]
         a = contact_of(line)
-        if line == 3 * a + 1 and k[S.normal_held + a] == 0:
-            _add_disc_curve(S, w, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
+        active = active_at(S, w, k, a)
+        if line == 3 * a + 1 and active.normal_held == 0:
+            _add_disc_curve(S, w, k, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
         if line != 3 * a:
             continue
-        normal, h = w[S.f + line] - inset * k[S.redundant + a], band_row(matrix, i, n, half) + i
-        if k[S.tangent_held + a] == 0:
+        normal, h = active.normal_force - inset * active.redundant, band_row(matrix, i, n, half) + i
+        if active.tangent_held == 0:
             w[h] += factor if normal < 0.0 else 0.0
             continue
         h1, h2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
-        t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
-        mu, length = w[S.mu_static + a], math.sqrt(t1 * t1 + t2 * t2)
-        if mu * length <= -normal:
+        t1, t2 = active.friction
+        mu, size = active.mu_static, length(active.friction)
+        if mu * size <= -normal:
             w[h] += factor
             w[h1 + 1] += factor
             w[h2 + 2] += factor
-        elif length > mu * normal:
+        elif size > mu * normal:
             s = (1.0 + mu * mu) / factor
-            c1, c2 = t1 / length, t2 / length
-            round_ = (length - mu * normal) / (s * length)
+            c1, c2 = t1 / size, t2 / size
+            round_ = (size - mu * normal) / (s * size)
             w[h] += mu * mu / s
             w[h + 1] -= mu * c1 / s
             w[h + 2] -= mu * c2 / s
@@ -163,7 +166,7 @@ def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> i
     return 1
 
 
-@room("i8(S, F, I, f8, f8)")
+@entry_point("i8(S, F, I, f8, f8)")
 def distribute(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 

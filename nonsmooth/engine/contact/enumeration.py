@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.contact.cone import gauss_seidel
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.trial import hold_tried, verify
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import MOST_ENUMERATED
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.vectors import length
 
 _SWEEPS = 100
 _ENDLESS = 1e30
@@ -21,11 +20,12 @@ _ENDLESS = 1e30
 def _lay_modes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
     """Write the modes that the digits of ``number`` to base 3 mean; return 1 if they make sense."""
     for a in range(S.n_active):
+        active = active_at(S, w, k, a)
         choice = number % 3
         number //= 3
         mode = STICK if choice == 0 else (SLIDE if choice == 1 else OPEN)
-        k[S.mode_tried + a] = mode
-        if mode == STICK and k[S.at_rest + a] == 0:
+        active.mode_tried = mode
+        if mode == STICK and active.at_rest == 0:
             return 0
     return 1
 
@@ -35,25 +35,28 @@ def _start_slips(S: Scalars, w: Floats, k: Integers) -> int:
     """Point the incipient slips along the accelerations without their friction; return how many there are."""
     count = 0
     for a in range(S.n_active):
-        if k[S.at_rest + a] == 1 and k[S.mode_tried + a] == SLIDE:
+        active = active_at(S, w, k, a)
+        if active.at_rest == 1 and active.mode_tried == SLIDE:
             count += 1
     if count == 0:
         return 0
     for a in range(S.n_active):
-        w[S.mu_kept + a] = w[S.mu + a]
-        if k[S.at_rest + a] == 1:
-            w[S.mu + a] = 0.0
+        active = active_at(S, w, k, a)
+        active.mu_kept = active.mu
+        if active.at_rest == 1:
+            active.mu = 0.0
     hold_tried(S, w, k)
     for a in range(S.n_active):
-        w[S.mu + a] = w[S.mu_kept + a]
+        active = active_at(S, w, k, a)
+        active.mu = active.mu_kept
     for a in range(S.n_active):
-        if k[S.at_rest + a] == 0 or k[S.mode_tried + a] != SLIDE:
+        active = active_at(S, w, k, a)
+        if active.at_rest == 0 or active.mode_tried != SLIDE:
             continue
-        a1 = add_product(S, w, k, w[S.b + 3 * a + 1], a, 1, S.f)
-        a2 = add_product(S, w, k, w[S.b + 3 * a + 2], a, 2, S.f)
-        norm = math.sqrt(a1 * a1 + a2 * a2)
-        w[S.d + 2 * a] = a1 / norm if norm > 0.0 else 1.0
-        w[S.d + 2 * a + 1] = a2 / norm if norm > 0.0 else 0.0
+        a1 = add_product(S, w, k, active.free[1], a, 1, S.f)
+        a2 = add_product(S, w, k, active.free[2], a, 2, S.f)
+        norm = length((a1, a2))
+        active.direction = a1 / norm if norm > 0.0 else 1.0, a2 / norm if norm > 0.0 else 0.0
     return count
 
 
@@ -61,18 +64,20 @@ def _start_slips(S: Scalars, w: Floats, k: Integers) -> int:
 def _sweep_slips(S: Scalars, w: Floats, k: Integers) -> None:
     """Point the incipient slips by sweeps with the modes held: Newton's method may have gone to a slip backwards."""
     for a in range(S.n_active):
-        mode = k[S.mode_tried + a]
-        k[S.normal_held + a] = 0 if mode == OPEN else 1
-        w[S.static_kept + a] = w[S.mu_static + a]
-        w[S.mu_static + a] = _ENDLESS if mode == STICK else 0.0
+        active = active_at(S, w, k, a)
+        mode = active.mode_tried
+        active.normal_held = 0 if mode == OPEN else 1
+        active.static_kept = active.mu_static
+        active.mu_static = _ENDLESS if mode == STICK else 0.0
         for r in range(3):
-            w[S.f + 3 * a + r] = 0.0
+            active.force[r] = 0.0
     gauss_seidel(S, w, k, _SWEEPS)
     for a in range(S.n_active):
-        w[S.mu_static + a] = w[S.static_kept + a]
+        active = active_at(S, w, k, a)
+        active.mu_static = active.static_kept
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def enumerate_modes(S: Scalars, w: Floats, k: Integers, first: int) -> int:
     """Try every combination of modes from number ``first`` on; return the number behind the first verified, or 0.
 

@@ -7,11 +7,9 @@ tangential force is either unknown (``tangent_held``: sticking) or follows the s
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.contact.components import contact_of
 from nonsmooth.engine.delassus.delassus import add_product, own_block
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import (
@@ -23,6 +21,7 @@ from nonsmooth.engine.numerics.linear import (
     rank_of_semidefinite,
 )
 from nonsmooth.engine.numerics.null_band import least_norm_in_band
+from nonsmooth.engine.numerics.vectors import length
 
 _DOUBTFUL = 1e-5
 """A pivot below this part of the largest entry may be that of contacts of which one is redundant."""
@@ -32,7 +31,7 @@ DEAR = 500
 """Elementary operations that count as one evaluation of a contact."""
 
 
-@room()
+@entry_point()
 def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     """Complete ``f``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)
@@ -40,50 +39,54 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     if open_band(S, w, k, n, S.reduced) == 0:
         return
     for a in range(S.n_active):
-        for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+        active = active_at(S, w, k, a)
+        for i in range(active.first_unknown, active.end_unknown):
             _lay_row(S, w, k, a, i, n)
     if solve_unknowns(S, w, k, n) == 0:
         for a in range(S.n_active):
-            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+            active = active_at(S, w, k, a)
+            for i in range(active.first_unknown, active.end_unknown):
                 _lay_held_row(S, w, k, a, i, n)
         solve_doubtful(S, w, k, n)
     for i in range(n):
         w[S.f + k[S.column + i]] = w[S.x + i]
     for a in range(S.n_active):
-        if k[S.normal_held + a] == 1 and k[S.tangent_held + a] == 0:
-            friction_of_slip(S, w, a)
+        active = active_at(S, w, k, a)
+        if active.normal_held == 1 and active.tangent_held == 0:
+            friction_of_slip(S, w, k, a)
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
 def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
+    active = active_at(S, w, k, a)
     r = k[S.column + i] - 3 * a
-    w[S.right + i] = -add_product(S, w, k, w[S.b + 3 * a + r], a, r, S.f)
+    w[S.right + i] = -add_product(S, w, k, active.free[r], a, r, S.f)
     line = band_row(S.reduced, i, n, S.half_band)
-    row = S.block_start + S.first_grouped + a
-    for block in range(k[row], k[row + 1]):
-        d = k[S.block_column + block]
-        g = S.delassus + 9 * block + 3 * r
-        out = line + k[S.first_unknown + d]
-        if k[S.normal_held + d] == 1:
-            w[out] = w[g]
-            if k[S.tangent_held + d] == 0:
+    for block in range(active.first_block, active.end_block):
+        pushing = active_at(S, w, k, k[S.block_column + block])
+        g = at(w, S.delassus + 9 * block + 3 * r)
+        out = line + pushing.first_unknown
+        if pushing.normal_held == 1:
+            w[out] = g[0]
+            if pushing.tangent_held == 0:
                 # the friction of a sliding contact moves with its normal force
-                w[out] -= w[S.mu + d] * (w[S.d + 2 * d] * w[g + 1] + w[S.d + 2 * d + 1] * w[g + 2])
+                w[out] -= pushing.mu * (pushing.direction[0] * g[1] + pushing.direction[1] * g[2])
             out += 1
-        if k[S.tangent_held + d] == 1:
-            w[out], w[out + 1] = w[g + 1], w[g + 2]
+        if pushing.tangent_held == 1:
+            w[out], w[out + 1] = g[1], g[2]
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
 def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without the friction of sliding contacts to ``matrix``."""
+    active = active_at(S, w, k, a)
     r = k[S.column + i] - 3 * a
     line = band_row(S.matrix, i, n, S.half_band)
-    row = S.block_start + S.first_grouped + a
-    for block in range(k[row], k[row + 1]):
+    for block in range(active.first_block, active.end_block):
         d = k[S.block_column + block]
-        for j in range(k[S.first_unknown + d], k[S.first_unknown + d + 1]):
+        pushing = active_at(S, w, k, d)
+        for j in range(pushing.first_unknown, pushing.end_unknown):
             w[line + j] = w[S.delassus + 9 * block + 3 * r + k[S.column + j] - 3 * d]
 
 
@@ -125,9 +128,8 @@ def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     else:
         _least_norm(S, w, n, rank)
     for i in range(n):
-        a = contact_of(k[S.column + i])
         if null_entry(S, w, i, i) > _COUPLED:
-            k[S.redundant + a] = 1
+            active_at(S, w, k, contact_of(k[S.column + i])).redundant = 1
 
 
 @kernel("void(S, F, i8, i8)")
@@ -169,36 +171,37 @@ def _collect(S: Scalars, w: Floats, k: Integers) -> int:
     """List the unknown components and write the given ones; return how many are unknown."""
     n = 0
     for a in range(S.n_active):
-        k[S.redundant + a] = 0
-        k[S.first_unknown + a] = n
-        if k[S.normal_held + a] == 1:
+        active = active_at(S, w, k, a)
+        active.redundant = 0
+        active.first_unknown = n
+        if active.normal_held == 1:
             k[S.column + n] = 3 * a
             n += 1
-            w[S.f + 3 * a] = 0.0
-        w[S.f + 3 * a + 1] = 0.0
-        w[S.f + 3 * a + 2] = 0.0
-        if k[S.tangent_held + a] == 1:
+            active.normal_force = 0.0
+        active.friction = 0.0, 0.0
+        if active.tangent_held == 1:
             k[S.column + n] = 3 * a + 1
             k[S.column + n + 1] = 3 * a + 2
             n += 2
         else:
-            friction_of_slip(S, w, a)
+            friction_of_slip(S, w, k, a)
     k[S.first_unknown + S.n_active] = n
     return n
 
 
-@kernel("void(S, F, i8)")
-def friction_of_slip(S: Scalars, w: Floats, a: int) -> None:
+@kernel("void(S, F, I, i8)")
+def friction_of_slip(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write the friction of the sliding active contact ``a``, -mu f_N d."""
-    w[S.f + 3 * a + 1] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a]
-    w[S.f + 3 * a + 2] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + 1]
+    active = active_at(S, w, k, a)
+    pull = -active.mu * active.normal_force
+    active.friction = pull * active.direction[0], pull * active.direction[1]
 
 
 @kernel("f8(S, F, I, i8)")
 def reduced_coefficient(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
-    g = own_block(S, k, a)
-    return float(w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2]))
+    active, own = active_at(S, w, k, a), own_block(S, w, k, a)
+    return float(own.nn - active.mu * (active.direction[0] * own.n1 + active.direction[1] * own.n2))
 
 
 @kernel()
@@ -209,26 +212,28 @@ def evaluate_margins(S: Scalars, w: Floats, k: Integers) -> None:
     and the plain bound for the part of its force that is unique.
     """
     for a in range(S.n_active):
-        if k[S.tangent_held + a] == 0:
-            w[S.margin + a] = 0.0
+        active = active_at(S, w, k, a)
+        if active.tangent_held == 0:
+            active.margin = 0.0
             continue
-        t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
-        if k[S.redundant + a] == 1:
+        if active.redundant == 1:
             _group_margin(S, w, k, a)
         else:
-            w[S.margin + a] = w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2)
+            active.margin = active.mu_static * active.normal_force - length(active.friction)
 
 
 @kernel("void(S, F, I, i8)")
 def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
-    own = k[S.first_unknown + a] + k[S.normal_held + a]
+    active = active_at(S, w, k, a)
+    own = active.first_unknown + active.normal_held
     first, end = 0, S.n_unknown - 1
     if S.null_banded == 1:
         first, end = max(0, own - S.null_half), min(end, own + S.null_half)
     bound = sum1 = sum2 = 0.0
     for i in range(first, end):
         other = contact_of(k[S.column + i])
-        if k[S.column + i] != 3 * other + 1 or k[S.redundant + other] == 0:
+        sharing = active_at(S, w, k, other)
+        if k[S.column + i] != 3 * other + 1 or sharing.redundant == 0:
             continue
         coupling = (
             abs(null_entry(S, w, own, i))
@@ -237,19 +242,19 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
             + abs(null_entry(S, w, own + 1, i + 1))
         )
         if coupling > _COUPLED or other == a:
-            bound += w[S.mu_static + other] * w[S.f + 3 * other]
-            sum1 += w[S.f + 3 * other + 1]
-            sum2 += w[S.f + 3 * other + 2]
-    group = bound - math.sqrt(sum1 * sum1 + sum2 * sum2)
+            bound += sharing.mu_static * sharing.normal_force
+            sum1 += sharing.friction[0]
+            sum2 += sharing.friction[1]
+    group = bound - length((sum1, sum2))
     # the part of the force orthogonal to this contact's share of the null space
     p11, p12 = null_entry(S, w, own, own), null_entry(S, w, own, own + 1)
     p22 = null_entry(S, w, own + 1, own + 1)
-    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
+    t1, t2 = active.friction
     unique = 0.0
     if p11 * p22 - p12 * p12 < _COUPLED * (p11 + p22) * (p11 + p22):
         if p11 >= p22:
             e1, e2 = p11, p12
         else:
             e1, e2 = p12, p22
-        unique = abs(e1 * t2 - e2 * t1) / math.sqrt(e1 * e1 + e2 * e2)
-    w[S.margin + a] = min(group, w[S.mu_static + a] * w[S.f + 3 * a] - unique)
+        unique = abs(e1 * t2 - e2 * t1) / length((e1, e2))
+    active.margin = min(group, active.mu_static * active.normal_force - unique)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.contact.cone import gauss_seidel
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel
 
 STAGES = 3
 SWEEPS = 20
@@ -14,8 +14,9 @@ SWEEPS = 20
 def sweep(S: Scalars, w: Floats, k: Integers, sweeps: int) -> int:
     """Improve the forces by some sweeps; return 1 if they have settled."""
     for a in range(S.n_active):
-        k[S.normal_held + a] = 1
-        k[S.tangent_held + a] = 0
+        active = active_at(S, w, k, a)
+        active.normal_held = 1
+        active.tangent_held = 0
     return gauss_seidel(S, w, k, sweeps)
 
 

@@ -13,7 +13,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_respon
 from nonsmooth.engine.contact.forces import friction_of_slip, solve_doubtful, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import band_row
 
@@ -21,45 +21,46 @@ from nonsmooth.engine.numerics.linear import band_row
 @kernel("void(S, F, I, i8)")
 def lay_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write rows and columns of the active contact ``a``: Jacobian rows 0 to 2, or 0 and that of the column, 1."""
-    c = k[S.active + a]
-    axes = S.axes + 9 * c
-    if k[S.tangent_held + a] == 1:
+    active = active_at(S, w, k, a)
+    c = active.slot
+    contact = contact_at(S, w, k, c)
+    n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
+    if active.tangent_held == 1:
+        evaluate_row(S, w, k, c, 0, n)
+        evaluate_row(S, w, k, c, 1, t1)
+        evaluate_row(S, w, k, c, 2, t2)
         for r in range(3):
-            evaluate_row(S, w, k, c, r, w[axes + 3 * r], w[axes + 3 * r + 1], w[axes + 3 * r + 2])
             evaluate_row_response(S, w, k, c, r, r)
         return
-    if k[S.normal_held + a] == 0:
-        lay_wrench(S, w, k, c, S.f + 3 * a)
+    if active.normal_held == 0:
+        lay_wrench(S, w, k, c, active.force)
         return
-    m1, m2 = w[S.mu + a] * w[S.d + 2 * a], w[S.mu + a] * w[S.d + 2 * a + 1]
-    evaluate_row(S, w, k, c, 0, w[axes], w[axes + 1], w[axes + 2])
-    evaluate_row(
-        S,
-        w,
-        k,
-        c,
-        1,
-        w[axes] - m1 * w[axes + 3] - m2 * w[axes + 6],
-        w[axes + 1] - m1 * w[axes + 4] - m2 * w[axes + 7],
-        w[axes + 2] - m1 * w[axes + 5] - m2 * w[axes + 8],
+    m1, m2 = active.mu * active.direction[0], active.mu * active.direction[1]
+    push = (
+        n[0] - m1 * t1[0] - m2 * t2[0],
+        n[1] - m1 * t1[1] - m2 * t2[1],
+        n[2] - m1 * t1[2] - m2 * t2[2],
     )
+    evaluate_row(S, w, k, c, 0, n)
+    evaluate_row(S, w, k, c, 1, push)
     evaluate_row_response(S, w, k, c, 1, 0)
 
 
 @kernel("f8(S, F, I, i8, i8, i8, i8)")
 def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int) -> float:
     """Return what a unit force in column ``s`` of contact ``d`` does to row ``r`` of contact ``c``."""
+    contact, pushing = contact_at(S, w, k, c), contact_at(S, w, k, d)
     total = 0.0
     for side in range(2):
-        linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-        n_u = k[S.linkage_nu + linkage]
-        jacobian = (k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]) + r * n_u
-        if n_u > 0 and k[S.linkage_a + d] == linkage:
+        articulation = contact.articulation_a if side == 0 else contact.articulation_b
+        n_u = articulation_at(S, w, k, articulation).nu
+        jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
+        if n_u > 0 and pushing.articulation_a == articulation:
             for i in range(n_u):
-                total += w[jacobian + i] * w[k[S.response_a + d] + s * n_u + i]
-        if n_u > 0 and k[S.linkage_b + d] == linkage:
+                total += w[jacobian + i] * w[pushing.response_a + s * n_u + i]
+        if n_u > 0 and pushing.articulation_b == articulation:
             for i in range(n_u):
-                total += w[jacobian + i] * w[k[S.response_b + d] + s * n_u + i]
+                total += w[jacobian + i] * w[pushing.response_b + s * n_u + i]
     return total
 
 
@@ -68,9 +69,10 @@ def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
     """List the rows of the active contacts; return how many there are."""
     n = 0
     for a in range(S.n_active):
-        k[S.redundant + a] = 0
-        k[S.first_unknown + a] = n
-        for r in range(1 - k[S.normal_held + a], 1 + 2 * k[S.tangent_held + a]):
+        active = active_at(S, w, k, a)
+        active.redundant = 0
+        active.first_unknown = n
+        for r in range(1 - active.normal_held, 1 + 2 * active.tangent_held):
             k[S.column + n] = 3 * a + r
             n += 1
     k[S.first_unknown + S.n_active] = n
@@ -80,45 +82,48 @@ def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("void(S, F, I, i8, i8, i8)")
 def _reduce(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write row ``i`` of the reduced matrix, one of contact ``a``, and what it lacks to vanish without forces."""
-    c, r = k[S.active + a], k[S.column + i] - 3 * a
-    w[S.right + i] = -w[S.bias + 3 * c + r] - row(S, w, k, c, r, S.du)
+    active = active_at(S, w, k, a)
+    c, r = active.slot, k[S.column + i] - 3 * a
+    contact = contact_at(S, w, k, c)
+    w[S.right + i] = -contact.bias[r] - row(S, w, k, c, r, S.du)
     line = band_row(S.reduced, i, n, S.half_band)
-    blocks = S.block_start + S.first_grouped + a
-    for block in range(k[blocks], k[blocks + 1]):
+    for block in range(active.first_block, active.end_block):
         other = k[S.block_column + block]
-        first = k[S.first_unknown + other]
-        for s in range(k[S.first_unknown + other + 1] - first):
-            w[line + first + s] = _coupling(S, w, k, c, r, k[S.active + other], k[S.column + first + s] - 3 * other)
+        pushing = active_at(S, w, k, other)
+        for j in range(pushing.first_unknown, pushing.end_unknown):
+            w[line + j] = _coupling(S, w, k, c, r, pushing.slot, k[S.column + j] - 3 * other)
     # a sliding contact on which more force gives more approach
-    if r == 0 and k[S.mode + c] == SLIDE and w[line + i] <= 0.0:
+    if r == 0 and contact.mode == SLIDE and w[line + i] <= 0.0:
         S.singular = c
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
 def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without friction to ``matrix``, response 1 of slips being that."""
-    c, r = k[S.active + a], k[S.column + i] - 3 * a
+    active = active_at(S, w, k, a)
+    c, r = active.slot, k[S.column + i] - 3 * a
     line = band_row(S.matrix, i, n, S.half_band)
-    blocks = S.block_start + S.first_grouped + a
-    for block in range(k[blocks], k[blocks + 1]):
+    for block in range(active.first_block, active.end_block):
         other = k[S.block_column + block]
-        first, sticks = k[S.first_unknown + other], k[S.tangent_held + other]
-        for s in range(k[S.first_unknown + other + 1] - first):
-            column = k[S.column + first + s] - 3 * other
-            w[line + first + s] = _coupling(S, w, k, c, r, k[S.active + other], column + 1 - sticks)
+        pushing = active_at(S, w, k, other)
+        for j in range(pushing.first_unknown, pushing.end_unknown):
+            column = k[S.column + j] - 3 * other + 1 - pushing.tangent_held
+            w[line + j] = _coupling(S, w, k, c, r, pushing.slot, column)
 
 
 @kernel()
 def _push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
     """Add to ``du`` what the active compliant contacts are known to do, and note the powers."""
     for a in range(S.n_active):
-        if k[S.normal_held + a] == 1:
+        active = active_at(S, w, k, a)
+        if active.normal_held == 1:
             continue
-        c, sticks = k[S.active + a], k[S.tangent_held + a]
-        force = w[S.f + 3 * a] if sticks == 1 else 1.0
+        c, sticks = active.slot, active.tangent_held
+        contact = contact_at(S, w, k, c)
+        force = active.normal_force if sticks == 1 else 1.0
         push_response(S, w, k, c, 0, force, S.du)
-        S.driven_power += force * row(S, w, k, c, 1 - sticks, S.own) - w[S.turned + c]
-        S.load_power += w[S.f + 3 * a] * w[S.rate + 3 * c]
+        S.driven_power += force * row(S, w, k, c, 1 - sticks, S.own) - contact.turned
+        S.load_power += active.normal_force * contact.rate[0]
 
 
 @kernel("i8(S, F, I)")
@@ -128,14 +133,17 @@ def _solve_held(S: Scalars, w: Floats, k: Integers) -> int:
     if open_band(S, w, k, n, S.reduced) == 0:
         return 0
     for a in range(S.n_active):
-        for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+        active = active_at(S, w, k, a)
+        for i in range(active.first_unknown, active.end_unknown):
             _reduce(S, w, k, a, i, n)
     if solve_unknowns(S, w, k, n) == 0:
         for a in range(S.n_active):
-            if k[S.tangent_held + a] == 0 and k[S.normal_held + a] == 1:
-                evaluate_row_response(S, w, k, k[S.active + a], 0, 1)
+            active = active_at(S, w, k, a)
+            if active.tangent_held == 0 and active.normal_held == 1:
+                evaluate_row_response(S, w, k, active.slot, 0, 1)
         for a in range(S.n_active):
-            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+            active = active_at(S, w, k, a)
+            for i in range(active.first_unknown, active.end_unknown):
                 _lay_held_row(S, w, k, a, i, n)
         solve_doubtful(S, w, k, n)
     return 1
@@ -157,16 +165,18 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
             keeps = choose_null_space_force(S, w, k)
         add_null_space_force(S, w, k)
     for a in range(S.n_active):
-        c = k[S.active + a]
-        sticks = k[S.tangent_held + a]
-        for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+        active = active_at(S, w, k, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        sticks = active.tangent_held
+        for i in range(active.first_unknown, active.end_unknown):
             r, force = k[S.column + i] - 3 * a, w[S.x + i]
-            w[S.f + 3 * a + r] = force
+            active.force[r] = force
             push_response(S, w, k, c, r, force, S.du)
             # the power of what the coordinates do not move: that of the force less that on them
             S.driven_power += force * row(S, w, k, c, r + 1 - sticks, S.own)
-        if sticks == 0 and k[S.normal_held + a] == 1:
-            friction_of_slip(S, w, a)
+        if sticks == 0 and active.normal_held == 1:
+            friction_of_slip(S, w, k, a)
         for r in range(3):
-            S.driven_power -= w[S.f + 3 * a + r] * w[S.rate + 3 * c + r]
+            S.driven_power -= active.force[r] * contact.rate[r]
     return keeps

@@ -7,8 +7,6 @@ accelerations without forces that is the problem of incipient slip, and stopping
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.polish import polish
@@ -16,7 +14,8 @@ from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.memory.modes import SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.numerics.vectors import length
 
 _INCIPIENT = 1e-300
 
@@ -24,22 +23,20 @@ _INCIPIENT = 1e-300
 @kernel("void(S, F, I, i8)")
 def _lay(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write acceleration without forces, coefficients, mode and slip direction of active contact ``a``."""
-    c = k[S.active + a]
+    active = active_at(S, w, k, a)
+    c = active.slot
     contact = contact_at(S, w, k, c)
-    v1, v2 = contact.rate[1], contact.rate[2]
-    speed = math.sqrt(v1 * v1 + v2 * v2)
-    w[S.turned + c] = 0.0
-    w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
-    w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
-    k[S.mode_tried + a] = contact.mode
-    k[S.at_rest + a] = 1 if w[S.mu + a] > 0.0 else 0
-    for i in range(2):
-        w[S.d + 2 * a + i] = contact.direction[i]
+    contact.turned = 0.0
+    active.mu_static = friction_coefficient(S, w, k, c, 0.0)
+    active.mu = friction_coefficient(S, w, k, c, max(length(contact.slip), _INCIPIENT))
+    active.mode_tried = contact.mode
+    active.at_rest = 1 if active.mu > 0.0 else 0
+    active.direction = contact.direction
     for r in range(3):
         free = row(S, w, k, c, r, S.du)
-        w[S.b + 3 * a + r] = free + contact.bias[r]
+        active.free[r] = free + contact.bias[r]
         if r > 0 and contact.mode == SLIDE:
-            w[S.b + 3 * a + r] = free + contact.rate[r] / S.ahead - row(S, w, k, c, r, S.guess)
+            active.free[r] = free + contact.rate[r] / S.ahead - row(S, w, k, c, r, S.guess)
         S.acceleration_scale = max(S.acceleration_scale, abs(free), abs(contact.bias[r]))
 
 
@@ -48,21 +45,21 @@ def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
     """Hold the slips that friction would turn round, and let go those that it cannot hold; return how many."""
     changed = 0
     for a in range(S.n_active):
-        if k[S.mode + k[S.active + a]] != SLIDE or k[S.at_rest + a] == 0:
+        active = active_at(S, w, k, a)
+        if contact_at(S, w, k, active.slot).mode != SLIDE or active.at_rest == 0:
             continue
-        f, d = S.f + 3 * a, S.d + 2 * a
-        if k[S.mode_tried + a] == STICK:
-            t1, t2 = w[f + 1], w[f + 2]
-            norm = math.sqrt(t1 * t1 + t2 * t2)
-            if norm > w[S.mu + a] * w[f]:
-                k[S.mode_tried + a] = SLIDE
-                w[d], w[d + 1] = -t1 / norm, -t2 / norm
+        if active.mode_tried == STICK:
+            t1, t2 = active.friction
+            norm = length(active.friction)
+            if norm > active.mu * active.normal_force:
+                active.mode_tried = SLIDE
+                active.direction = -t1 / norm, -t2 / norm
                 changed += 1
             continue
-        a1 = add_product(S, w, k, w[S.b + 3 * a + 1], a, 1, S.f)
-        a2 = add_product(S, w, k, w[S.b + 3 * a + 2], a, 2, S.f)
-        if a1 * w[d] + a2 * w[d + 1] < 0.0:
-            k[S.mode_tried + a] = STICK
+        a1 = add_product(S, w, k, active.free[1], a, 1, S.f)
+        a2 = add_product(S, w, k, active.free[2], a, 2, S.f)
+        if a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
+            active.mode_tried = STICK
             changed += 1
     return changed
 
@@ -72,14 +69,15 @@ def _note(S: Scalars, w: Floats, k: Integers) -> None:
     """Add what the forces do to ``du``, and note power and what is held."""
     add_response(S, w, k, S.f, S.du)
     for a in range(S.n_active):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        c = active.slot
         contact = contact_at(S, w, k, c)
         slides = contact.mode == SLIDE
         if slides and reduced_coefficient(S, w, k, a) <= 0.0:
             S.singular = c
-        k[S.tangent_held + a] = 0 if slides else 1
+        active.tangent_held = 0 if slides else 1
         for r in range(3):
-            S.driven_power += w[S.f + 3 * a + r] * (row(S, w, k, c, r, S.own) - contact.rate[r])
+            S.driven_power += active.force[r] * (row(S, w, k, c, r, S.own) - contact.rate[r])
 
 
 @kernel()
@@ -91,7 +89,7 @@ def hold_at_end(S: Scalars, w: Floats, k: Integers) -> None:
     """
     S.acceleration_scale = 0.0
     for a in range(S.n_active):
-        evaluate_contact(S, w, k, k[S.active + a], 3)
+        evaluate_contact(S, w, k, active_at(S, w, k, a).slot, 3)
     assemble_delassus(S, w, k)
     for a in range(S.n_active):
         _lay(S, w, k, a)

@@ -16,9 +16,9 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.forces import DEAR
+from nonsmooth.engine.contact.forces import DEAR, friction_of_slip
 from nonsmooth.engine.delassus.delassus import write_dense
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 
 STAGES = 12
@@ -26,27 +26,28 @@ CORNERS = 4
 _ZERO = 1e-11
 
 
-@kernel("f8(S, F, i8, i8, i8)")
-def _corner(S: Scalars, w: Floats, a: int, j: int, r: int) -> float:
+@kernel("f8(S, F, I, i8, i8, i8)")
+def _corner(S: Scalars, w: Floats, k: Integers, a: int, j: int, r: int) -> float:
     """Return component ``r`` of corner ``j``; corner 0 points along the friction."""
+    d1, d2 = active_at(S, w, k, a).direction
     turn = 2.0 * math.pi * j / CORNERS
     if r == 1:
-        return -w[S.d + 2 * a] * math.cos(turn) + w[S.d + 2 * a + 1] * math.sin(turn)
-    return -w[S.d + 2 * a + 1] * math.cos(turn) - w[S.d + 2 * a] * math.sin(turn)
+        return float(-d1 * math.cos(turn) + d2 * math.sin(turn))
+    return float(-d2 * math.cos(turn) - d1 * math.sin(turn))
 
 
 @kernel("f8(S, F, I, i8, i8)")
 def _push(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
     """Return what the unknown of a column does to row ``line`` of G f, G standing in full in ``matrix``."""
     a, j = k[S.lemke_contact + column], k[S.lemke_corner + column]
-    g = S.matrix + line * 3 * S.n_active + 3 * a
+    active, g = active_at(S, w, k, a), at(w, S.matrix + line * 3 * S.n_active + 3 * a)
     if j >= 0:
-        return w[g + 1] * _corner(S, w, a, j, 1) + w[g + 2] * _corner(S, w, a, j, 2)
+        return g[1] * _corner(S, w, k, a, j, 1) + g[2] * _corner(S, w, k, a, j, 2)
     if j == -2:
         return 0.0
-    if k[S.at_rest + a] == 1:
-        return w[g]
-    return w[g] - w[S.mu + a] * (w[S.d + 2 * a] * w[g + 1] + w[S.d + 2 * a + 1] * w[g + 2])
+    if active.at_rest == 1:
+        return g[0]
+    return float(g[0] - active.mu * (active.direction[0] * g[1] + active.direction[1] * g[2]))
 
 
 @kernel("i8(S, F, I)")
@@ -54,7 +55,8 @@ def _list_unknowns(S: Scalars, w: Floats, k: Integers) -> int:
     """List contact and corner of every unknown: -1 is a normal force, -2 a slip acceleration; return their number."""
     n = 0
     for a in range(S.n_active):
-        for j in range(-2 if k[S.at_rest + a] == 1 else -1, CORNERS if k[S.at_rest + a] == 1 else 0):
+        active = active_at(S, w, k, a)
+        for j in range(-2 if active.at_rest == 1 else -1, CORNERS if active.at_rest == 1 else 0):
             k[S.lemke_contact + n], k[S.lemke_corner + n] = a, j
             n += 1
     return n
@@ -65,6 +67,7 @@ def _lay(S: Scalars, w: Floats, k: Integers, n: int, g: float, size: float) -> N
     """Write the tableau: complementary quantities by unknowns, covering column, constant; ``g``, ``size``: scales."""
     for i in range(n):
         a, corner = k[S.lemke_contact + i], k[S.lemke_corner + i]
+        active = active_at(S, w, k, a)
         row = S.tableau + i * (n + 2)
         # a cover that differs from row to row keeps pivots from being equal
         w[row + n] = 1.0 + 0.3 * ((0.6180339887498949 * (i + 1)) % 1.0)
@@ -79,18 +82,18 @@ def _lay(S: Scalars, w: Floats, k: Integers, n: int, g: float, size: float) -> N
                 if other == a and its >= 0:
                     entry = -1.0
                 elif other == a and its == -1:
-                    entry = w[S.mu + a]
+                    entry = active.mu
             else:
                 for r in range(1, 3):
-                    entry += _corner(S, w, a, corner, r) * _push(S, w, k, 3 * a + r, j) / g
+                    entry += _corner(S, w, k, a, corner, r) * _push(S, w, k, 3 * a + r, j) / g
                 if other == a and its == -2:
                     entry = 1.0
             w[row + j] = entry
         if corner == -1:
-            w[row + n + 1] = w[S.b + 3 * a] / size
+            w[row + n + 1] = active.free[0] / size
         elif corner >= 0:
             for r in range(1, 3):
-                w[row + n + 1] += _corner(S, w, a, corner, r) * w[S.b + 3 * a + r] / size
+                w[row + n + 1] += _corner(S, w, k, a, corner, r) * active.free[r] / size
     k[S.lemke_column + n] = 2 * n
 
 
@@ -146,7 +149,7 @@ def _leaving(S: Scalars, w: Floats, k: Integers, n: int, s: int) -> int:
     return chosen
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     """Write the forces of the faceted problem to ``f``; return 1 if there are none, its path ending in a ray."""
     m = S.n_active
@@ -184,13 +187,13 @@ def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
             continue
         value = w[S.tableau + i * (n + 2) + n + 1] * size / g
         a, j = k[S.lemke_contact + unknown], k[S.lemke_corner + unknown]
+        active = active_at(S, w, k, a)
         if j == -1:
-            w[S.f + 3 * a] = value
+            active.normal_force = value
         elif j >= 0:
             for r in range(1, 3):
-                w[S.f + 3 * a + r] += value * _corner(S, w, a, j, r)
+                active.force[r] += value * _corner(S, w, k, a, j, r)
     for a in range(m):
-        if k[S.at_rest + a] == 0:
-            for r in range(2):
-                w[S.f + 3 * a + 1 + r] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + r]
+        if active_at(S, w, k, a).at_rest == 0:
+            friction_of_slip(S, w, k, a)
     return 0

@@ -9,12 +9,11 @@ the contacts let go.
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.contact.components import contact_of, direction_of
 from nonsmooth.engine.contact.distribution import distribute
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.null_band import project_on_null
+from nonsmooth.engine.numerics.vectors import length
 
 _AMPLE = 1e-2
 """A room to the bounds of this part of the largest force is as good as more."""
@@ -32,15 +31,14 @@ def _least_room(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     for i in range(n):
         line = k[S.column + i]
         a = contact_of(line)
-        if line == 3 * a + 1 and k[S.normal_held + a] == 0 and k[S.redundant + a] == 1:
-            t1, t2 = w[S.f + line], w[S.f + line + 1]
-            least = min(least, w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2))
-        if line != 3 * a or k[S.redundant + a] == 0:
+        active = active_at(S, w, k, a)
+        if line == 3 * a + 1 and active.normal_held == 0 and active.redundant == 1:
+            least = min(least, active.mu_static * active.normal_force - length(active.friction))
+        if line != 3 * a or active.redundant == 0:
             continue
-        room_left = w[S.f + line]
-        if k[S.tangent_held + a] == 1:
-            t1, t2 = w[S.f + line + 1], w[S.f + line + 2]
-            room_left = min(room_left, w[S.mu_static + a] * room_left - math.sqrt(t1 * t1 + t2 * t2))
+        room_left = active.normal_force
+        if active.tangent_held == 1:
+            room_left = min(room_left, active.mu_static * room_left - length(active.friction))
         least = min(least, room_left)
     return least
 
@@ -50,18 +48,20 @@ def _keep_null_space_force(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Keep by how much the forces ``f`` differ from ``x``, those of least norm."""
     for i in range(n):
         a, r = contact_of(k[S.column + i]), direction_of(k[S.column + i])
-        w[S.null_space_force + 3 * k[S.active + a] + r] = w[S.f + k[S.column + i]] - w[S.f_raw + i]
+        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        contact.null_space_force[r] = w[S.f + k[S.column + i]] - w[S.f_raw + i]
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
     """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it leaves every bound room."""
     n = S.n_unknown
     largest = 0.0
     for a in range(S.n_active):
-        w[S.slack + k[S.active + a]] = 0.0
+        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        contact.slack = 0.0
         for r in range(3):
-            w[S.null_space_force + 3 * k[S.active + a] + r] = 0.0
+            contact.null_space_force[r] = 0.0
     for i in range(n):
         w[S.f_raw + i] = w[S.x + i]
         w[S.f + k[S.column + i]] = w[S.x + i]
@@ -79,7 +79,7 @@ def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
             w[S.f + k[S.column + i]] = w[S.f_raw + i]
         distribute(S, w, k, 0.0, _ARRIVED * largest)
         for a in range(S.n_active):
-            w[S.slack + k[S.active + a]] = _SLACK * largest
+            contact_at(S, w, k, active_at(S, w, k, a).slot).slack = _SLACK * largest
     _keep_null_space_force(S, w, k, n)
     for i in range(n):
         w[S.x + i] = w[S.f_raw + i]
@@ -92,7 +92,7 @@ def add_null_space_force(S: Scalars, w: Floats, k: Integers) -> None:
     n = S.n_unknown
     for i in range(n):
         a, r = contact_of(k[S.column + i]), direction_of(k[S.column + i])
-        w[S.sigma + i] = w[S.null_space_force + 3 * k[S.active + a] + r]
+        w[S.sigma + i] = contact_at(S, w, k, active_at(S, w, k, a).slot).null_space_force[r]
     if S.null_banded == 1:
         project_on_null(S, w, n, S.sigma)
         for i in range(n):

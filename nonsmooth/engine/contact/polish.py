@@ -9,10 +9,11 @@ from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, minimum_norm
 from nonsmooth.engine.numerics.null_band import solve_shifted
+from nonsmooth.engine.numerics.vectors import length
 
 _STEPS = 25
 _TURN = 0.7
@@ -23,7 +24,7 @@ _NEAR = 1e-8
 
 @kernel("f8(S, F, I, i8, i8)")
 def _acceleration(S: Scalars, w: Floats, k: Integers, a: int, r: int) -> float:
-    return add_product(S, w, k, w[S.b + 3 * a + r], a, r, S.f)
+    return add_product(S, w, k, active_at(S, w, k, a).free[r], a, r, S.f)
 
 
 @kernel("f8(S, F, I, i8, i8)")
@@ -31,24 +32,25 @@ def _effect(S: Scalars, w: Floats, k: Integers, g: int, j: int) -> float:
     """Return the effect of unknown ``j``, a force or the turn of a direction, on the row of a block at ``g``."""
     column = k[S.column + j]
     a = contact_of(column)
-    d1, d2 = w[S.d + 2 * a], w[S.d + 2 * a + 1]
+    active = active_at(S, w, k, a)
+    d1, d2 = active.direction
     if k[S.turn + j] == 1:
-        return d2 * w[g + 1] - d1 * w[g + 2]
-    if column != 3 * a or k[S.tangent_held + a] == 1:
+        return float(d2 * w[g + 1] - d1 * w[g + 2])
+    if column != 3 * a or active.tangent_held == 1:
         return w[g + column - 3 * a]
-    return w[g] - w[S.mu + a] * (d1 * w[g + 1] + d2 * w[g + 2])
+    return float(w[g] - active.mu * (d1 * w[g + 1] + d2 * w[g + 2]))
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")
 def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> float:
     """Write row ``i`` of Newton's system, one of contact ``a``; return how wrong it is, relative."""
+    active = active_at(S, w, k, a)
     line = band_row(S.reduced, i, n, S.half_band)
-    row = S.block_start + S.first_grouped + a
-    d1, d2 = w[S.d + 2 * a], w[S.d + 2 * a + 1]
-    for block in range(k[row], k[row + 1]):
-        other = k[S.block_column + block]
+    d1, d2 = active.direction
+    for block in range(active.first_block, active.end_block):
+        other = active_at(S, w, k, k[S.block_column + block])
         g = S.delassus + 9 * block
-        for j in range(k[S.first_unknown + other], k[S.first_unknown + other + 1]):
+        for j in range(other.first_unknown, other.end_unknown):
             if k[S.turn + i] == 0:
                 w[line + j] = _effect(S, w, k, g + 3 * (k[S.column + i] - 3 * a), j)
             else:
@@ -59,7 +61,7 @@ def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> floa
     a1, a2 = _acceleration(S, w, k, a, 1), _acceleration(S, w, k, a, 2)
     w[S.right + i] = -(a1 * d2 - a2 * d1)
     # a turn counts by the force that it moves
-    force = w[S.mu + a] * w[S.f + 3 * a]
+    force = active.mu * active.normal_force
     if abs(force) > 0.0:
         w[line + i] += (a1 * d1 + a2 * d2) / force
     return float(abs(w[S.right + i]) / max(S.acceleration_scale, abs(a1), abs(a2)))
@@ -70,13 +72,14 @@ def _list_unknowns(S: Scalars, w: Floats, k: Integers) -> int:
     """List the forces that are held and the turns of the contacts that start to slide; return how many there are."""
     n = 0
     for a in range(S.n_active):
-        k[S.first_unknown + a] = n
+        active = active_at(S, w, k, a)
+        active.first_unknown = n
         for r in range(3):
-            if (k[S.normal_held + a] if r == 0 else k[S.tangent_held + a]) == 1:
+            if (active.normal_held if r == 0 else active.tangent_held) == 1:
                 k[S.column + n] = 3 * a + r
                 k[S.turn + n] = 0
                 n += 1
-        if _starts(S, k, a) == 1:
+        if _starts(S, w, k, a) == 1:
             k[S.column + n] = 3 * a
             k[S.turn + n] = 1
             n += 1
@@ -84,28 +87,30 @@ def _list_unknowns(S: Scalars, w: Floats, k: Integers) -> int:
     return n
 
 
-@kernel("i8(S, I, i8)")
-def _starts(S: Scalars, k: Integers, a: int) -> int:
-    return 1 if k[S.at_rest + a] == 1 and k[S.mode_tried + a] == SLIDE else 0
+@kernel("i8(S, F, I, i8)")
+def _starts(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+    active = active_at(S, w, k, a)
+    return 1 if active.at_rest == 1 and active.mode_tried == SLIDE else 0
 
 
 @kernel("void(S, F, I, i8)")
 def _turn(S: Scalars, w: Floats, k: Integers, i: int) -> None:
     """Turn the direction of unknown ``i`` by its step; one without friction follows its acceleration."""
     a = contact_of(k[S.column + i])
-    d1, d2 = w[S.d + 2 * a], w[S.d + 2 * a + 1]
-    force = w[S.mu + a] * w[S.f + 3 * a]
+    active = active_at(S, w, k, a)
+    d1, d2 = active.direction
+    force = active.mu * active.normal_force
     if abs(force) > 0.0:
         angle = max(-_TURN, min(_TURN, w[S.x + i] / force))
-        w[S.d + 2 * a], w[S.d + 2 * a + 1] = (
+        active.direction = (
             d1 * math.cos(angle) - d2 * math.sin(angle),
             d2 * math.cos(angle) + d1 * math.sin(angle),
         )
         return
     a1, a2 = _acceleration(S, w, k, a, 1), _acceleration(S, w, k, a, 2)
-    norm = math.sqrt(a1 * a1 + a2 * a2)
+    norm = length((a1, a2))
     if norm > 0.0:
-        w[S.d + 2 * a], w[S.d + 2 * a + 1] = a1 / norm, a2 / norm
+        active.direction = a1 / norm, a2 / norm
 
 
 @kernel("void(S, F, i8)")
@@ -123,7 +128,7 @@ def _solve(S: Scalars, w: Floats, n: int) -> None:
     minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, n)
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def polish(S: Scalars, w: Floats, k: Integers) -> int:
     """Turn the directions ``d`` of incipient slip until no acceleration is left across them, the modes being given.
 
@@ -132,7 +137,7 @@ def polish(S: Scalars, w: Floats, k: Integers) -> int:
     """
     turns = 0
     for a in range(S.n_active):
-        turns += _starts(S, k, a)
+        turns += _starts(S, w, k, a)
     if turns == 0:
         return 1
     best = 1e300
@@ -143,7 +148,8 @@ def polish(S: Scalars, w: Floats, k: Integers) -> int:
             return 0
         worst = 0.0
         for a in range(S.n_active):
-            for i in range(k[S.first_unknown + a], k[S.first_unknown + a + 1]):
+            active = active_at(S, w, k, a)
+            for i in range(active.first_unknown, active.end_unknown):
                 worst = max(worst, _lay_row(S, w, k, a, i, n))
         if worst <= _EXACT or (worst <= _NEAR and worst >= best):
             return 1

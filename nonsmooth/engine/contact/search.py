@@ -7,8 +7,6 @@ has one cone, that of ``mu``.  Which modes the forces mean, and whether these ar
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.contact import gauss_seidel, lemke, newton
 from nonsmooth.engine.contact.enumeration import enumerate_modes
 from nonsmooth.engine.contact.gauss_seidel import search_by_sweeps
@@ -18,8 +16,9 @@ from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.trial import identify, judge, set_scales, verify
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.vectors import length
 
 _ROUNDS = 4
 _MOST_EFFORT = 3e8
@@ -42,18 +41,20 @@ def _improve(S: Scalars, w: Floats, k: Integers, solver: int, stage: int) -> int
 def _lay_cones(S: Scalars, w: Floats, k: Integers) -> None:
     """Give every contact at rest one cone: the static one, or the kinetic one where it may not stick."""
     for a in range(S.n_active):
-        w[S.mu_kept + a], w[S.static_kept + a] = w[S.mu + a], w[S.mu_static + a]
-        if k[S.at_rest + a] == 1:
-            if k[S.freed + a] == 1:
-                w[S.mu_static + a] = w[S.mu + a]
+        active = active_at(S, w, k, a)
+        active.mu_kept, active.static_kept = active.mu, active.mu_static
+        if active.at_rest == 1:
+            if active.freed == 1:
+                active.mu_static = active.mu
             else:
-                w[S.mu + a] = w[S.mu_static + a]
+                active.mu = active.mu_static
 
 
 @kernel("void(S, F, I)")
 def _restore_cones(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
-        w[S.mu + a], w[S.mu_static + a] = w[S.mu_kept + a], w[S.static_kept + a]
+        active = active_at(S, w, k, a)
+        active.mu, active.mu_static = active.mu_kept, active.static_kept
 
 
 @kernel("i8(S, F, I)")
@@ -62,33 +63,36 @@ def _lay_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
     differ = 0
     small = _EQUAL * S.small_acceleration
     for a in range(S.n_active):
-        if k[S.mode_tried + a] == k[S.mode_past + a] or w[S.acceleration + 3 * a] > small:
+        active = active_at(S, w, k, a)
+        if active.mode_tried == active.mode_past or active.normal_acceleration > small:
             continue
         mode = SLIDE
-        a1, a2 = w[S.acceleration + 3 * a + 1], w[S.acceleration + 3 * a + 2]
-        slip = math.sqrt(a1 * a1 + a2 * a2)
-        if k[S.at_rest + a] == 1 and slip <= small:
+        a1, a2 = active.slip_acceleration
+        slip = length(active.slip_acceleration)
+        if active.at_rest == 1 and slip <= small:
             mode = STICK
-        if mode != k[S.mode_tried + a]:
+        if mode != active.mode_tried:
             differ = 1
-            k[S.mode_tried + a] = mode
-            if k[S.at_rest + a] == 1 and mode == SLIDE:
-                w[S.d + 2 * a], w[S.d + 2 * a + 1] = a1 / slip, a2 / slip
+            active.mode_tried = mode
+            if active.at_rest == 1 and mode == SLIDE:
+                active.direction = a1 / slip, a2 / slip
     return differ
 
 
 @kernel("void(S, F, I)")
 def _keep_found(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
-        k[S.mode_found + a] = k[S.mode_tried + a]
-        w[S.d_found + 2 * a], w[S.d_found + 2 * a + 1] = w[S.d + 2 * a], w[S.d + 2 * a + 1]
+        active = active_at(S, w, k, a)
+        active.mode_found = active.mode_tried
+        active.direction_found = active.direction
 
 
 @kernel("void(S, F, I)")
 def _take_found(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
-        k[S.mode_tried + a] = k[S.mode_found + a]
-        w[S.d + 2 * a], w[S.d + 2 * a + 1] = w[S.d_found + 2 * a], w[S.d_found + 2 * a + 1]
+        active = active_at(S, w, k, a)
+        active.mode_tried = active.mode_found
+        active.direction = active.direction_found
 
 
 @kernel("i8(S, F, I)")
@@ -96,12 +100,15 @@ def _open_pulling(S: Scalars, w: Floats, k: Integers) -> int:
     """Open the closed contacts that pull most; return how many."""
     worst = -S.small_force
     for a in range(S.n_active):
-        if k[S.mode_tried + a] != OPEN:
-            worst = min(worst, w[S.f + 3 * a])
+        active = active_at(S, w, k, a)
+        if active.mode_tried != OPEN:
+            worst = min(worst, active.normal_force)
     opened = 0
     for a in range(S.n_active):
-        if k[S.mode_tried + a] != OPEN and w[S.f + 3 * a] <= (1.0 - _SAME) * worst and w[S.f + 3 * a] < -S.small_force:
-            k[S.mode_tried + a] = OPEN
+        active = active_at(S, w, k, a)
+        pulls = active.normal_force <= (1.0 - _SAME) * worst and active.normal_force < -S.small_force
+        if active.mode_tried != OPEN and pulls:
+            active.mode_tried = OPEN
             opened += 1
     return opened
 
@@ -110,9 +117,9 @@ def _open_pulling(S: Scalars, w: Floats, k: Integers) -> int:
 def _accept(S: Scalars, w: Floats, k: Integers) -> int:
     """Verify the modes under trial; where the forces of least norm pull, open who pulls; return 1 if all is well."""
     for a in range(S.n_active):
-        k[S.mode_closed + a] = k[S.mode_tried + a]
-        for i in range(2):
-            w[S.d_closed + 2 * a + i] = w[S.d + 2 * a + i]
+        active = active_at(S, w, k, a)
+        active.mode_closed = active.mode_tried
+        active.direction_closed = active.direction
     if verify(S, w, k, 0) == 1:
         return 1
     if S.deficient == 0:
@@ -123,9 +130,9 @@ def _accept(S: Scalars, w: Floats, k: Integers) -> int:
             return 1
     # without the share of those opened the others may not hold: forces that press, though not of least norm
     for a in range(S.n_active):
-        k[S.mode_tried + a] = k[S.mode_closed + a]
-        for i in range(2):
-            w[S.d + 2 * a + i] = w[S.d_closed + 2 * a + i]
+        active = active_at(S, w, k, a)
+        active.mode_tried = active.mode_closed
+        active.direction = active.direction_closed
     return int(verify(S, w, k, 1))
 
 
@@ -133,13 +140,13 @@ def _accept(S: Scalars, w: Floats, k: Integers) -> int:
 def _rubs(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if all that slides has the friction of slip."""
     for a in range(S.n_active):
-        pull = w[S.mu + a] * w[S.f + 3 * a]
-        for i in range(2):
-            if (
-                k[S.mode_tried + a] == SLIDE
-                and not abs(w[S.f + 3 * a + 1 + i] + pull * w[S.d + 2 * a + i]) <= S.small_force
-            ):
-                return 0
+        active = active_at(S, w, k, a)
+        pull = active.mu * active.normal_force
+        if active.mode_tried != SLIDE:
+            continue
+        (t1, t2), (d1, d2) = active.friction, active.direction
+        if not (abs(t1 + pull * d1) <= S.small_force and abs(t2 + pull * d2) <= S.small_force):
+            return 0
     return 1
 
 
@@ -147,8 +154,9 @@ def _rubs(S: Scalars, w: Floats, k: Integers) -> int:
 def _hasty(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if a contact seems to slide that, once the forces have settled, its static bound may still hold."""
     for a in range(S.n_active):
-        held = k[S.at_rest + a] == 1 and k[S.freed + a] == 0 and w[S.mu_static + a] != w[S.mu + a]
-        if held and k[S.mode_tried + a] == SLIDE:
+        active = active_at(S, w, k, a)
+        held = active.at_rest == 1 and active.freed == 0 and active.mu_static != active.mu
+        if held and active.mode_tried == SLIDE:
             return 1
     return 0
 
@@ -184,7 +192,8 @@ def _accept_raw(S: Scalars, w: Floats, k: Integers) -> int:
     """
     _take_raw(S, w, k)
     for a in range(S.n_active):
-        k[S.redundant + a] = 0
+        active = active_at(S, w, k, a)
+        active.redundant = 0
     S.deficient = 0
     return 1 if judge(S, w, k, 0) == 1 and _rubs(S, w, k) == 1 else 0
 
@@ -226,14 +235,15 @@ def _search_round(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     return 0
 
 
-@kernel("i8(S, F, I, i8)")
-def _free_sliding(S: Scalars, w: Floats, k: Integers, modes: int) -> int:
-    """Keep the contacts at rest that slide in ``modes`` from sticking; return how many that are new."""
+@kernel("i8(S, F, I)")
+def _free_sliding(S: Scalars, w: Floats, k: Integers) -> int:
+    """Keep the contacts at rest that were found to slide from sticking; return how many that are new."""
     new = 0
     for a in range(S.n_active):
-        if k[S.at_rest + a] == 1 and k[modes + a] == SLIDE and k[S.freed + a] == 0:
-            k[S.freed + a] = 1
-            if w[S.mu_static + a] != w[S.mu + a]:
+        active = active_at(S, w, k, a)
+        if active.at_rest == 1 and active.mode_found == SLIDE and active.freed == 0:
+            active.freed = 1
+            if active.mu_static != active.mu:
                 new += 1
     return new
 
@@ -244,7 +254,7 @@ def _search_from(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     for _round in range(_ROUNDS):
         if _search_round(S, w, k, solver) == 1:
             return 1
-        if _free_sliding(S, w, k, S.mode_found) == 0:
+        if _free_sliding(S, w, k) == 0:
             return 0
     return 0
 
@@ -280,9 +290,10 @@ def _prefer_stick(S: Scalars, w: Floats, k: Integers) -> None:
     _keep_answer(S, w, k)
     changed = 0
     for a in range(S.n_active):
-        undecided = k[S.at_rest + a] == 1 and k[S.mode_past + a] != SLIDE and w[S.mu_static + a] != w[S.mu + a]
-        if undecided and k[S.mode_tried + a] == SLIDE:
-            k[S.mode_tried + a] = STICK
+        active = active_at(S, w, k, a)
+        undecided = active.at_rest == 1 and active.mode_past != SLIDE and active.mu_static != active.mu
+        if undecided and active.mode_tried == SLIDE:
+            active.mode_tried = STICK
             changed = 1
     if changed == 0:
         return
@@ -291,7 +302,7 @@ def _prefer_stick(S: Scalars, w: Floats, k: Integers) -> None:
         _take_answer(S, w, k)
 
 
-@room("i8(S, F, I, i8)")
+@entry_point("i8(S, F, I, i8)")
 def find_modes(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     """Search by one solver, ``mode_past`` holding the past modes; return 1 if a verified answer is found."""
     found = 0
@@ -299,17 +310,20 @@ def find_modes(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
         found = 1 if enumerate_modes(S, w, k, 0) > 0 else 0
     else:
         for a in range(S.n_active):
-            k[S.freed + a] = 0
+            active = active_at(S, w, k, a)
+            active.freed = 0
         # where a contact has just broken away it must not stick again at the higher static bound
         broken = 0
         for a in range(S.n_active):
-            if k[S.at_rest + a] == 1 and k[S.mode_past + a] == SLIDE:
-                k[S.freed + a] = 1
+            active = active_at(S, w, k, a)
+            if active.at_rest == 1 and active.mode_past == SLIDE:
+                active.freed = 1
                 broken += 1
         if broken > 0:
             found = _search_from(S, w, k, solver)
             for a in range(S.n_active):
-                k[S.freed + a] = 0
+                active = active_at(S, w, k, a)
+                active.freed = 0
         if found == 0:
             found = _search_from(S, w, k, solver)
     if found == 1:

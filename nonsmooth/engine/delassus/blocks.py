@@ -1,4 +1,4 @@
-"""The structure of the Delassus matrix by blocks: which of the active contacts share a movable linkage.
+"""The structure of the Delassus matrix by blocks: which of the active contacts share a movable articulation.
 
 Rows of 3 x 3 blocks are compressed: that of active contact a is entry ``first_grouped`` + a of ``block_start``, and
 ``block_column`` holds the active contacts that it couples with, in ascending order and itself among them.
@@ -7,55 +7,60 @@ Rows of 3 x 3 blocks are compressed: that of active contact a is entry ``first_g
 from __future__ import annotations
 
 from nonsmooth.engine.memory.layout import MOST_BLOCKS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
 
 _SIDES = 2
-"""Entries of a contact in the lists of its linkages."""
+"""Entries of a contact in the lists of its articulations."""
 
 
 @kernel()
 def _hang(S: Scalars, w: Floats, k: Integers) -> None:
-    """Hang the active contacts on their movable linkages."""
+    """Hang the active contacts on their movable articulations."""
     for a in range(S.n_active):
-        k[S.block_mark + a] = -1
-        k[S.block_count + a] = 0
-        for side in range(2):
-            k[S.link_head + (k[S.linkage_a + k[S.active + a]] if side == 0 else k[S.linkage_b + k[S.active + a]])] = -1
+        active = active_at(S, w, k, a)
+        active.block_mark = -1
+        active.block_count = 0
+        contact = contact_at(S, w, k, active.slot)
+        articulation_at(S, w, k, contact.articulation_a).link_head = -1
+        articulation_at(S, w, k, contact.articulation_b).link_head = -1
     for a in range(S.n_active):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
         for side in range(2):
-            linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-            if k[S.linkage_nu + linkage] > 0:
-                k[S.link_next + _SIDES * a + side] = k[S.link_head + linkage]
-                k[S.link_head + linkage] = _SIDES * a + side
+            articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+            if articulation.nu > 0:
+                k[S.link_next + _SIDES * a + side] = articulation.link_head
+                articulation.link_head = _SIDES * a + side
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
 def _note(S: Scalars, w: Floats, k: Integers, row: int, column: int, fill: int) -> None:
     """Count a block of a row or, with ``fill``, write it."""
+    active = active_at(S, w, k, row)
     if fill == 1:
-        block = k[S.block_start + S.first_grouped + row] + k[S.block_count + row]
+        block = active.first_block + active.block_count
         k[S.block_column + block] = column
         if row == column:
-            k[S.own_block + S.first_grouped + row] = block
-    k[S.block_count + row] += 1
+            active.own_block = block
+    active.block_count += 1
 
 
 @kernel("void(S, F, I, i8)")
 def _visit(S: Scalars, w: Floats, k: Integers, fill: int) -> None:
-    """Note every pair of active contacts that share a movable linkage, once for each of the two."""
+    """Note every pair of active contacts that share a movable articulation, once for each of the two."""
     for a in range(S.n_active):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
         mark = fill * S.n_active + a
-        k[S.block_mark + a] = mark
+        active.block_mark = mark
         _note(S, w, k, a, a, fill)
         for side in range(2):
-            linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-            entry = k[S.link_head + linkage]
+            entry = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b).link_head
             while entry >= 0 and S.crowded == 0:
                 other = entry // _SIDES
-                if k[S.block_mark + other] != mark:
-                    k[S.block_mark + other] = mark
+                neighbour = active_at(S, w, k, other)
+                if neighbour.block_mark != mark:
+                    neighbour.block_mark = mark
                     _note(S, w, k, other, a, fill)
                 entry = k[S.link_next + entry]
 
@@ -73,10 +78,11 @@ def link_active(S: Scalars, w: Floats, k: Integers) -> None:
     _visit(S, w, k, 0)
     total = k[start]
     for a in range(S.n_active):
-        total += k[S.block_count + a]
+        total += active_at(S, w, k, a).block_count
     if total > min(S.n_slots * S.n_slots, MOST_BLOCKS):
         S.crowded = 1
     for a in range(S.n_active):
-        k[start + a + 1] = k[start + a] + (k[S.block_count + a] if S.crowded == 0 else 1)
-        k[S.block_count + a] = 0
+        active = active_at(S, w, k, a)
+        active.end_block = active.first_block + (active.block_count if S.crowded == 0 else 1)
+        active.block_count = 0
     _visit(S, w, k, 1)

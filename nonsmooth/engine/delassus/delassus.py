@@ -1,11 +1,22 @@
 """The Delassus matrix of the active contacts and what their forces do to the velocities.
 
-It is stored by blocks, of contacts that share a movable linkage only (:mod:`nonsmooth.engine.delassus.blocks`).
+It is stored by blocks, of contacts that share a movable articulation only (:mod:`nonsmooth.engine.delassus.blocks`).
 """
 
 from __future__ import annotations
 
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from typing import Any
+
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    articulation_at,
+    contact_at,
+    delassus_block,
+    kernel,
+)
 
 
 @kernel("void(F, i8, i8, i8, i8)")
@@ -22,34 +33,34 @@ def _add_block(w: Floats, jacobian: int, response: int, n_u: int, out: int) -> N
 def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the blocks of G = [W N]^T K [W N] of the active contacts, rows and columns (n, t1, t2) each."""
     for a in range(S.n_active):
-        c = k[S.active + a]
-        row = S.block_start + S.first_grouped + a
-        for block in range(k[row], k[row + 1]):
-            d = k[S.active + k[S.block_column + block]]
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        for block in range(active.first_block, active.end_block):
+            pushing = contact_at(S, w, k, k[S.active + k[S.block_column + block]])
             out = S.delassus + 9 * block
             for i in range(9):
                 w[out + i] = 0.0
             for side in range(2):
-                linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-                jacobian = k[S.jacobian_a + c] if side == 0 else k[S.jacobian_b + c]
-                n_u = k[S.linkage_nu + linkage]
-                if n_u > 0 and k[S.linkage_a + d] == linkage:
-                    _add_block(w, jacobian, k[S.response_a + d], n_u, out)
-                if n_u > 0 and k[S.linkage_b + d] == linkage:
-                    _add_block(w, jacobian, k[S.response_b + d], n_u, out)
+                articulation = contact.articulation_a if side == 0 else contact.articulation_b
+                jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
+                n_u = articulation_at(S, w, k, articulation).nu
+                if n_u > 0 and pushing.articulation_a == articulation:
+                    _add_block(w, jacobian, pushing.response_a, n_u, out)
+                if n_u > 0 and pushing.articulation_b == articulation:
+                    _add_block(w, jacobian, pushing.response_b, n_u, out)
 
 
-@kernel("i8(S, I, i8)")
-def own_block(S: Scalars, k: Integers, a: int) -> int:
-    """Return where the block of the active contact ``a`` on the diagonal stands."""
-    return int(S.delassus + 9 * k[S.own_block + S.first_grouped + a])
+@kernel("D(S, F, I, i8)")
+def own_block(S: Scalars, w: Floats, k: Integers, a: int) -> Any:
+    """Return the block of the active contact ``a`` on the diagonal."""
+    return delassus_block(w, S.delassus, active_at(S, w, k, a).own_block)
 
 
 @kernel("f8(S, F, I, f8, i8, i8, i8)")
 def add_product(S: Scalars, w: Floats, k: Integers, total: float, a: int, r: int, x: int) -> float:
     """Return ``total`` plus row ``r`` (n, t1, t2) of the active contact ``a`` of G times the vector at ``x``."""
-    row = S.block_start + S.first_grouped + a
-    for block in range(k[row], k[row + 1]):
+    active = active_at(S, w, k, a)
+    for block in range(active.first_block, active.end_block):
         g = S.delassus + 9 * block + 3 * r
         other = x + 3 * k[S.block_column + block]
         for s in range(3):
@@ -64,8 +75,8 @@ def write_dense(S: Scalars, w: Floats, k: Integers) -> None:
     for i in range(width * width):
         w[S.matrix + i] = 0.0
     for a in range(S.n_active):
-        row = S.block_start + S.first_grouped + a
-        for block in range(k[row], k[row + 1]):
+        active = active_at(S, w, k, a)
+        for block in range(active.first_block, active.end_block):
             for r in range(3):
                 for s in range(3):
                     line = S.matrix + (3 * a + r) * width + 3 * k[S.block_column + block]
@@ -76,12 +87,11 @@ def write_dense(S: Scalars, w: Floats, k: Integers) -> None:
 def add_response(S: Scalars, w: Floats, k: Integers, f: int, du: int) -> None:
     """Add K (W f_N + N f_T) of the active contacts' forces or impulses at ``f`` to ``du``."""
     for i in range(S.n_active):
-        c = k[S.active + i]
+        contact = contact_at(S, w, k, k[S.active + i])
         for side in range(2):
-            linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-            response = k[S.response_a + c] if side == 0 else k[S.response_b + c]
-            n_u = k[S.linkage_nu + linkage]
-            start = du + k[S.linkage_u + linkage]
+            articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+            response = contact.response_a if side == 0 else contact.response_b
+            n_u, start = articulation.nu, du + articulation.u
             for r in range(3):
                 force = w[f + 3 * i + r]
                 for j in range(n_u):

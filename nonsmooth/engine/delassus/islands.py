@@ -4,25 +4,28 @@ from __future__ import annotations
 
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
 
 
 @kernel("i8(S, F, I, i8)")
-def _root(S: Scalars, w: Floats, k: Integers, linkage: int) -> int:
-    """Return the linkage that stands for all that are tied to this one, shortening the way there."""
-    root = linkage
-    while k[S.linkage_root + root] != root:
-        root = k[S.linkage_root + root]
-    while k[S.linkage_root + linkage] != root:
-        linkage, k[S.linkage_root + linkage] = k[S.linkage_root + linkage], root
+def _root(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Return the articulation that stands for all that contacts join to this one, shortening the way there."""
+    root = number
+    while articulation_at(S, w, k, root).root != root:
+        root = articulation_at(S, w, k, root).root
+    while articulation_at(S, w, k, number).root != root:
+        articulation = articulation_at(S, w, k, number)
+        number = articulation.root
+        articulation.root = root
     return root
 
 
 @kernel("i8(S, F, I, i8)")
-def _linkage(S: Scalars, w: Floats, k: Integers, c: int) -> int:
-    """Return a movable linkage of contact ``c``; the first one if none is."""
-    a, b = k[S.linkage_a + c], k[S.linkage_b + c]
-    return b if k[S.linkage_nu + a] == 0 and k[S.linkage_nu + b] > 0 else a
+def _articulation(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return a movable articulation of contact ``c``; the first one if none is."""
+    contact = contact_at(S, w, k, c)
+    a, b = contact.articulation_a, contact.articulation_b
+    return int(b if articulation_at(S, w, k, a).nu == 0 and articulation_at(S, w, k, b).nu > 0 else a)
 
 
 @kernel("void(S, F, I, i8)")
@@ -32,35 +35,38 @@ def activate_group(S: Scalars, w: Floats, k: Integers, group: int) -> None:
     S.first_grouped = first
     S.n_active = k[S.group_start + group + 1] - first
     for a in range(S.n_active):
-        k[S.active + a] = k[S.grouped + first + a]
+        active_at(S, w, k, a).slot = k[S.grouped + first + a]
 
 
 @kernel("void(S, F, I)")
 def group_members(S: Scalars, w: Floats, k: Integers) -> None:
     """Sort the contacts marked as ``member`` into islands, in the order of their first contacts, and link each."""
     for c in range(S.n_contacts):
-        if k[S.member + c] == 1:
+        contact = contact_at(S, w, k, c)
+        if contact.member == 1:
             for side in range(2):
-                linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-                k[S.linkage_root + linkage] = linkage
-                k[S.linkage_group + linkage] = -1
+                number = contact.articulation_a if side == 0 else contact.articulation_b
+                articulation = articulation_at(S, w, k, number)
+                articulation.root, articulation.group = number, -1
     for c in range(S.n_contacts):
-        a, b = k[S.linkage_a + c], k[S.linkage_b + c]
-        if k[S.member + c] == 1 and k[S.linkage_nu + a] > 0 and k[S.linkage_nu + b] > 0:
-            k[S.linkage_root + _root(S, w, k, b)] = _root(S, w, k, a)
+        contact = contact_at(S, w, k, c)
+        a, b = contact.articulation_a, contact.articulation_b
+        if contact.member == 1 and articulation_at(S, w, k, a).nu > 0 and articulation_at(S, w, k, b).nu > 0:
+            articulation_at(S, w, k, _root(S, w, k, b)).root = _root(S, w, k, a)
     groups = members = 0
     for c in range(S.n_contacts):
-        if k[S.member + c] == 0:
+        contact = contact_at(S, w, k, c)
+        if contact.member == 0:
             continue
-        linkage = _linkage(S, w, k, c)
-        root = _root(S, w, k, linkage)
+        number = _articulation(S, w, k, c)
+        root = articulation_at(S, w, k, _root(S, w, k, number))
         # between two driven bodies every contact is an island of its own
-        if k[S.linkage_nu + linkage] == 0 or k[S.linkage_group + root] < 0:
-            k[S.linkage_group + root] = groups
+        if articulation_at(S, w, k, number).nu == 0 or root.group < 0:
+            root.group = groups
             k[S.group_start + groups] = 0
             groups += 1
-        k[S.group_of + c] = k[S.linkage_group + root]
-        k[S.group_start + k[S.group_of + c]] += 1
+        contact.group_of = root.group
+        k[S.group_start + contact.group_of] += 1
         members += 1
     # counts become starts, and the contacts fall into their places
     end = members
@@ -71,8 +77,9 @@ def group_members(S: Scalars, w: Floats, k: Integers) -> None:
         k[S.group_next + g] = end
     k[S.group_start + groups] = members
     for c in range(S.n_contacts):
-        if k[S.member + c] == 1:
-            g = k[S.group_of + c]
+        contact = contact_at(S, w, k, c)
+        if contact.member == 1:
+            g = contact.group_of
             k[S.grouped + k[S.group_next + g]] = c
             k[S.group_next + g] += 1
     S.n_groups = groups
@@ -86,7 +93,8 @@ def group_members(S: Scalars, w: Floats, k: Integers) -> None:
 def group_closed(S: Scalars, w: Floats, k: Integers) -> None:
     """Sort the closed contacts into islands."""
     for c in range(S.n_contacts):
-        k[S.member + c] = 1 if k[S.mode + c] != OPEN else 0
+        contact = contact_at(S, w, k, c)
+        contact.member = 1 if contact.mode != OPEN else 0
     group_members(S, w, k)
 
 
@@ -94,5 +102,6 @@ def group_closed(S: Scalars, w: Floats, k: Integers) -> None:
 def group_touching(S: Scalars, w: Floats, k: Integers) -> None:
     """Sort the touching contacts that collide, not those that give way, into islands."""
     for c in range(S.n_contacts):
-        k[S.member + c] = k[S.touching + c] if k[S.normal_function + c] == 0 else 0
+        contact = contact_at(S, w, k, c)
+        contact.member = contact.touching if contact.normal_function == 0 else 0
     group_members(S, w, k)

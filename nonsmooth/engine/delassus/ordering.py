@@ -8,35 +8,36 @@ A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Sys
 from __future__ import annotations
 
 from nonsmooth.engine.delassus.blocks import link_active
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel
 
 
-@kernel("i8(S, I, i8)")
-def _degree(S: Scalars, k: Integers, a: int) -> int:
-    row = S.block_start + S.first_grouped + a
-    return k[row + 1] - k[row]
+@kernel("i8(S, F, I, i8)")
+def _degree(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+    active = active_at(S, w, k, a)
+    return int(active.end_block - active.first_block)
 
 
 @kernel("void(S, F, I, i8)")
 def _search(S: Scalars, w: Floats, k: Integers, start: int) -> None:
     """Write the active contacts to ``order`` as met from ``start`` on, breadth first."""
     for a in range(S.n_active):
-        k[S.rank + a] = -1
+        active_at(S, w, k, a).rank = -1
     k[S.order] = start
-    k[S.rank + start] = 0
+    active_at(S, w, k, start).rank = 0
     end = 1
     for i in range(S.n_active):
         if i >= end:
             return
-        row = S.block_start + S.first_grouped + k[S.order + i]
+        active = active_at(S, w, k, k[S.order + i])
         begin = end
-        for block in range(k[row], k[row + 1]):
+        for block in range(active.first_block, active.end_block):
             other = k[S.block_column + block]
-            if k[S.rank + other] >= 0:
+            neighbour = active_at(S, w, k, other)
+            if neighbour.rank >= 0:
                 continue
-            k[S.rank + other] = i
+            neighbour.rank = i
             place = end
-            while place > begin and _degree(S, k, k[S.order + place - 1]) > _degree(S, k, other):
+            while place > begin and _degree(S, w, k, k[S.order + place - 1]) > _degree(S, w, k, other):
                 k[S.order + place] = k[S.order + place - 1]
                 place -= 1
             k[S.order + place] = other
@@ -48,9 +49,9 @@ def _reach(S: Scalars, w: Floats, k: Integers) -> int:
     """Return how far apart, by their ``rank``, contacts stand that act on one another."""
     reach = 0
     for a in range(S.n_active):
-        row = S.block_start + S.first_grouped + a
-        for block in range(k[row], k[row + 1]):
-            reach = max(reach, k[S.rank + a] - k[S.rank + k[S.block_column + block]])
+        active = active_at(S, w, k, a)
+        for block in range(active.first_block, active.end_block):
+            reach = max(reach, active.rank - active_at(S, w, k, k[S.block_column + block]).rank)
     return reach
 
 
@@ -67,14 +68,14 @@ def order_active(S: Scalars, w: Floats, k: Integers) -> None:
         return
     first = 0
     for a in range(m):
-        k[S.rank + a] = a
-        if _degree(S, k, a) < _degree(S, k, first):
+        active_at(S, w, k, a).rank = a
+        if _degree(S, w, k, a) < _degree(S, w, k, first):
             first = a
     listed = _reach(S, w, k)
     _search(S, w, k, first)
     _search(S, w, k, k[S.order + m - 1])
     for i in range(m):
-        k[S.rank + k[S.order + i]] = m - 1 - i
+        active_at(S, w, k, k[S.order + i]).rank = m - 1 - i
     reach = _reach(S, w, k)
     # three unknowns for each contact, and room for exchanges of rows: see the band of forces
     if reach >= listed or 9 * reach + 7 >= 3 * m:
@@ -82,5 +83,5 @@ def order_active(S: Scalars, w: Floats, k: Integers) -> None:
     for i in range(m):
         k[S.grouped + S.first_grouped + m - 1 - i] = k[S.active + k[S.order + i]]
     for a in range(m):
-        k[S.active + a] = k[S.grouped + S.first_grouped + a]
+        active_at(S, w, k, a).slot = k[S.grouped + S.first_grouped + a]
     link_active(S, w, k)

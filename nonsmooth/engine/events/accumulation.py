@@ -12,7 +12,7 @@ from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.impact.instant import plastic_impulses
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 
 
 @kernel("i8(S, F, I)")
@@ -97,17 +97,19 @@ def _left_over(S: Scalars, w: Floats, k: Integers) -> int:
     work = S.driven_work
     _begin_modes(S, w, k)
     _shut(S, w, k)
-    contact, worst = -1, S.velocity_tolerance
+    which, worst = -1, S.velocity_tolerance
     for c in range(S.n_contacts):
-        if k[S.closes + c] == 1 and w[S.rate + 3 * c] > worst:
-            contact, worst = c, w[S.rate + 3 * c]
+        contact = contact_at(S, w, k, c)
+        if contact.closes == 1 and contact.rate[0] > worst:
+            which, worst = c, contact.rate[0]
     S.driven_work = work
     for i in range(S.n_u):
         w[S.y + S.n_q + i] = w[S.y_stage + S.n_q + i]
     for c in range(S.n_contacts):
-        k[S.mode + c] = k[S.mode_agreed + c]
+        contact = contact_at(S, w, k, c)
+        contact.mode = contact.mode_agreed
     touch(S, w, k)
-    return contact
+    return which
 
 
 @kernel("i8(S, F, I)")
@@ -118,10 +120,10 @@ def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
     """
     closing = _choose(S, w, k)
     while closing > 0:
-        contact = _left_over(S, w, k)
-        if contact < 0:
+        which = _left_over(S, w, k)
+        if which < 0:
             break
-        k[S.closes + contact] = 0
+        contact_at(S, w, k, which).closes = 0
         closing -= 1
     if closing == 0:
         return 0
@@ -138,11 +140,12 @@ def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
     w[S.event_head + CLOSING_LOSS] = _shut(S, w, k)
     w[S.event_head + DRIVEN_WORK] = S.driven_work - before
     S.closing_loss += w[S.event_head + CLOSING_LOSS]
-    contact = -1
+    which = -1
     for c in range(S.n_contacts):
-        if k[S.closes + c] == 1:
-            contact = c
-    record_event(S, w, k, cause, contact, 0)
+        contact = contact_at(S, w, k, c)
+        if contact.closes == 1:
+            which = c
+    record_event(S, w, k, cause, which, 0)
 
 
 @kernel("f8(S, F, I)")
@@ -167,9 +170,10 @@ def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
         plastic_impulses(S, w, k, 0.0)
         add_response(S, w, k, S.f, S.y + S.n_q)
         for a in range(S.n_active):
-            contact = contact_at(S, w, k, k[S.active + a])
+            active = active_at(S, w, k, a)
+            contact = contact_at(S, w, k, active.slot)
             for r in range(3):
-                impulse = w[S.f + 3 * a + r]
+                impulse = active.force[r]
                 loss -= 0.5 * impulse * add_product(S, w, k, 2.0 * contact.rate[r], a, r, S.f)
                 S.driven_work -= impulse * contact.prescribed_rate[r]
     return loss

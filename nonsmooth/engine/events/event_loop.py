@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
@@ -39,7 +37,6 @@ from nonsmooth.engine.flow.projection import (
 )
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.flow.step import try_step
-from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
 from nonsmooth.engine.memory.layout import BOOKED, FALL, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
 from nonsmooth.engine.memory.modes import (
@@ -66,7 +63,17 @@ from nonsmooth.engine.memory.modes import (
     STOPPED,
     TOUCH,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    contact_at,
+    entry_point,
+    guard_at,
+    kernel,
+    own_guard_at,
+)
+from nonsmooth.engine.numerics.vectors import length
 
 _EVENTS_AT_ONCE = 100
 """Besides one for every contact."""
@@ -146,10 +153,10 @@ def _end_within(S: Scalars, w: Floats, k: Integers) -> int:
     return _arrived(S, w, k)
 
 
-@kernel("i8(S, I, i8)")
-def _closing_cause(S: Scalars, k: Integers, c: int) -> int:
+@kernel("i8(S, F, I, i8)")
+def _closing_cause(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return what it is when contact ``c`` closes."""
-    return IMPACT if k[S.normal_function + c] == 0 else TOUCH
+    return IMPACT if contact_at(S, w, k, c).normal_function == 0 else TOUCH
 
 
 @kernel("i8(S, F, I, i8)")
@@ -158,15 +165,16 @@ def _cause(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
     c = contact_of(guard)
     contact = contact_at(S, w, k, c)
     if is_friction_guard(guard) == 0:
-        return _closing_cause(S, k, c) if contact.mode == OPEN else LIFT_OFF
+        return _closing_cause(S, w, k, c) if contact.mode == OPEN else LIFT_OFF
     if contact.mode != STICK:
         return SLIP_TO_STICK
     # the static bound vanishes with the normal force
-    return LIFT_OFF if w[S.guard + normal_guard(c)] <= 1e-9 * w[S.guard_first + normal_guard(c)] else STICK_TO_SLIP
+    force = guard_at(S, w, k, normal_guard(c))
+    return LIFT_OFF if force.value <= 1e-9 * force.first else STICK_TO_SLIP
 
 
 @kernel("i8(S, F, I, i8, i8)")
-def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry out an event: count it, and update modes and velocities at its instant; return the status."""
     S.fresh = 0
     if S.t - S.last_event_t > S.time_tolerance:
@@ -175,7 +183,7 @@ def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> 
     S.last_event_t = S.t
     if S.repeated > _EVENTS_AT_ONCE + S.n_contacts:
         return EVENTS_ENDLESS
-    return update_at_event(S, w, k, cause, contact)
+    return update_at_event(S, w, k, cause, which)
 
 
 @kernel("i8(S, F, I)")
@@ -187,9 +195,8 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode == SLIDE and contact.traction_function == 0:
-            v1, v2 = contact.rate_end[1], contact.rate_end[2]
-            speed = math.sqrt(v1 * v1 + v2 * v2)
-            if speed <= S.velocity_tolerance and speed < w[S.guard_first + friction_guard(c)]:
+            speed = length((contact.rate_end[1], contact.rate_end[2]))
+            if speed <= S.velocity_tolerance and speed < guard_at(S, w, k, friction_guard(c)).first:
                 return c
     return -1
 
@@ -218,10 +225,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if S.failed != RUNNING:
         return int(S.failed)
     _keep_start(S, w, k)
-    contact = _due_at_start(S, w, k)
-    if contact >= 0:
-        cause = _closing_cause(S, k, contact) if k[S.mode + contact] == OPEN else FEATURE_END
-        return _carry_out(S, w, k, cause, contact)
+    which = _due_at_start(S, w, k)
+    if which >= 0:
+        cause = _closing_cause(S, w, k, which) if contact_at(S, w, k, which).mode == OPEN else FEATURE_END
+        return _carry_out(S, w, k, cause, which)
     orient_slips(S, w, k, S.rate_end)
     arm_guards(S, w, k)
     status = accepted_step(S, w, k)
@@ -230,7 +237,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     S.steps += 1
     high = first_crossing(S, w, k, S.h)
     for i in range(first_own_guard(S), first_end_guard(S)):
-        if not abs(w[S.guard_end + i]) < 1e300:
+        if not abs(guard_at(S, w, k, i).end) < 1e300:
             return _up_to_end(S, NOT_FINITE)
     if high > 0.0:
         return _step_to_event(S, w, k, high)
@@ -273,11 +280,12 @@ def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         # a gap that closes exactly where the last step ended is an event of that step
-        arrived = w[S.guard_end + normal_guard(c)] <= S.gap_tolerance and contact.gap_rate_end < -S.velocity_tolerance
+        gap = guard_at(S, w, k, normal_guard(c)).end
+        arrived = gap <= S.gap_tolerance and contact.gap_rate_end < -S.velocity_tolerance
         if contact.mode == OPEN and arrived:
             return c
         # what put the contacts on their constraints may have put one past its end
-        if contact.mode != OPEN and w[S.guard_end + first_end_guard(S) + c] < 0.0:
+        if contact.mode != OPEN and guard_at(S, w, k, first_end_guard(S) + c).end < 0.0:
             return c
     return -1
 
@@ -287,9 +295,9 @@ def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
     S.limit = NO_STEP
     if status == STEP_TOO_SMALL:
-        contact = _hardest_pressed(S, w, k)
-        if contact >= 0:
-            outcome = _carry_out(S, w, k, JAM, contact)
+        which = _hardest_pressed(S, w, k)
+        if which >= 0:
+            outcome = _carry_out(S, w, k, JAM, which)
             if outcome != NO_CONTACT_SOLUTION:
                 return int(outcome)
     return _up_to_end(S, status)
@@ -302,9 +310,9 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
         S.limit = BY_END
         return _end_within(S, w, k)
     _commit(S, w, k, S.h)
-    contact = _stopping(S, w, k)
-    if contact >= 0:
-        return _carry_out(S, w, k, SLIP_TO_STICK, contact)
+    which = _stopping(S, w, k)
+    if which >= 0:
+        return _carry_out(S, w, k, SLIP_TO_STICK, which)
     S.fresh = 1
     return RUNNING
 
@@ -339,22 +347,22 @@ def _shorten(S: Scalars) -> int:
 def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
     """Take over the step of ``h`` at whose end a guard fires, and carry out its event; return the status."""
     if guard >= first_end_guard(S):
-        contact = guard - first_end_guard(S)
-        changed = w[S.geometry + GEOMETRY * contact + PAST_END] <= S.gap_tolerance
+        which = guard - first_end_guard(S)
+        changed = contact_at(S, w, k, which).beyond <= S.gap_tolerance
         _commit(S, w, k, h)
         if changed:
             S.feature_t = S.t
-        return _carry_out(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, contact)
+        return _carry_out(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, which)
     if guard >= first_own_guard(S):
         _commit(S, w, k, h)
         return _own_event(S, w, k, guard - first_own_guard(S))
-    cause, contact = _cause(S, w, k, guard), contact_of(guard)
+    cause, which = _cause(S, w, k, guard), contact_of(guard)
     if cause == STICK_TO_SLIP:
-        _break_direction(S, w, k, contact)
+        _break_direction(S, w, k, which)
     _commit(S, w, k, h)
-    if k[S.tied + contact] == 1 and _null_space_forces_hold(S, w, k, guard) == 1:
+    if contact_at(S, w, k, which).redundant == 1 and _null_space_forces_hold(S, w, k, guard) == 1:
         return RUNNING
-    return _carry_out(S, w, k, cause, contact)
+    return _carry_out(S, w, k, cause, which)
 
 
 @kernel("i8(S, F, I, i8)")
@@ -364,8 +372,8 @@ def _null_space_forces_hold(S: Scalars, w: Floats, k: Integers, guard: int) -> i
     The ``guard`` that fired must be that of a force.  A second time within the time tolerance there is no choice: then
     all forces vanish.
     """
-    contact = contact_of(guard)
-    if k[S.mode + contact] == OPEN or (is_friction_guard(guard) == 1 and k[S.holds + contact] == 0):
+    contact = contact_at(S, w, k, contact_of(guard))
+    if contact.mode == OPEN or (is_friction_guard(guard) == 1 and contact.holds == 0):
         return 0
     if S.t - S.chosen_t <= S.time_tolerance:
         return 0
@@ -379,23 +387,24 @@ def _own_event(S: Scalars, w: Floats, k: Integers, number: int) -> int:
     """Record the event of a guard of the scenario's own; return the status."""
     remember(S, w, k)
     record_event(S, w, k, GUARD, number, 0)
-    k[S.own_guard_spent + number] = 1
-    return STOPPED if k[S.own_guard_ends + number] == 1 else RUNNING
+    guard = own_guard_at(S, w, k, number)
+    guard.spent = 1
+    return STOPPED if guard.ends == 1 else RUNNING
 
 
 @kernel("void(S, F, I, i8)")
-def _break_direction(S: Scalars, w: Floats, k: Integers, contact: int) -> None:
+def _break_direction(S: Scalars, w: Floats, k: Integers, which: int) -> None:
     """Let a contact that breaks away slip against the friction that held it, that of least norm if it is not unique."""
-    t1 = w[S.force + 3 * contact + 1] - w[S.null_space_force + 3 * contact + 1] * k[S.tied + contact]
-    t2 = w[S.force + 3 * contact + 2] - w[S.null_space_force + 3 * contact + 2] * k[S.tied + contact]
-    norm = math.sqrt(t1 * t1 + t2 * t2)
+    contact = contact_at(S, w, k, which)
+    t1 = contact.force[1] - contact.null_space_force[1] * contact.redundant
+    t2 = contact.force[2] - contact.null_space_force[2] * contact.redundant
+    norm = length((t1, t2))
     if norm > 0.0:
-        turn_facing(S, w, k, contact, t1)
-        w[S.direction + 2 * contact] = -t1 / norm
-        w[S.direction + 2 * contact + 1] = -t2 / norm
+        turn_facing(S, w, k, which, t1)
+        contact.direction = -t1 / norm, -t2 / norm
 
 
-@room("i8(S, F, I, i8, i8)")
+@entry_point("i8(S, F, I, i8, i8)")
 def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> int:
     """Run until the end time, a failure, full buffers or ``most_steps``; return the status.
 
@@ -418,7 +427,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
-        if wary == 1 and wanted_step(S, k) > S.t_end - S.t:
+        if wary == 1 and wanted_step(S, w, k) > S.t_end - S.t:
             return PAUSED
         if S.t_end - S.t <= S.time_tolerance:
             return _arrived(S, w, k)

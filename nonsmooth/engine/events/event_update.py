@@ -47,13 +47,22 @@ from nonsmooth.engine.memory.modes import (
     PARADOX_REFUSED,
     REFUSE,
     RUNNING,
-    SETTLE_ENDLESS,
     SLIDE,
     START,
     STICK,
     STICK_TO_SLIP,
+    UPDATE_ENDLESS,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    guard_at,
+    kernel,
+)
 from nonsmooth.engine.native.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
@@ -69,32 +78,35 @@ _FACINGS = 20
 @kernel("i8(S, F, I)")
 def _fastest_approach(S: Scalars, w: Floats, k: Integers) -> int:
     """Return the touching contact that approaches most."""
-    contact, worst = -1, 1e300
+    which, worst = -1, 1e300
     for c in range(S.n_contacts):
-        if k[S.touching + c] == 1 and k[S.normal_function + c] == 0 and w[S.rate + 3 * c] < worst:
-            contact, worst = c, w[S.rate + 3 * c]
-    return contact
+        contact = contact_at(S, w, k, c)
+        if contact.touching == 1 and contact.normal_function == 0 and contact.rate[0] < worst:
+            which, worst = c, contact.rate[0]
+    return which
 
 
 @kernel("i8(S, F, I)")
 def _approaches(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if a touching contact approaches, after an impact."""
-    contact = _fastest_approach(S, w, k)
-    return 1 if contact >= 0 and w[S.rate + 3 * contact] < -S.velocity_tolerance else 0
+    which = _fastest_approach(S, w, k)
+    return 1 if which >= 0 and contact_at(S, w, k, which).rate[0] < -S.velocity_tolerance else 0
 
 
 @kernel("i8(S, F, I, i8, i8)")
-def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
+def _takes_part(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Return 1 if the active contacts collide: one of them approaches, or it is the one that jams or has no force."""
     for a in range(S.n_active):
-        c = k[S.active + a]
-        if c == contact or (cause == IMPACT and w[S.rate + 3 * c] < -S.velocity_tolerance):
+        active = active_at(S, w, k, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        if c == which or (cause == IMPACT and contact.rate[0] < -S.velocity_tolerance):
             return 1
     return 0
 
 
-@room("i8(S, F, I, i8, i8, f8)")
-def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, seed: float) -> int:
+@entry_point("i8(S, F, I, i8, i8, f8)")
+def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: float) -> int:
     """Run the impact law on the touching contacts, island by island, book and record it; return the status.
 
     An impact without collision needs a speed for its ``seed`` [m/s].
@@ -108,7 +120,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, seed: 
     phases = truncated = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
-        if _takes_part(S, w, k, cause, contact) == 0:
+        if _takes_part(S, w, k, cause, which) == 0:
             continue
         status = _collide_island(S, w, k, cause, seed)
         if status != RUNNING:
@@ -126,9 +138,10 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, seed: 
     # until the instant is settled: apart is open, the rest goes by its slip
     touch(S, w, k)
     for c in range(S.n_contacts):
-        if k[S.code_during + c] != k[S.code_before + c] or k[S.mode + c] != OPEN:
+        contact = contact_at(S, w, k, c)
+        if contact.code_during != contact.code_before or contact.mode != OPEN:
             _provisional_mode(S, w, k, c)
-    record_event(S, w, k, cause, contact, S.phases)
+    record_event(S, w, k, cause, which, S.phases)
     return RUNNING
 
 
@@ -140,11 +153,12 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
     if not large:
         assemble_delassus(S, w, k)
     for a in range(m):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        c = active.slot
         contact = contact_at(S, w, k, c)
         contact.code_during = impact_code(S, w, k, c)
         for r in range(3):
-            w[S.impact_z0 + 3 * a + r] = contact.rate[r]
+            active.rate_before[r] = contact.rate[r]
     S.phases, S.truncated = 1, 0
     if cause == JAM:
         if jam_slips(S, w, k) == 0:
@@ -160,15 +174,16 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
             return NOT_FINITE
     add_response(S, w, k, S.impulse, S.y + S.n_q)
     for a in range(m):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        c = active.slot
         contact = contact_at(S, w, k, c)
-        w[S.event_head + RESTITUTION_LOSS] += w[S.stored + a] - w[S.returned + a]
-        w[S.event_head + FRICTION_LOSS] += w[S.rubbed + a]
+        w[S.event_head + RESTITUTION_LOSS] += active.stored - active.returned
+        w[S.event_head + FRICTION_LOSS] += active.rubbed
         for r in range(3):
-            impulse = w[S.impulse + 3 * a + r]
+            impulse = active.impulse[r]
             contact.event_impulse[r] = impulse
             w[S.event_head + DRIVEN_WORK] -= impulse * contact.prescribed_rate[r]
-        if k[S.oriented + c] == 1:
+        if contact.oriented == 1:
             unstretch_force(S, w, k, c, S.event_impulse + 3 * c)
     return RUNNING
 
@@ -185,8 +200,7 @@ def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     speed = slip_speed(S, w, k, c)
     contact.mode = SLIDE if speed > S.velocity_tolerance else STICK
     if speed > S.velocity_tolerance:
-        for i in range(2):
-            contact.direction[i] = contact.rate[1 + i] / speed
+        contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
 @kernel("i8(S, F, I, i8)")
@@ -195,52 +209,60 @@ def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     contact = contact_at(S, w, k, c)
     largest = 0.0
     for other in range(S.n_contacts):
-        if k[S.mode + other] != OPEN and k[S.normal_function + other] == 0:
-            largest = max(largest, w[S.guard_first + normal_guard(other)])
+        pushing = contact_at(S, w, k, other)
+        if pushing.mode != OPEN and pushing.normal_function == 0:
+            largest = max(largest, guard_at(S, w, k, normal_guard(other)).first)
     rigid = contact.normal_function == 0
-    return 1 if rigid and contact.mode != OPEN and w[S.guard + normal_guard(c)] <= 1e-9 * largest else 0
+    return 1 if rigid and contact.mode != OPEN and guard_at(S, w, k, normal_guard(c)).value <= 1e-9 * largest else 0
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def _share_a_bound(S: Scalars, w: Floats, k: Integers, c: int, which: int) -> int:
+    """Return 1 if the forces of two contacts are not unique, so that they share one bound."""
+    return 1 if contact_at(S, w, k, c).redundant + contact_at(S, w, k, which).redundant == 2 else 0
 
 
 @kernel("void(S, F, I, i8, i8)")
-def _expect(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
+def _expect(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
     """Group the contacts at rest in the normal direction and guess their modes: the past ones, and the event's."""
     for c in range(S.n_contacts):
-        k[S.member + c] = 0
-        k[S.mode_agreed + c] = OPEN
-        if k[S.normal_function + c] != 0:
-            _expect_compliant(S, w, k, c, contact, cause)
-        elif k[S.touching + c] == 1 and w[S.rate + 3 * c] <= S.velocity_tolerance:
-            k[S.member + c] = 1
+        contact = contact_at(S, w, k, c)
+        contact.member = 0
+        contact.mode_agreed = OPEN
+        if contact.normal_function != 0:
+            _expect_compliant(S, w, k, c, which, cause)
+        elif contact.touching == 1 and contact.rate[0] <= S.velocity_tolerance:
+            contact.member = 1
             # a slip about to start from rest is found anew, not remembered
             mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
             # one that touches without having closed parts again
-            if k[S.mode + c] == OPEN and c != contact and cause != START:
+            if contact.mode == OPEN and c != which and cause != START:
                 mode = OPEN
-            if cause == LIFT_OFF and (c == contact or _force_gone(S, w, k, c) == 1):
+            if cause == LIFT_OFF and (c == which or _force_gone(S, w, k, c) == 1):
                 mode = OPEN
             # a group whose forces are not unique has one bound and breaks away together
-            if cause == STICK_TO_SLIP and (c == contact or k[S.tied + c] + k[S.tied + contact] == 2):
+            if cause == STICK_TO_SLIP and (c == which or _share_a_bound(S, w, k, c, which) == 1):
                 mode = SLIDE
-            k[S.mode_agreed + c] = mode
+            contact.mode_agreed = mode
     group_members(S, w, k)
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
-def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, contact: int, cause: int) -> None:
+def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, which: int, cause: int) -> None:
     """Guess the mode of a compliant contact, which is its mode where its friction is no question."""
-    if cause == LIFT_OFF and c == contact:
-        k[S.touching + c] = 0
-    if k[S.touching + c] == 0:
+    contact = contact_at(S, w, k, c)
+    if cause == LIFT_OFF and c == which:
+        contact.touching = 0
+    if contact.touching == 0:
         return
     speed = slip_speed(S, w, k, c)
-    slides = speed > S.velocity_tolerance or k[S.traction_function + c] != 0
-    breaks = cause == STICK_TO_SLIP and (c == contact or k[S.tied + c] + k[S.tied + contact] == 2)
-    k[S.mode_agreed + c] = SLIDE if slides or breaks else STICK
-    k[S.member + c] = 1 - rubs_unasked(S, w, k, c)
-    for i in range(2):
-        w[S.direction_agreed + 2 * c + i] = w[S.direction + 2 * c + i]
-        if speed > S.velocity_tolerance:
-            w[S.direction_agreed + 2 * c + i] = w[S.rate + 3 * c + 1 + i] / speed
+    slides = speed > S.velocity_tolerance or contact.traction_function != 0
+    breaks = cause == STICK_TO_SLIP and (c == which or _share_a_bound(S, w, k, c, which) == 1)
+    contact.mode_agreed = SLIDE if slides or breaks else STICK
+    contact.member = 1 - rubs_unasked(S, w, k, c)
+    contact.direction_agreed = contact.direction
+    if speed > S.velocity_tolerance:
+        contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
 
 
 @kernel("i8(S, F, I)")
@@ -255,48 +277,50 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         for a in range(S.n_active):
-            k[S.mode_tried + a] = k[S.mode_agreed + k[S.active + a]]
+            active = active_at(S, w, k, a)
+            active.mode_tried = contact_at(S, w, k, active.slot).mode_agreed
         set_up(S, w, k)
         if solve_contact(S, w, k) == 0:
             return 0
         accelerate(S, w, k)
         for a in range(S.n_active):
-            c = k[S.active + a]
+            active = active_at(S, w, k, a)
+            c = active.slot
             contact = contact_at(S, w, k, c)
             contact.small_force_of = small_force(S, w, k, a)
             contact.mobility = slope_of_slip(S, w, k, a)
-            contact.mode_agreed = k[S.mode_tried + a]
-            for i in range(2):
-                contact.direction_agreed[i] = w[S.d + 2 * a + i]
-            if k[S.at_rest + a] == 1 and k[S.mode_tried + a] != OPEN:
-                turned += turn_facing(S, w, k, c, w[S.f + 3 * a + 1])
+            contact.mode_agreed = active.mode_tried
+            contact.direction_agreed = active.direction
+            if active.at_rest == 1 and active.mode_tried != OPEN:
+                turned += turn_facing(S, w, k, c, active.force[1])
     # friction that turned out to oppose the other way has another bound
     return 2 if turned > 0 else 1
 
 
 @kernel("i8(S, F, I, i8)")
-def _jam(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
-    """Run the impact of a jam on the island of ``contact``; return the status."""
+def _jam(S: Scalars, w: Floats, k: Integers, which: int) -> int:
+    """Run the impact of a jam on the island of contact ``which``; return the status."""
     S.jammed = 1
-    return PARADOX_REFUSED if S.policy == REFUSE else int(collide(S, w, k, JAM, contact, 0.0))
+    return PARADOX_REFUSED if S.policy == REFUSE else int(collide(S, w, k, JAM, which, 0.0))
 
 
 @kernel("i8(S, F, I)")
 def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
     """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
     for c in range(S.n_contacts):
-        k[S.impacting + c] = 0
-    contact, seed = -1, 0.0
+        contact_at(S, w, k, c).impacting = 0
+    which, seed = -1, 0.0
     for a in range(S.n_active):
-        if k[S.at_rest + a] == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
-            contact = k[S.active + a]
-            k[S.impacting + contact] = 1
-            seed = max(seed, slip_speed(S, w, k, contact))
-    if contact < 0:
-        return _jam(S, w, k, k[S.active])
+        active = active_at(S, w, k, a)
+        if active.at_rest == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
+            which = active.slot
+            contact_at(S, w, k, which).impacting = 1
+            seed = max(seed, slip_speed(S, w, k, which))
+    if which < 0:
+        return _jam(S, w, k, active_at(S, w, k, 0).slot)
     if S.policy == REFUSE:
         return PARADOX_REFUSED
-    return int(collide(S, w, k, PAINLEVE, contact, seed))
+    return int(collide(S, w, k, PAINLEVE, which, seed))
 
 
 @kernel("i8(S, F, I)")
@@ -312,21 +336,21 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
     return 1 if closed > 1 and creeping > 0 else 0
 
 
-@room("i8(S, F, I, i8, i8)")
-def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> int:
-    """Carry the system through an instant that ``contact`` makes one by ``cause``; return the status."""
+@entry_point("i8(S, F, I, i8, i8)")
+def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
+    """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = S.jammed = 0
     resting = projected = 0
     approaching = touch(S, w, k)
     open_account(S, w, k)
     if cause == JAM:
-        status = _jam(S, w, k, contact)
+        status = _jam(S, w, k, which)
         if status != RUNNING:
             return status
         approaching = _approaches(S, w, k)
     for _attempt in range(_ATTEMPTS):
         if interrupted(S, S.n_contacts) == 1:
-            return SETTLE_ENDLESS
+            return UPDATE_ENDLESS
         if approaching == 1 and hand_over(S, w, k) == 1:
             approaching = touch(S, w, k)
             continue
@@ -338,16 +362,17 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int
             continue
         if S.recorded == 0 and projected == 0:
             remember(S, w, k)
-        _expect(S, w, k, cause, contact)
+        _expect(S, w, k, cause, which)
         solved = _solve_islands(S, w, k)
         if solved == 2 and _attempt < _FACINGS:
             approaching = touch(S, w, k)
             continue
         if S.stopped == 1:
-            return SETTLE_ENDLESS
+            return UPDATE_ENDLESS
         if solved == 0:
             for a in range(S.n_active):
-                if not (w[S.mu + a] >= 0.0 and w[S.mu_static + a] >= 0.0):
+                active = active_at(S, w, k, a)
+                if not (active.mu >= 0.0 and active.mu_static >= 0.0):
                     return NOT_FINITE
             resting += 1
             if resting > _PAINLEVE_ATTEMPTS:
@@ -360,13 +385,13 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int
         _adopt(S, w, k)
         if close_contacts(S, w, k) == 0:
             if _creeps(S, w, k) == 0 or projected == _PROJECTIONS:
-                _finish(S, w, k, cause, contact)
+                _finish(S, w, k, cause, which)
                 return RUNNING
             # what brings others to rest may turn so slow a slip, and modes follow from its direction
             projected += 1
             S.closing_loss += project_closed(S, w, k, 1)
         approaching = touch(S, w, k)
-    return SETTLE_ENDLESS
+    return UPDATE_ENDLESS
 
 
 @kernel("void(S, F, I)")
@@ -378,22 +403,22 @@ def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
             begin_contact(S, w, k, c)
         contact.mode = contact.mode_agreed
         if contact.mode == SLIDE:
-            for i in range(2):
-                contact.direction[i] = contact.direction_agreed[i]
+            contact.direction = contact.direction_agreed
 
 
 @kernel("void(S, F, I, i8, i8)")
-def _finish(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
+def _finish(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
     """Put the closed contacts exactly on their constraints and write the event."""
     S.closing_loss += project_closed(S, w, k, 1) + stop_creeping(S, w, k)
     if S.recorded > 0:
         amend_last(S, w, k)
         return
-    if cause == IMPACT and has_replaced(S, w, k, contact) == 1:
+    if cause == IMPACT and has_replaced(S, w, k, which) == 1:
         cause = FEATURE_CHANGE
     changed = 0
     for c in range(S.n_contacts):
-        if code(S, w, k, c) != k[S.code_before + c]:
+        contact = contact_at(S, w, k, c)
+        if code(S, w, k, c) != contact.code_before:
             changed = 1
     if changed == 1 or cause == 0 or cause == FEATURE_CHANGE:
-        record_event(S, w, k, cause, contact, 0)
+        record_event(S, w, k, cause, which, 0)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import GUARD, OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_state
+from nonsmooth.engine.numerics.vectors import length
 
 TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
 """Which float at the head of an event is which."""
@@ -34,8 +33,7 @@ MOST_EVENTS = 204
 @kernel("i8(S, F, I, i8)")
 def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
-    contact = contact_at(S, w, k, c)
-    mode = contact.mode
+    mode = contact_at(S, w, k, c).mode
     if mode == OPEN:
         return 0
     return 5 if mode == SLIDE else 1
@@ -50,8 +48,7 @@ def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     bits = 1
     if contact.rate[0] < -S.velocity_tolerance:
         bits += 2
-    v1, v2 = contact.rate[1], contact.rate[2]
-    if math.sqrt(v1 * v1 + v2 * v2) > S.velocity_tolerance:
+    if length(contact.slip) > S.velocity_tolerance:
         bits += 4
     return bits
 
@@ -72,11 +69,12 @@ def remember(S: Scalars, w: Floats, k: Integers) -> None:
 
 
 @kernel("i8(S, F, I, i8)")
-def _list_event(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
+def _list_event(S: Scalars, w: Floats, k: Integers, which: int) -> int:
     """List the contacts that an event is about: all that are or were closed, and the one that caused it."""
     n = 0
     for c in range(S.n_contacts):
-        if c == contact or k[S.code_before + c] + k[S.code_during + c] + code(S, w, k, c) > 0:
+        contact = contact_at(S, w, k, c)
+        if c == which or contact.code_before + contact.code_during + code(S, w, k, c) > 0:
             k[S.listed + n] = c
             n += 1
     return n
@@ -92,20 +90,21 @@ def _write_booked(S: Scalars, w: Floats, out: int) -> None:
 @kernel("void(S, F, I, i8, i8)")
 def _list_contact(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
     """Write the impulses of contact ``c`` and what it needs to go on from here."""
+    contact = contact_at(S, w, k, c)
     for r in range(3):
-        w[out + r] = w[S.event_impulse + 3 * c + r]
-    w[out + 3], w[out + 4] = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
-    w[out + 5], w[out + 6] = w[S.closing_rate + c], float(k[S.facing + c])
-    candidate = k[S.candidate + c]
+        w[out + r] = contact.event_impulse[r]
+    w[out + 3], w[out + 4] = contact.direction
+    w[out + 5], w[out + 6] = contact.closing_rate, float(contact.facing)
+    candidate = contact.candidate
     for r in range(CANDIDATE):
         w[out + 7 + r] = w[candidate + r] if candidate > 0 else 0.0
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
-def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, phases: int) -> None:
+def record_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
     S.recorded += 1
-    n = _list_event(S, w, k, -1 if cause == GUARD else contact)
+    n = _list_event(S, w, k, -1 if cause == GUARD else which)
     width = EVENT_HEAD + S.n_u + S.n_y + BOOKED + LISTED * n
     S.last_floats, S.last_integers = S.floats_used, S.integers_used
     row = S.events + S.floats_used
@@ -126,17 +125,18 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, p
     _write_booked(S, w, row)
     row += BOOKED
     codes = S.event_codes + S.integers_used
-    k[codes + CAUSE], k[codes + CONTACT], k[codes + PHASES] = cause, contact, phases
-    if contact >= 0 and cause != GUARD:
-        k[codes + CONTACT] = k[S.identity + contact]
+    k[codes + CAUSE], k[codes + CONTACT], k[codes + PHASES] = cause, which, phases
+    if which >= 0 and cause != GUARD:
+        k[codes + CONTACT] = contact_at(S, w, k, which).identity
     k[codes + TRUNCATED] = S.truncated if phases > 0 else 0
     k[codes + N_LISTED] = n
     for i in range(n):
         c = k[S.listed + i]
+        contact = contact_at(S, w, k, c)
         _list_contact(S, w, k, c, row + LISTED * i)
-        k[codes + CODE_HEAD + 2 * i] = k[S.identity + c]
-        k[codes + CODE_HEAD + 2 * i + 1] = k[S.code_before + c] + 8 * k[S.code_during + c] + 64 * code(S, w, k, c)
-    S.last_contact = contact
+        k[codes + CODE_HEAD + 2 * i] = contact.identity
+        k[codes + CODE_HEAD + 2 * i + 1] = contact.code_before + 8 * contact.code_during + 64 * code(S, w, k, c)
+    S.last_contact = which
     if S.told > 0:
         # a run that is continued repeats what led to its state, and has told of it
         S.told -= 1

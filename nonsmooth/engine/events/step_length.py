@@ -19,7 +19,7 @@ from nonsmooth.engine.memory.limits import (
     BY_SINGULARITY,
 )
 from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 
 _BEGINS = 10.0
@@ -37,26 +37,26 @@ def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
     """
     contact = contact_at(S, w, k, c)
-    if contact.normal_function == 0 or w[S.guard_end + normal_guard(c)] > _BEGINS * S.gap_tolerance:
+    if contact.normal_function == 0 or guard_at(S, w, k, normal_guard(c)).end > _BEGINS * S.gap_tolerance:
         return 1e300
-    rate = S.rate_end + 3 * c
-    speed = math.sqrt(w[rate] * w[rate] + w[rate + 1] * w[rate + 1] + w[rate + 2] * w[rate + 2])
+    rate = contact.rate_end
+    speed = math.sqrt(rate[0] * rate[0] + rate[1] * rate[1] + rate[2] * rate[2])
     return float(_FIRST_WAY * contact.size / max(speed, S.velocity_tolerance))
 
 
-@kernel("i8(S, I)")
-def _is_held(S: Scalars, k: Integers) -> int:
+@kernel("i8(S, F, I)")
+def _is_held(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if some contact is closed."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] != OPEN:
+        if contact_at(S, w, k, c).mode != OPEN:
             return 1
     return 0
 
 
-@kernel("f8(S, I)")
-def wanted_step(S: Scalars, k: Integers) -> float:
+@kernel("f8(S, F, I)")
+def wanted_step(S: Scalars, w: Floats, k: Integers) -> float:
     """Return how long the next step is if nothing cuts it short; it is never longer."""
-    return float(min(S.h_closed if _is_held(S, k) == 1 else S.h_free, S.h_max))
+    return float(min(S.h_closed if _is_held(S, w, k) == 1 else S.h_free, S.h_max))
 
 
 @kernel("f8(S, F, I, f8)")
@@ -94,8 +94,8 @@ def _overran(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     return overran_list(S, w, k, h)
 
 
-@kernel("void(S, I, f8, f8, f8)")
-def _remember_step(S: Scalars, k: Integers, h: float, error: float, wanted: float) -> None:
+@kernel("void(S, F, I, f8, f8, f8)")
+def _remember_step(S: Scalars, w: Floats, k: Integers, h: float, error: float, wanted: float) -> None:
     """Keep the accepted step of ``h`` and how long the next one may be."""
     S.h, S.step_error = h, error
     # the touch-down that was due is behind it, or is an event of it
@@ -104,7 +104,7 @@ def _remember_step(S: Scalars, k: Integers, h: float, error: float, wanted: floa
     following = h * step_factor(error)
     if h < wanted:
         following = max(following, wanted)
-    if _is_held(S, k) == 1:
+    if _is_held(S, w, k) == 1:
         S.h_closed = following
     else:
         S.h_free = following
@@ -113,7 +113,7 @@ def _remember_step(S: Scalars, k: Integers, h: float, error: float, wanted: floa
 @kernel("i8(S, F, I)")
 def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
-    wanted = wanted_step(S, k)
+    wanted = wanted_step(S, w, k)
     S.relaxation = relaxation(S, w, k)
     h = _first_attempt(S, w, k, wanted)
     S.limit = _limit(S, wanted, h)
@@ -130,7 +130,7 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             h *= 0.5
             S.limit = BY_LIST
         elif error <= 1.0:
-            _remember_step(S, k, h, error, wanted)
+            _remember_step(S, w, k, h, error, wanted)
             return RUNNING
         else:
             S.rejected += 1

@@ -20,19 +20,26 @@ from nonsmooth.engine.flow.guards import grown, has_fired
 from nonsmooth.engine.memory.blocks import (
     ACCELERATION,
     FRAME,
-    GAP,
     GEOMETRY,
     NORMAL,
-    PAST_END,
-    POINT_A,
-    POINT_B,
     SPIN,
     VELOCITY,
 )
 from nonsmooth.engine.memory.layout import FALL, LAST_STAGE, SECTOR, SECTORS
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    body_at,
+    contact_at,
+    entry_point,
+    frame_at,
+    guard_at,
+    kernel,
+)
 from nonsmooth.engine.numerics.runge_kutta import dense_part
+from nonsmooth.engine.numerics.vectors import minus
 
 _CURVED = 4.0
 """By so much a curved surface or an edge may turn the normal faster than its body turns."""
@@ -114,10 +121,11 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
 def _write_arm(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
     """Write where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
     contact = contact_at(S, w, k, c)
-    second = contact.lever_b <= contact.lever_a
-    frame, point = (contact.frame_b, POINT_B) if second else (contact.frame_a, POINT_A)
-    for r in range(3):
-        w[out + r] = contact.geometry[point + r] - w[frame + r]
+    if contact.lever_b <= contact.lever_a:
+        arm = minus(contact.point_b, frame_at(w, contact.frame_b).origin)
+    else:
+        arm = minus(contact.point_a, frame_at(w, contact.frame_a).origin)
+    w[out], w[out + 1], w[out + 2] = arm
 
 
 @kernel("void(S, F, I, i8, i8, i8, i8)")
@@ -125,8 +133,8 @@ def _frame_acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, d
     """Write the acceleration of the origin of a frame and its angular acceleration."""
     contact = contact_at(S, w, k, c)
     frame = contact.frame_a if side == 0 else contact.frame_b
-    n_u = k[S.nu_a + c] if side == 0 else k[S.nu_b + c]
-    first = du + k[S.body_u + (contact.body_a if side == 0 else contact.body_b)]
+    n_u = contact.nu_a if side == 0 else contact.nu_b
+    first = du + body_at(S, w, k, contact.body_a if side == 0 else contact.body_b).u
     for r in range(6):
         total = w[frame + ACCELERATION + r]
         for j in range(n_u):
@@ -183,7 +191,7 @@ def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         faces = contact.mode == OPEN and contact.past_first <= 0.0
-        if faces and w[S.guard_end + normal_guard(c)] <= 2.0 * h * contact.speed_first:
+        if faces and guard_at(S, w, k, normal_guard(c)).end <= 2.0 * h * contact.speed_first:
             write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + FALL * c)
 
 
@@ -198,7 +206,7 @@ def _too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> in
     return 1 if (g0 if past1 > 0.0 else g0 + g1) > way else 0
 
 
-@room("void(S, F, I, f8)")
+@entry_point("void(S, F, I, f8)")
 def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """List the open contacts whose gaps may close within the step by the speeds alone; the bodies stand at its end.
 
@@ -211,7 +219,7 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         contact.fall_end[_NOW] = -1.0
         if contact.mode != OPEN:
             continue
-        start = 0.0 if k[S.guard_deflated + normal_guard(c)] == 1 else w[S.guard_first + normal_guard(c)]
+        start = 0.0 if guard_at(S, w, k, normal_guard(c)).deflated == 1 else guard_at(S, w, k, normal_guard(c)).first
         way = h * (contact.speed_first + contact.speed_end)
         if _too_far(start, contact.past_first, contact.gap_end, contact.past_end, way) == 1:
             continue
@@ -230,18 +238,19 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
     contact = contact_at(S, w, k, c)
     S.looked = 1
     for side in range(2):
-        body = contact.body_a if side == 0 else contact.body_b
-        if k[S.body_nu + body] == 0:
+        number = contact.body_a if side == 0 else contact.body_b
+        body = body_at(S, w, k, number)
+        if body.nu == 0:
             evaluate_driven_bodies(S, w, k, S.t + theta * h, S.y)
             continue
         state = S.y if theta == 0.0 else S.y_new
         if 0.0 < theta < 1.0:
             state = S.y_stage
             for part in range(2):
-                i = k[S.body_q + body] if part == 0 else S.n_q + k[S.body_u + body]
-                n = k[S.body_nq + body] if part == 0 else k[S.body_nu + body]
+                i = body.q if part == 0 else S.n_q + body.u
+                n = body.nq if part == 0 else body.nu
                 dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, state + i)
-        evaluate_body(S, w, k, S.t + theta * h, state, body)
+        evaluate_body(S, w, k, S.t + theta * h, state, number)
     evaluate_geometry(S, w, k, c)
 
 
@@ -260,14 +269,16 @@ def _largest_fall(S: Scalars, w: Floats, k: Integers, h: float, c: int) -> float
 def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
     """Write an end of a part of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
     contact = contact_at(S, w, k, c)
-    gap = contact.geometry[GAP]
+    gap = contact.gap
     contact.gap_rate = contact.rate[0]
-    w[S.guard + normal_guard(c)] = grown(S, w, k, normal_guard(c), gap, theta * h)
-    if w[S.guard + normal_guard(c)] > 0.0:
-        k[S.guard_armed + normal_guard(c)] = 1
+    guard_at(S, w, k, normal_guard(c)).value = grown(S, w, k, normal_guard(c), gap, theta * h)
+    if guard_at(S, w, k, normal_guard(c)).value > 0.0:
+        guard_at(S, w, k, normal_guard(c)).armed = 1
     w[out + _THETA], w[out + _RATE] = theta, contact.rate[0]
-    w[out + _GAP] = gap - w[S.guard_start + normal_guard(c)] if k[S.guard_deflated + normal_guard(c)] == 1 else gap
-    w[out + _PAST] = contact.geometry[PAST_END]
+    w[out + _GAP] = (
+        gap - guard_at(S, w, k, normal_guard(c)).start if guard_at(S, w, k, normal_guard(c)).deflated == 1 else gap
+    )
+    w[out + _PAST] = contact.beyond
     _write_arm(S, w, k, c, out + _ARM)
 
 
@@ -319,8 +330,8 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     """
     contact = contact_at(S, w, k, c)
     left, n = S.sectors, 1
-    deflated = k[S.guard_deflated + normal_guard(c)] == 1
-    w[left + _THETA], w[left + _GAP] = 0.0, 0.0 if deflated else w[S.guard_first + normal_guard(c)]
+    deflated = guard_at(S, w, k, normal_guard(c)).deflated == 1
+    w[left + _THETA], w[left + _GAP] = 0.0, 0.0 if deflated else guard_at(S, w, k, normal_guard(c)).first
     w[left + _RATE], w[left + _PAST] = contact.gap_rate_first, contact.past_first
     right = left + SECTOR
     for r in range(3):
@@ -332,7 +343,7 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
             _look(S, w, k, h, high, c, right)
     else:
         w[right + _THETA], w[right + _RATE], w[right + _PAST] = 1.0, contact.gap_rate_end, contact.past_end
-        w[right + _GAP] = contact.gap_end - (w[S.guard_start + normal_guard(c)] if deflated else 0.0)
+        w[right + _GAP] = contact.gap_end - (guard_at(S, w, k, normal_guard(c)).start if deflated else 0.0)
     speed = contact.speed_first + contact.speed_end
     if (
         high < 1.0
@@ -365,7 +376,7 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     return 0.0
 
 
-@room("f8(S, F, I, f8, f8, i8)")
+@entry_point("f8(S, F, I, f8, f8, i8)")
 def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float, asked: int) -> float:
     """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
 

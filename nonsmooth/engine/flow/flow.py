@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.bodies.anisotropy import facing_force
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.bodies.compliance import (
@@ -18,13 +16,22 @@ from nonsmooth.engine.contact.held_contacts import hold_contacts, lay_rows
 from nonsmooth.engine.contact.implicit_slip import hold_at_end
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
-from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
 from nonsmooth.engine.memory.modes import SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    body_at,
+    contact_at,
+    entry_point,
+    kernel,
+)
+from nonsmooth.engine.numerics.vectors import length
 
 
-@room("i8(S, F, I, f8, i8, i8)")
+@entry_point("i8(S, F, I, f8, i8, i8)")
 def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosing: int) -> int:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
@@ -44,7 +51,8 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
         activate_group(S, w, k, group)
         implicit = S.ahead > 0.0 and _slides(S, w, k) == 1
         for a in range(S.n_active):
-            c = k[S.active + a]
+            active = active_at(S, w, k, a)
+            c = active.slot
             contact = contact_at(S, w, k, c)
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
@@ -53,20 +61,21 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
             if contact.normal_function != 0:
                 evaluate_compliant_force(S, w, k, c)
             _set_friction(S, w, k, a, y)
-            evaluate_bias(S, w, k, c, 1 + 2 * k[S.tangent_held + a])
+            evaluate_bias(S, w, k, c, 1 + 2 * active.tangent_held)
             lay_rows(S, w, k, a)
         if implicit:
             hold_at_end(S, w, k)
         else:
             keeps = min(keeps, hold_contacts(S, w, k, choosing))
         for a in range(S.n_active):
-            c = k[S.active + a]
+            active = active_at(S, w, k, a)
+            c = active.slot
             contact = contact_at(S, w, k, c)
-            contact.tied = k[S.redundant + a]
-            contact.holds = k[S.tangent_held + a]
+            contact.redundant = active.redundant
+            contact.holds = active.tangent_held
             contact.static_margin = _static_margin(S, w, k, a)
             for r in range(3):
-                contact.force[r] = w[S.f + 3 * a + r]
+                contact.force[r] = active.force[r]
     return keeps
 
 
@@ -74,7 +83,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
 def _slides(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if one of the active contacts slides."""
     for a in range(S.n_active):
-        if k[S.mode + k[S.active + a]] == SLIDE:
+        if contact_at(S, w, k, active_at(S, w, k, a).slot).mode == SLIDE:
             return 1
     return 0
 
@@ -82,40 +91,41 @@ def _slides(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("f8(S, F, I, i8)")
 def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return how far the friction of an active contact is from its bound [N]; without any, its slip from one [m/s]."""
-    c = k[S.active + a]
+    active = active_at(S, w, k, a)
+    c = active.slot
     contact = contact_at(S, w, k, c)
-    if k[S.tangent_held + a] == 0:
-        v1, v2 = contact.rate[1], contact.rate[2]
-        return float(S.velocity_tolerance - math.sqrt(v1 * v1 + v2 * v2))
-    t1, t2 = facing_force(S, w, k, c, w[S.f + 3 * a + 1]), w[S.f + 3 * a + 2]
-    slack = w[S.slack + c] * k[S.redundant + a]
-    return float(w[S.mu_static + a] * w[S.f + 3 * a] - math.sqrt(t1 * t1 + t2 * t2) + slack)
+    if active.tangent_held == 0:
+        return float(S.velocity_tolerance - length(contact.slip))
+    friction = facing_force(S, w, k, c, active.force[1]), active.force[2]
+    slack = contact.slack * active.redundant
+    return float(active.mu_static * active.normal_force - length(friction) + slack)
 
 
 @kernel("void(S, F, I, i8, i8)")
 def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
     """Set what the active contact ``a`` holds, and its slip direction and friction where it slides."""
-    c = k[S.active + a]
+    active = active_at(S, w, k, a)
+    c = active.slot
     contact = contact_at(S, w, k, c)
-    k[S.normal_held + a] = 1
-    k[S.tangent_held + a] = 0
-    w[S.turned + c] = 0.0
+    active.normal_held = 1
+    active.tangent_held = 0
+    contact.turned = 0.0
     if contact.normal_function != 0:
-        k[S.normal_held + a] = 0
-        w[S.f + 3 * a] = contact.compliant_force
+        active.normal_held = 0
+        active.normal_force = contact.compliant_force
         if contact.traction_function != 0:
-            rub_by_traction(S, w, k, c, S.f + 3 * a, y)
+            rub_by_traction(S, w, k, c, active.force, y)
             return
     if contact.mode == STICK:
-        w[S.mu_static + a] = friction_coefficient(S, w, k, c, 0.0)
-        if w[S.mu_static + a] > 0.0:
-            k[S.tangent_held + a] = 1
+        active.mu_static = friction_coefficient(S, w, k, c, 0.0)
+        if active.mu_static > 0.0:
+            active.tangent_held = 1
             return
-    follow_slip(S, w, k, a, S.rate + 3 * c + 1, S.velocity_tolerance)
-    if k[S.normal_held + a] == 0:
+    follow_slip(S, w, k, a, contact.slip, S.velocity_tolerance)
+    if active.normal_held == 0:
         # what pulls does not rub
-        w[S.mu + a] *= 1.0 if contact.compliant_force > 0.0 else 0.0
-        friction_of_slip(S, w, a)
+        active.mu *= 1.0 if contact.compliant_force > 0.0 else 0.0
+        friction_of_slip(S, w, k, a)
 
 
 @kernel("f8(S, F, I, i8)")
@@ -123,7 +133,7 @@ def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach."""
     contact = contact_at(S, w, k, c)
     if contact.normal_function != 0:
-        return float(contact.reach - contact.geometry[GAP])
+        return float(contact.reach - contact.gap)
     return float(contact.force[0])
 
 
@@ -133,10 +143,10 @@ def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     contact = contact_at(S, w, k, c)
     if contact.traction_function != 0:
         return 1.0
-    return float(contact.rate[1] * contact.direction[0] + contact.rate[2] * contact.direction[1])
+    return float(contact.slip[0] * contact.direction[0] + contact.slip[1] * contact.direction[1])
 
 
-@room("void(S, F, I, f8, i8, i8, i8)")
+@entry_point("void(S, F, I, f8, i8, i8, i8)")
 def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosing: int) -> None:
     """Write dy/dt: coordinate rates, accelerations, and four powers.
 
@@ -144,17 +154,19 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
     :func:`right_hand_side`.
     """
     right_hand_side(S, w, k, t, y, choosing)
-    for body in range(S.n_bodies):
-        rates = k[S.body_tail + body]
-        for i in range(k[S.body_nq + body]):
-            w[out + k[S.body_q + body] + i] = w[rates + i]
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
+        rates = body.tail
+        for i in range(body.nq):
+            w[out + body.q + i] = w[rates + i]
     for i in range(S.n_u):
         w[out + S.n_q + i] = w[S.du + i]
     lost = own = 0.0
-    for body in range(S.n_bodies):
-        h = k[S.body_tail + body] + k[S.body_nq + body]
-        for i in range(k[S.body_nu + body]):
-            own += w[h + i] * w[y + S.n_q + k[S.body_u + body] + i]
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
+        h = body.tail + body.nq
+        for i in range(body.nu):
+            own += w[h + i] * w[y + S.n_q + body.u + i]
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
@@ -162,7 +174,7 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
         if not sticks:
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
-        lost -= w[S.turned + c]
+        lost -= contact.turned
         hold = hold_guard(S, w, k, c)
         contact.least_force = min(contact.least_force, hold)
         if sticks or hold < 0.0 or slip_guard(S, w, k, c) < 0.0:

@@ -16,7 +16,7 @@ from nonsmooth.engine.flow.projection import normalise_quaternions, project_clos
 from nonsmooth.engine.flow.self_check import energy_of_bodies
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 
 _ATTEMPTS = 200
@@ -30,12 +30,12 @@ _SHORTEST = 0.1
 def orient_slips(S: Scalars, w: Floats, k: Integers, rates: int) -> None:
     """Take the slip directions of the rates as those of the step that begins."""
     for c in range(S.n_contacts):
-        if k[S.mode + c] == SLIDE:
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE:
             v1, v2 = w[rates + 3 * c + 1], w[rates + 3 * c + 2]
             speed = math.sqrt(v1 * v1 + v2 * v2)
             if speed > S.velocity_tolerance:
-                w[S.direction + 2 * c] = v1 / speed
-                w[S.direction + 2 * c + 1] = v2 / speed
+                contact.direction = v1 / speed, v2 / speed
 
 
 @kernel("i8(S, F, I)")
@@ -47,7 +47,8 @@ def _turned_round(S: Scalars, w: Floats, k: Integers) -> int:
     against = 0
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
-        if k[S.mode + c] == SLIDE and slip_guard(S, w, k, c) < -S.velocity_tolerance:
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE and slip_guard(S, w, k, c) < -S.velocity_tolerance:
             against = 1
     orient_slips(S, w, k, S.rate)
     return against
@@ -62,17 +63,17 @@ def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
     part = 1.0
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
+        contact = contact_at(S, w, k, c)
         last = slip_guard(S, w, k, c)
-        if k[S.mode + c] != SLIDE or last >= -S.velocity_tolerance:
+        if contact.mode != SLIDE or last >= -S.velocity_tolerance:
             continue
-        first = w[S.guard_first + friction_guard(c)]
+        first = guard_at(S, w, k, friction_guard(c)).first
         if first > S.velocity_tolerance:
             part = min(part, max(_SHORTEST, first / (first - last)))
             continue
         part = 0.0
-        w[S.guard_first + friction_guard(c)] = -first
-        for r in range(2):
-            w[S.direction + 2 * c + r] *= -1.0
+        guard_at(S, w, k, friction_guard(c)).first = -first
+        contact.direction = -contact.direction[0], -contact.direction[1]
     return part
 
 
@@ -99,7 +100,7 @@ def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return -1.0
 
 
-@room("i8(S, F, I, f8)")
+@entry_point("i8(S, F, I, f8)")
 def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
     """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
     group_closed(S, w, k)
@@ -110,7 +111,7 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
             slope(S, w, k, S.t, S.y, S.slopes, 0)
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
-            w[S.guard_first + friction_guard(c)] = slip_guard(S, w, k, c)
+            guard_at(S, w, k, friction_guard(c)).first = slip_guard(S, w, k, c)
         left = t - S.t
         h = _found_step(S, w, k, min(wanted, left))
         if h < 0.0:
@@ -135,15 +136,16 @@ def _past_bounds(S: Scalars, w: Floats, k: Integers) -> int:
     least = largest = 0.0
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
-        if k[S.tied + c] == 1:
-            largest = max(largest, abs(w[S.force + 3 * c]))
+        contact = contact_at(S, w, k, c)
+        if contact.redundant == 1:
+            largest = max(largest, abs(contact.force[0]))
             least = min(least, hold_guard(S, w, k, c))
-            if k[S.holds + c] == 1:
-                least = min(least, w[S.static_margin + c])
+            if contact.holds == 1:
+                least = min(least, contact.static_margin)
     return 1 if least < -_EXCESS * largest else 0
 
 
-@room("void(S, F, I, i8)")
+@entry_point("void(S, F, I, i8)")
 def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
     """Evaluate bodies, closed contacts and joints with their forces, and the energies, at the present state.
 

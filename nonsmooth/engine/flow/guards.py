@@ -28,9 +28,18 @@ from nonsmooth.engine.flow.guard_numbers import (
     normal_guard,
     number_of_guards,
 )
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_guard, contact_at, kernel
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    at,
+    call_guard,
+    contact_at,
+    guard_at,
+    kernel,
+    own_guard_at,
+)
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
@@ -48,9 +57,8 @@ _LATE = 2.0
 def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the way left to the end of the features of a closed contact, negative if it has other ones than before."""
     contact = contact_at(S, w, k, c)
-    block = S.geometry + GEOMETRY * c
-    left = _LATE * S.gap_tolerance - w[block + PAST_END] if w[block + PAST_END] != 0.0 else 1.0
-    if left < 0.0 or contact.feature < 0 or int(w[block + FEATURE]) == contact.feature:
+    left = _LATE * S.gap_tolerance - contact.beyond if contact.beyond != 0.0 else 1.0
+    if left < 0.0 or contact.feature < 0 or int(contact.feature_now) == contact.feature:
         return float(left)
     return float(-left)
 
@@ -64,7 +72,7 @@ def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
     looks = S.t - S.feature_t > S.time_tolerance
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        contact.feature = int(contact.geometry[FEATURE]) if looks and contact.mode != OPEN else -1
+        contact.feature = int(contact.feature_now) if looks and contact.mode != OPEN else -1
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
@@ -76,30 +84,30 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
             contact = contact_at(S, w, k, c)
-            w[S.guard + normal_guard(c)] = hold_guard(S, w, k, c)
+            guard_at(S, w, k, normal_guard(c)).value = hold_guard(S, w, k, c)
+            friction = guard_at(S, w, k, friction_guard(c))
             contact.gap_rate = contact.rate[0]
             if contact.mode == STICK:
-                w[S.guard + friction_guard(c)] = contact.static_margin
+                friction.value = contact.static_margin
             else:
-                w[S.guard + friction_guard(c)] = slip_guard(S, w, k, c)
+                friction.value = slip_guard(S, w, k, c)
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode == OPEN:
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
-            w[S.guard + normal_guard(c)] = contact.geometry[GAP]
-            w[S.guard + friction_guard(c)] = 1.0
+            guard_at(S, w, k, normal_guard(c)).value = contact.gap
+            guard_at(S, w, k, friction_guard(c)).value = 1.0
             contact.gap_rate = contact.rate[0]
     for g in range(S.n_own_guards):
-        w[S.guard + first_own_guard(S) + g] = call_guard(
-            k[S.own_guard_function + g], t, at(w, y), at(w, y + S.n_q), at(w, k[S.own_guard_parameters + g])
-        )
-    ends = first_end_guard(S)
+        own = own_guard_at(S, w, k, g)
+        value = call_guard(own.function, t, at(w, y), at(w, y + S.n_q), at(w, own.parameters))
+        guard_at(S, w, k, first_own_guard(S) + g).value = value
     for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        w[S.guard + ends + c] = 1.0
+        end, contact = guard_at(S, w, k, first_end_guard(S) + c), contact_at(S, w, k, c)
+        end.value = 1.0
         if contact.mode != OPEN and forces == 1 and S.n_grouped > 0:
-            w[S.guard + ends + c] = _feature_guard(S, w, k, c)
+            end.value = _feature_guard(S, w, k, c)
 
 
 @kernel("void(S, F, I, f8, i8, f8, i8)")
@@ -113,16 +121,23 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
     deflate(S, w, k, elapsed)
 
 
+@kernel("i8(S, F, I, i8)")
+def _is_open(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if the contact whose normal or friction guard ``i`` is, is open."""
+    return 1 if contact_at(S, w, k, contact_of(i)).mode == OPEN else 0
+
+
 @kernel("f8(S, F, I, i8, f8, f8)")
 def grown(S: Scalars, w: Floats, k: Integers, i: int, value: float, elapsed: float) -> float:
     """Return guard ``i`` of this value, or, if it started from zero, its growth divided by the time elapsed."""
-    if k[S.guard_deflated + i] == 0:
+    guard = guard_at(S, w, k, i)
+    if guard.deflated == 0:
         return value
-    rate = w[S.guard_first + i]
-    separates = i < first_own_guard(S) and k[S.mode + contact_of(i)] == OPEN and rate > S.velocity_tolerance
+    rate = guard.first
+    separates = i < first_own_guard(S) and _is_open(S, w, k, i) == 1 and rate > S.velocity_tolerance
     if separates and rate * elapsed <= _ROUND_OFF * S.gap_tolerance:
-        return rate
-    return float((value - w[S.guard_start + i]) / elapsed)
+        return float(rate)
+    return float((value - guard.start) / elapsed)
 
 
 @kernel("void(S, F, I, f8)")
@@ -132,7 +147,8 @@ def deflate(S: Scalars, w: Floats, k: Integers, elapsed: float) -> None:
     As long as a gap has not grown beyond round-off its rate at the start stands.
     """
     for i in range(first_end_guard(S)):
-        w[S.guard + i] = grown(S, w, k, i, w[S.guard + i], elapsed)
+        guard = guard_at(S, w, k, i)
+        guard.value = grown(S, w, k, i, guard.value, elapsed)
 
 
 @kernel()
@@ -141,14 +157,30 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         contact.gap_rate_end = contact.gap_rate
-        contact.gap_end = contact.geometry[GAP]
-        contact.past_end = contact.geometry[PAST_END]
+        contact.gap_end = contact.gap
+        contact.past_end = contact.beyond
         for i in range(normal_guard(c), friction_guard(c) + 1):
-            w[S.guard_end + i] = w[S.guard + i]
+            guard = guard_at(S, w, k, i)
+            guard.end = guard.value
         for r in range(3):
             contact.rate_end[r] = contact.rate[r]
     for i in range(first_own_guard(S), number_of_guards(S)):
-        w[S.guard_end + i] = w[S.guard + i]
+        guard = guard_at(S, w, k, i)
+        guard.end = guard.value
+
+
+@kernel("void(S, F, I, i8)")
+def _start(S: Scalars, w: Floats, k: Integers, i: int) -> None:
+    """Let guard ``i`` start from where the last step ended."""
+    guard = guard_at(S, w, k, i)
+    guard.deflated = 0
+    guard.start = guard.first = guard.end
+
+
+@kernel("void(S, F, I, i8)")
+def _arm(S: Scalars, w: Floats, k: Integers, i: int) -> None:
+    guard = guard_at(S, w, k, i)
+    guard.armed = 1 if guard.first > 0.0 else 0
 
 
 @kernel("f8(S, F, I, i8)")
@@ -164,71 +196,66 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the kept guards as those of the start: arm the positive ones, deflate those that start from zero."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        normal, friction = normal_guard(c), friction_guard(c)
-        for i in range(normal, friction + 1):
-            k[S.guard_deflated + i] = 0
-            w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
+        normal, friction = guard_at(S, w, k, normal_guard(c)), guard_at(S, w, k, friction_guard(c))
+        _start(S, w, k, normal_guard(c))
+        _start(S, w, k, friction_guard(c))
         if contact.mode == OPEN:
-            if w[S.guard_first + normal] <= S.gap_tolerance:
-                k[S.guard_deflated + normal] = 1
-                w[S.guard_start + normal] = min(0.0, w[S.guard_start + normal])
+            if normal.first <= S.gap_tolerance:
+                normal.deflated = 1
+                normal.start = min(0.0, normal.start)
                 if contact.gap_rate_end <= S.velocity_tolerance:
-                    w[S.guard_start + normal] -= _ROUND_OFF * S.gap_tolerance
-                w[S.guard_first + normal] = contact.gap_rate_end
-        elif contact.normal_function != 0 and w[S.guard_first + normal] <= S.gap_tolerance:
+                    normal.start -= _ROUND_OFF * S.gap_tolerance
+                normal.first = contact.gap_rate_end
+        elif contact.normal_function != 0 and normal.first <= S.gap_tolerance:
             # it has just touched down, and lets go when it comes back to here
-            k[S.guard_deflated + normal] = 1
-            w[S.guard_start + normal] = min(0.0, w[S.guard_start + normal]) - _ROUND_OFF * S.gap_tolerance
-            w[S.guard_first + normal] = -contact.gap_rate_end
-        if contact.mode == SLIDE and w[S.guard_first + friction] <= S.velocity_tolerance:
-            k[S.guard_deflated + friction] = 1
-            w[S.guard_start + friction] = min(0.0, w[S.guard_start + friction]) - _ROUND_OFF * S.velocity_tolerance
-            w[S.guard_first + friction] = 0.0
-        for i in range(normal, friction + 1):
-            k[S.guard_armed + i] = 1 if w[S.guard_first + i] > _least(S, w, k, i) else 0
+            normal.deflated = 1
+            normal.start = min(0.0, normal.start) - _ROUND_OFF * S.gap_tolerance
+            normal.first = -contact.gap_rate_end
+        if contact.mode == SLIDE and friction.first <= S.velocity_tolerance:
+            friction.deflated = 1
+            friction.start = min(0.0, friction.start) - _ROUND_OFF * S.velocity_tolerance
+            friction.first = 0.0
+        normal.armed = 1 if normal.first > _least(S, w, k, normal_guard(c)) else 0
+        friction.armed = 1 if friction.first > _least(S, w, k, friction_guard(c)) else 0
     for g in range(S.n_own_guards):
-        i = first_own_guard(S) + g
-        w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
+        guard, own = guard_at(S, w, k, first_own_guard(S) + g), own_guard_at(S, w, k, g)
+        _start(S, w, k, first_own_guard(S) + g)
         # one that has just fired starts from zero
-        k[S.guard_deflated + i] = k[S.own_guard_spent + g]
-        if k[S.own_guard_spent + g] == 1:
-            w[S.guard_first + i] = 0.0
-        k[S.own_guard_spent + g] = 0
-        k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
+        guard.deflated = own.spent
+        if own.spent == 1:
+            guard.first = 0.0
+        own.spent = 0
+        _arm(S, w, k, first_own_guard(S) + g)
     for i in range(first_end_guard(S), number_of_guards(S)):
-        w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
-        k[S.guard_deflated + i] = 0
-        k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
+        _start(S, w, k, i)
+        _arm(S, w, k, i)
 
 
 @kernel("void(S, F, I, i8)")
 def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
     """Arm the guards that have become positive within the step."""
-    for i in range(first_own_guard(S)):
-        if w[S.guard + i] > _least(S, w, k, i) and (forces == 1 or k[S.mode + contact_of(i)] == OPEN):
-            k[S.guard_armed + i] = 1
-    for i in range(first_own_guard(S), number_of_guards(S)):
-        if w[S.guard + i] > 0.0:
-            k[S.guard_armed + i] = 1
+    for i in range(number_of_guards(S)):
+        guard, own = guard_at(S, w, k, i), i >= first_own_guard(S)
+        least = 0.0 if own else _least(S, w, k, i)
+        if guard.value > least and (own or forces == 1 or _is_open(S, w, k, i) == 1):
+            guard.armed = 1
 
 
 @kernel("i8(S, F, I, i8)")
 def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap that came over the end of a feature to where it rests; it does not close."""
-    c = contact_of(i)
-    contact = contact_at(S, w, k, c)
-    if contact.mode != OPEN or is_friction_guard(i) == 1 or k[S.guard_deflated + i] == 1:
+    guard, contact = guard_at(S, w, k, i), contact_at(S, w, k, contact_of(i))
+    if contact.mode != OPEN or is_friction_guard(i) == 1 or guard.deflated == 1:
         return 0
-    rests = w[S.guard + i] > -S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance
-    return 1 if contact.geometry[PAST_END] != 0.0 and rests else 0
+    rests = guard.value > -S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance
+    return 1 if contact.beyond != 0.0 and rests else 0
 
 
 @kernel("f8(S, F, I, i8)")
 def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
     """Return below what guard ``i`` of a contact fires though it is not armed."""
-    c = contact_of(i)
-    contact = contact_at(S, w, k, c)
-    if k[S.guard_deflated + i] == 1:
+    guard, contact = guard_at(S, w, k, i), contact_at(S, w, k, contact_of(i))
+    if guard.deflated == 1:
         return float(_WRONG_SLIP * S.velocity_tolerance)
     normal = is_friction_guard(i) == 0
     if normal and (contact.mode == OPEN or contact.normal_function != 0):
@@ -241,8 +268,8 @@ def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
 @kernel("i8(S, F, I, i8)")
 def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` of a contact has fired."""
-    value = w[S.guard + i]
-    if value < 0.0 and (k[S.guard_armed + i] == 1 or value < _wrong(S, w, k, i)):
+    guard = guard_at(S, w, k, i)
+    if guard.value < 0.0 and (guard.armed == 1 or guard.value < _wrong(S, w, k, i)):
         return 1 - _slides_on(S, w, k, i)
     return 0
 
@@ -250,16 +277,17 @@ def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
 @kernel("i8(S, F, I, i8)")
 def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap whose rate is known."""
-    if i >= first_own_guard(S) or k[S.mode + contact_of(i)] != OPEN:
+    if i >= first_own_guard(S) or _is_open(S, w, k, i) == 0:
         return 0
-    return 1 if w[S.geometry + GEOMETRY * contact_of(i) + PAST_END] <= 0.0 else 0
+    return 1 if contact_at(S, w, k, contact_of(i)).beyond <= 0.0 else 0
 
 
 @kernel("i8(S, F, I, i8)")
 def _closes_now(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap that has closed no longer ago than instants are told apart."""
-    late = max(S.gap_tolerance, S.time_tolerance * abs(w[S.gap_rate + contact_of(i)]))
-    return 1 if is_gap(S, w, k, i) == 1 and w[S.geometry + GEOMETRY * contact_of(i)] >= -late else 0
+    contact = contact_at(S, w, k, contact_of(i))
+    late = max(S.gap_tolerance, S.time_tolerance * abs(contact.gap_rate))
+    return 1 if is_gap(S, w, k, i) == 1 and contact.gap >= -late else 0
 
 
 @kernel("i8(S, F, I, i8, i8)")
@@ -271,15 +299,16 @@ def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> in
     """
     jumps = -1
     for i in range(first_own_guard(S)):
-        if forces == 0 and k[S.mode + contact_of(i)] != OPEN:
+        if forces == 0 and _is_open(S, w, k, i) == 0:
             continue
         if i != but and has_fired(S, w, k, i) == 1 and (but < 0 or _closes_now(S, w, k, i) == 0):
-            if k[S.mode + contact_of(i)] != OPEN or is_gap(S, w, k, i) == 1:
+            if _is_open(S, w, k, i) == 0 or is_gap(S, w, k, i) == 1:
                 return i
             jumps = i if jumps < 0 else jumps
     if jumps >= 0:
         return jumps
     for i in range(first_own_guard(S), number_of_guards(S)):
-        if i != but and w[S.guard + i] < 0.0 and k[S.guard_armed + i] == 1:
+        guard = guard_at(S, w, k, i)
+        if i != but and guard.value < 0.0 and guard.armed == 1:
             return i
     return -1

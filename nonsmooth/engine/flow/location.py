@@ -28,10 +28,9 @@ from nonsmooth.engine.flow.guards import (
     write_guards,
 )
 from nonsmooth.engine.flow.step import try_step
-from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_slope, dense_state
 
@@ -81,7 +80,7 @@ def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
     return 0
 
 
-@room("void(S, F, I, f8, f8, i8)")
+@entry_point("void(S, F, I, f8, f8, i8)")
 def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
@@ -95,14 +94,14 @@ def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, fo
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
 def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
     guards_within(S, w, k, h, theta, forces)
-    return w[S.guard + i]
+    return float(guard_at(S, w, k, i).value)
 
 
 @kernel("f8(S, F, I, f8, i8)")
 def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
     """Return a fraction of the step where guard ``i`` dips below zero between its samples, or 0, by parabolas."""
     low, middle, high = 0.0, _MIDDLE, 1.0
-    g_low, g_middle, g_high = w[S.guard_first + i], w[S.guard_middle + i], w[S.guard_end + i]
+    g_low, g_middle, g_high = guard_at(S, w, k, i).first, guard_at(S, w, k, i).middle, guard_at(S, w, k, i).end
     for _iteration in range(8):
         left, right = (g_middle - g_low) / (middle - low), (g_high - g_middle) / (high - middle)
         bend = (right - left) / (high - low)
@@ -116,7 +115,7 @@ def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
             return 0.0
         g = _guard_at(S, w, k, h, vertex, i, 1)
         if g < 0.0:
-            return vertex
+            return float(vertex)
         if vertex > middle:
             low, g_low, middle, g_middle = middle, g_middle, vertex, g
         else:
@@ -134,7 +133,7 @@ def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if contact.mode != OPEN:
             last = friction_guard(c) if contact.mode == STICK else normal_guard(c)
             for i in range(normal_guard(c), last + 1):
-                if k[S.guard_armed + i] == 1:
+                if guard_at(S, w, k, i).armed == 1:
                     theta = _lowest(S, w, k, h, i)
                     if theta > 0.0:
                         return theta
@@ -147,8 +146,8 @@ def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
     soonest = 1e300
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        gap, rate = contact.geometry[GAP], contact.gap_rate
-        if contact.mode == OPEN and contact.geometry[PAST_END] <= 0.0 and gap > 0.0 and rate < 0.0:
+        gap, rate = contact.gap, contact.gap_rate
+        if contact.mode == OPEN and contact.beyond <= 0.0 and gap > 0.0 and rate < 0.0:
             soonest = min(soonest, -gap / rate)
     return soonest
 
@@ -165,7 +164,7 @@ def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         c = k[S.astray + i]
         contact = contact_at(S, w, k, c)
         speed = contact.speed_first + contact.speed_end
-        way = min(_FARTHEST * contact.size, max(contact.geometry[GAP], WAY * contact.size))
+        way = min(_FARTHEST * contact.size, max(contact.gap, WAY * contact.size))
         if way < least * speed:
             least = way / speed
     return float(max(least, _SHORTEST * h))
@@ -211,7 +210,7 @@ def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, a
     return 0.0
 
 
-@room("f8(S, F, I, f8)")
+@entry_point("f8(S, F, I, f8)")
 def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
 
@@ -229,7 +228,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         i = normal_guard(c)
-        if contact.mode != OPEN and contact.least_force < min(w[S.guard_first + i], w[S.guard_end + i]):
+        if contact.mode != OPEN and contact.least_force < min(guard_at(S, w, k, i).first, guard_at(S, w, k, i).end):
             suspect = True
     forces = closed if suspect else 0
     looks = forces + S.n_own_guards
@@ -241,7 +240,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             return _MIDDLE
         arm_further(S, w, k, forces)
         for i in range(number_of_guards(S)):
-            w[S.guard_middle + i] = w[S.guard + i]
+            guard_at(S, w, k, i).middle = guard_at(S, w, k, i).value
         if forces == 1 and fired < 0:
             theta = _force_dip(S, w, k, h)
             if theta > 0.0:
@@ -255,11 +254,11 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     if looks > 0:
         evaluate_bodies(S, w, k, S.t + h, S.y_new)
         for i in range(number_of_guards(S)):
-            w[S.guard + i] = w[S.guard_end + i]
+            guard_at(S, w, k, i).value = guard_at(S, w, k, i).end
         for c in range(S.n_contacts):
             contact = contact_at(S, w, k, c)
             contact.gap_rate = contact.gap_rate_end
-            contact.geometry[PAST_END] = contact.past_end
+            contact.beyond = contact.past_end
         deflate(S, w, k, h)
     elif fired >= 0 or S.n_doubtful == 0:
         return 1.0 if fired >= 0 else 0.0
@@ -275,19 +274,19 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
     evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where the guard jumps.
     """
     fine = _FINE * S.time_tolerance
-    low, g_low = 0.0, w[S.guard_first + i]
-    g_high = w[S.guard + i]
+    low, g_low = 0.0, guard_at(S, w, k, i).first
+    g_high = guard_at(S, w, k, i).value
     S.guard_slope = 0.0
     while g_low <= _FAINT * abs(g_high):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(S, w, k, h, low, i, forces)
         if low < 1e-4 * high:
-            if g_low > 0.0 or not w[S.guard_first + i] > 0.0 or k[S.guard_deflated + i] == 1:
+            if g_low > 0.0 or not guard_at(S, w, k, i).first > 0.0 or guard_at(S, w, k, i).deflated == 1:
                 return low
             # it vanishes next to the start, where it was still positive
             high, g_high = low, g_low
-            low, g_low = 0.0, w[S.guard_first + i]
+            low, g_low = 0.0, guard_at(S, w, k, i).first
             break
     left = g_first = abs(g_low)
     theta = high - g_high * (high - low) / (g_high - g_low)
@@ -302,15 +301,15 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
         theta_before, g_before = theta, g
         if is_gap(S, w, k, i) == 1:
             S.guard_slope = w[S.gap_rate + contact_of(i)]
-            if k[S.guard_deflated + i] == 1:
+            if guard_at(S, w, k, i).deflated == 1:
                 S.guard_slope = (S.guard_slope - g) / (theta * h)
         if g == 0.0 or (high - low) * h <= fine or abs(g) <= -fine * S.guard_slope:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
             if left <= _JUMP * g_first or span * h > S.time_tolerance or is_gap(S, w, k, i) == 1:
-                return theta
+                return float(theta)
             S.guard_slope = -math.inf
             if g <= 0.0:
-                return theta
+                return float(theta)
             guards_within(S, w, k, h, high, forces)
             return high
         if g < 0.0:
@@ -326,7 +325,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             if low < newton < high:
                 following = newton
         theta = following
-    return theta
+    return float(theta)
 
 
 @kernel("f8(S, F, I, f8, i8)")
@@ -338,7 +337,7 @@ def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> flo
     way = _FINE * S.time_tolerance
     for _doubling in range(_WAYS):
         evaluate_guards(S, w, k, S.t + step, S.y_new, step, 1)
-        if w[S.guard + i] < 0.0:
+        if guard_at(S, w, k, i).value < 0.0:
             return step
         # so short a way is straight
         for j in range(S.n_y):
@@ -359,13 +358,13 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
         if not try_step(S, w, k, step) <= _TRUSTED:
             return -1.0
         write_guards(S, w, k, S.t + step, S.y_new, 1)
-        value = w[S.guard + i]
+        value = guard_at(S, w, k, i).value
         slope = S.guard_slope
-        if k[S.guard_deflated + i] == 1:
-            value -= w[S.guard_start + i]
+        if guard_at(S, w, k, i).deflated == 1:
+            value -= guard_at(S, w, k, i).start
         if is_gap(S, w, k, i) == 1:
             slope = w[S.gap_rate + contact_of(i)]
-        elif k[S.guard_deflated + i] == 1:
+        elif guard_at(S, w, k, i).deflated == 1:
             value /= step
         # a gap that closes slower than what counts as rest does not tell where
         if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
@@ -393,15 +392,14 @@ def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        block = S.geometry + GEOMETRY * c
-        if contact.mode == OPEN and c != contact_of(i) and w[block + PAST_END] <= 0.0:
-            start = min(0.0, w[S.guard_start + normal_guard(c)])
-            if w[block + GAP] < start - _FAR_BEHIND * S.gap_tolerance and contact.gap_rate < 0.0:
+        if contact.mode == OPEN and c != contact_of(i) and contact.beyond <= 0.0:
+            start = min(0.0, guard_at(S, w, k, normal_guard(c)).start)
+            if contact.gap < start - _FAR_BEHIND * S.gap_tolerance and contact.gap_rate < 0.0:
                 return 1
     return 0
 
 
-@room("f8(S, F, I, f8, f8)")
+@entry_point("f8(S, F, I, f8, f8)")
 def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 
@@ -417,7 +415,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     while first >= 0 and roots < number_of_guards(S):
         if closed == 1 and roots == _MOST_ROOTS:
             return -1.0
-        if closed == 1 and roots > _FEW_ROOTS and w[S.guard_first + first] < 0.0:
+        if closed == 1 and roots > _FEW_ROOTS and guard_at(S, w, k, first).first < 0.0:
             return -1.0
         roots += 1
         later = theta
@@ -441,7 +439,11 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     step = theta * h
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = (
-        1 if fired < first_own_guard(S) and k[S.mode + contact_of(fired)] == OPEN and is_gap(S, w, k, fired) == 0 else 0
+        1
+        if fired < first_own_guard(S)
+        and contact_at(S, w, k, contact_of(fired)).mode == OPEN
+        and is_gap(S, w, k, fired) == 0
+        else 0
     )
     if S.step_error <= _NEGLIGIBLE or jumps == 1:
         dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)

@@ -10,9 +10,18 @@ from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, own_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
-from nonsmooth.engine.memory.blocks import PAST_END
 from nonsmooth.engine.memory.modes import JOINTS_APART, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED, RUNNING, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    articulation_at,
+    body_at,
+    contact_at,
+    entry_point,
+    kernel,
+)
 
 _DAMPING = 1e-8
 """Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
@@ -26,7 +35,7 @@ _APART = 1e4
 """A residual that stays above this many gap tolerances cannot be closed."""
 
 
-@room("f8(S, F, I, i8)")
+@entry_point("f8(S, F, I, i8)")
 def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
 
@@ -39,27 +48,29 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
         return 0.0
     assemble_delassus(S, w, k)
     for a in range(m):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        c = active.slot
         contact = contact_at(S, w, k, c)
-        k[S.normal_held + a] = 1 if contact.normal_function == 0 else 0
-        w[S.f + 3 * a] = 0.0
+        active.normal_held = 1 if contact.normal_function == 0 else 0
+        active.normal_force = 0.0
         slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= S.velocity_tolerance
         rubs = contact.traction_function != 0
-        k[S.tangent_held + a] = 1 if contact.mode == STICK or (at_event == 1 and slow and not rubs) else 0
-        w[S.mu + a] = 0.0
+        active.tangent_held = 1 if contact.mode == STICK or (at_event == 1 and slow and not rubs) else 0
+        active.mu = 0.0
         for r in range(3):
-            w[S.b + 3 * a + r] = contact.rate[r]
+            active.free[r] = contact.rate[r]
     part = _DAMPING if m > 1 else 0.0
     _damp(S, w, k, part)
     resolve(S, w, k)
     add_response(S, w, k, S.f, S.y + S.n_q)
     loss = 0.0
     for a in range(m):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        c = active.slot
         contact = contact_at(S, w, k, c)
         for r in range(3):
-            impulse = w[S.f + 3 * a + r]
-            damping = w[own_block(S, k, a) + 4 * r] * part / (1.0 + part)
+            impulse = active.force[r]
+            damping = own_block(S, w, k, a).entries[4 * r] * part / (1.0 + part)
             loss -= 0.5 * impulse * (contact.rate[r] - damping * impulse)
             S.driven_work -= impulse * contact.prescribed_rate[r]
     return loss
@@ -70,7 +81,7 @@ def _damp(S: Scalars, w: Floats, k: Integers, part: float) -> None:
     """Add a part of its diagonal to the Delassus matrix of the active contacts."""
     for a in range(S.n_active):
         for r in range(3):
-            w[own_block(S, k, a) + 4 * r] *= 1.0 + part
+            own_block(S, w, k, a).entries[4 * r] *= 1.0 + part
 
 
 @kernel("i8(S, F, I)")
@@ -83,21 +94,23 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
     m = S.n_active
     worst = share = 0.0
     for a in range(m):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        c = active.slot
         contact = contact_at(S, w, k, c)
-        gap = abs(held_gap(S, w, c)) if contact.normal_function == 0 else 0.0
+        gap = abs(held_gap(S, w, k, c)) if contact.normal_function == 0 else 0.0
         worst = max(worst, gap)
         share = max(share, gap / explained_gap(S, w, k, c))
     if worst <= 1e-16 or share > 1.0:
         return 0
     assemble_delassus(S, w, k)
     for a in range(m):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        c = active.slot
         contact = contact_at(S, w, k, c)
-        k[S.normal_held + a] = 1 if contact.normal_function == 0 else 0
-        k[S.tangent_held + a] = 0
-        w[S.f + 3 * a] = w[S.mu + a] = 0.0
-        w[S.b + 3 * a] = held_gap(S, w, c)
+        active.normal_held = 1 if contact.normal_function == 0 else 0
+        active.tangent_held = 0
+        active.normal_force = active.mu = 0.0
+        active.free[0] = held_gap(S, w, k, c)
     if m > 1:
         _damp(S, w, k, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
     resolve(S, w, k)
@@ -108,16 +121,17 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel()
 def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
     """Bring every body's unit quaternion back to unit length; one that is farther off than explained fails the run."""
-    for body in range(S.n_bodies):
-        offset = k[S.body_quaternion + body]
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
+        offset = body.quaternion
         if offset < 0:
             continue
-        q = S.y + k[S.body_q + body] + offset
+        q = S.y + body.q + offset
         square = 0.0
         for i in range(4):
             square += w[q + i] * w[q + i]
         if abs(square - 1.0) > EXPLAINED * 4.0 * S.rtol:
-            blame(S, QUATERNION_UNEXPLAINED, body, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * S.rtol)
+            blame(S, QUATERNION_UNEXPLAINED, number, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * S.rtol)
         factor = 1.0 / math.sqrt(square)
         for i in range(4):
             w[q + i] *= factor
@@ -135,19 +149,21 @@ def _displace(S: Scalars, w: Floats, k: Integers) -> None:
     """Move the bodies by the velocities in ``y_stage`` for unit time, unless the tolerances do not explain so much."""
     # dq = B du: let the bodies turn the displacement into coordinate rates
     evaluate_bodies(S, w, k, S.t, S.y_stage)
-    for body in range(S.n_bodies):
-        for i in range(k[S.body_nq + body]):
-            motion, most = w[k[S.body_tail + body] + i], _explained_motion(S, w, k[S.body_q + body] + i)
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
+        for i in range(body.nq):
+            motion, most = w[body.tail + i], _explained_motion(S, w, body.q + i)
             if abs(motion) > most:
-                blame(S, MOTION_UNEXPLAINED, body, motion, most)
+                blame(S, MOTION_UNEXPLAINED, number, motion, most)
                 return
-    for body in range(S.n_bodies):
-        for i in range(k[S.body_nq + body]):
-            w[S.y + k[S.body_q + body] + i] += w[k[S.body_tail + body] + i]
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
+        for i in range(body.nq):
+            w[S.y + body.q + i] += w[body.tail + i]
     normalise_quaternions(S, w, k)
 
 
-@room("f8(S, F, I, i8)")
+@entry_point("f8(S, F, I, i8)")
 def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
 
@@ -165,10 +181,11 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
         activate_group(S, w, k, group)
         past = 0.0
         for a in range(S.n_active):
-            c = k[S.active + a]
+            active = active_at(S, w, k, a)
+            c = active.slot
             contact = contact_at(S, w, k, c)
             evaluate_contact(S, w, k, c, 1)
-            past = max(past, contact.geometry[PAST_END])
+            past = max(past, contact.beyond)
         if past > S.gap_tolerance:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact
             continue
@@ -183,7 +200,7 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     return loss
 
 
-@room()
+@entry_point()
 def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
     """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
     worst, before = 0.0, 1e300
@@ -192,8 +209,9 @@ def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(S.n_y):
             w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
         worst = 0.0
-        for linkage in range(S.n_linkages):
-            worst = max(worst, _add_correction(S, w, k, linkage, S.linkage_residual, S.y_stage + S.n_q))
+        for number in range(S.n_articulations):
+            residuals = articulation_at(S, w, k, number).residual
+            worst = max(worst, _add_correction(S, w, k, number, residuals, S.y_stage + S.n_q))
         if iteration == 0 and worst > _explained_residual(S, w, k):
             break
         # far from the origin round-off alone is more than the tolerance, and no iteration helps
@@ -203,8 +221,8 @@ def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
         _displace(S, w, k)
     if not worst <= _APART * S.gap_tolerance and S.failed == RUNNING:
         blame(S, JOINTS_APART, -1, worst, _APART * S.gap_tolerance)
-    for linkage in range(S.n_linkages):
-        _add_correction(S, w, k, linkage, S.linkage_rate, S.y + S.n_q)
+    for number in range(S.n_articulations):
+        _add_correction(S, w, k, number, articulation_at(S, w, k, number).rate, S.y + S.n_q)
 
 
 @kernel("f8(S, F, I)")
@@ -217,13 +235,13 @@ def _explained_residual(S: Scalars, w: Floats, k: Integers) -> float:
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")
-def _add_correction(S: Scalars, w: Floats, k: Integers, linkage: int, which: int, out: int) -> float:
-    """Subtract Y^T times the residuals or rates of a linkage from velocities; return the largest of them."""
-    n, first = k[S.linkage_nu + linkage], out + k[S.linkage_u + linkage]
-    worst = 0.0
-    for line in range(k[S.linkage_rows + linkage]):
-        value = w[k[which + linkage] + line]
+def _add_correction(S: Scalars, w: Floats, k: Integers, number: int, wrong: int, out: int) -> float:
+    """Subtract Y^T times what is ``wrong``, residuals or rates, from the velocities; return the largest of it."""
+    articulation, worst = articulation_at(S, w, k, number), 0.0
+    n, first = articulation.nu, out + articulation.u
+    for line in range(articulation.rows):
+        value = w[wrong + line]
         worst = max(worst, abs(value))
         for i in range(n):
-            w[first + i] -= w[k[S.linkage_y + linkage] + line * n + i] * value
+            w[first + i] -= w[articulation.y + line * n + i] * value
     return worst

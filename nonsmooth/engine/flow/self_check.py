@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END, POINT_A, POINT_B
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, RUNNING
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, frame_at, kernel
+from nonsmooth.engine.numerics.vectors import minus
 
 EXPLAINED = 1e3
 """What steps and events within their tolerances leave adds up to no more than so many of them."""
@@ -22,11 +22,11 @@ def blame(S: Scalars, status: int, number: int, found: float, allowed: float) ->
         S.failed, S.blamed, S.found, S.allowed = status, number, found, allowed
 
 
-@kernel("f8(S, F, i8)")
-def held_gap(S: Scalars, w: Floats, c: int) -> float:
+@kernel("f8(S, F, I, i8)")
+def held_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the gap that a closed contact is to lose; past the end of its features it only tells how far."""
-    block = S.geometry + GEOMETRY * c
-    return w[block + GAP] if w[block + PAST_END] <= 0.0 else 0.0
+    contact = contact_at(S, w, k, c)
+    return float(contact.gap if contact.beyond <= 0.0 else 0.0)
 
 
 @kernel("f8(S, F, I, i8)")
@@ -36,16 +36,16 @@ def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     Those are of gaps, of steps, relative to where the witness points are, and of event times.
     """
     contact = contact_at(S, w, k, c)
-    length = 0.0
+    farthest = 0.0
     for side in range(2):
-        frame = contact.frame_a if side == 0 else contact.frame_b
-        point = S.geometry + GEOMETRY * c + (POINT_A if side == 0 else POINT_B)
+        point = contact.point_a if side == 0 else contact.point_b
+        arm = minus(point, frame_at(w, contact.frame_a if side == 0 else contact.frame_b).origin)
         far = 0.0
         for i in range(3):
-            far += abs(w[point + i]) + abs(w[point + i] - w[frame + i])
-        length = max(length, far)
+            far += abs(point[i]) + abs(arm[i])
+        farthest = max(farthest, far)
     late = S.time_tolerance * abs(contact.gap_rate_first)
-    return float(EXPLAINED * (S.gap_tolerance + S.rtol * length + late))
+    return float(EXPLAINED * (S.gap_tolerance + S.rtol * farthest + late))
 
 
 @kernel("void(S, F, I)")
@@ -56,7 +56,7 @@ def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
         gap = contact.gap_end
         if contact.mode == OPEN:
             gap = min(0.0, gap)
-        elif contact.normal_function != 0 or contact.geometry[PAST_END] > 0.0:
+        elif contact.normal_function != 0 or contact.beyond > 0.0:
             continue
         # looked at closely only where it is not plainly explained
         if abs(gap) > EXPLAINED * S.gap_tolerance and abs(gap) > explained_gap(S, w, k, c):
@@ -73,10 +73,11 @@ def _booked(S: Scalars) -> float:
 def energy_of_bodies(S: Scalars, w: Floats, k: Integers, which: int) -> float:
     """Return the kinetic (0) or potential (1) energy of the bodies as evaluated [J]."""
     total = 0.0
-    for body in range(S.n_bodies):
-        n_u = k[S.body_nu + body]
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
+        n_u = body.nu
         if n_u > 0:
-            total += w[k[S.body_tail + body] + k[S.body_nq + body] + n_u + n_u * n_u + which]
+            total += w[body.tail + body.nq + n_u + n_u * n_u + which]
     return total
 
 
@@ -116,6 +117,6 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         evaluate_geometry(S, w, k, c)
-        contact.gap_end = contact.geometry[GAP]
+        contact.gap_end = contact.gap
     close_account(S, w, k)
     check_gaps(S, w, k)

@@ -13,7 +13,7 @@ from nonsmooth.engine.flow.flow import slope
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
 
 _STIFF = 2.0
@@ -79,7 +79,7 @@ def relaxation(S: Scalars, w: Floats, k: Integers) -> float:
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
-        if contact.normal_function != 0 or k[S.oriented + c] == 1:
+        if contact.normal_function != 0 or contact.oriented == 1:
             return 0.0
         if contact.mode == SLIDE:
             friction = math.hypot(contact.force[1], contact.force[2])
@@ -162,7 +162,7 @@ def _try_explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return max(_relative_error(S, w), _unseen(S, w, h))
 
 
-@room("f8(S, F, I, f8)")
+@entry_point("f8(S, F, I, f8)")
 def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
 
@@ -171,8 +171,7 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """
     S.suspect = 0
     for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        contact.least_force = 1e300
+        contact_at(S, w, k, c).least_force = 1e300
     stiff = h * S.relaxation > _STIFF
     if stiff and S.stage_time > 0.0:
         error = _try_implicit_step(S, w, k, h)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from nonsmooth.engine.impact.guards import prepare_guards
-from nonsmooth.engine.impact.rates import ENERGY, EXPANSION, HELD, IDLE, LOST, STRIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.impact.rates import EXPANSION, HELD, IDLE, STRIDE
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, impact_state, kernel
 
 
 @kernel("i8(S, F, I)")
@@ -16,15 +16,18 @@ def change_clock(S: Scalars, w: Floats, k: Integers) -> int:
     acting = 0
     last = -1
     for a in range(S.n_active):
-        if k[S.phase + a] != IDLE:
+        active = active_at(S, w, k, a)
+        if active.phase != IDLE:
             acting += 1
             last = a
     n = STRIDE * S.n_active
     if S.lone < 0:
-        if acting != 1 or k[S.phase + last] == HELD or S.may_be_lone == 0:
+        if acting != 1 or S.may_be_lone == 0:
             return 0
-        state = S.impact_y + STRIDE * last
-        if k[S.phase + last] == EXPANSION and not w[state + ENERGY] > w[state + LOST]:
+        phase, state = active_at(S, w, k, last).phase, impact_state(w, S.impact_y, last)
+        if phase == HELD:
+            return 0
+        if phase == EXPANSION and not state.energy > state.lost:
             # its own clock runs until the energy is used up, of which the integration's error has left none: a steep
             # force has given all of it back long before the deformation, which ends the phase on the common clock
             return 0
@@ -48,18 +51,19 @@ def change_clock(S: Scalars, w: Floats, k: Integers) -> int:
 def _keep_phases(S: Scalars, w: Floats, k: Integers) -> None:
     S.phases_kept = S.phases
     for a in range(S.n_active):
-        c, books = k[S.active + a], S.books_kept + 5 * a
-        k[S.kept + 2 * a], k[S.kept + 2 * a + 1] = k[S.phase + a], k[S.tangent_held + a]
-        w[books], w[books + 1], w[books + 2] = w[S.stored + a], w[S.returned + a], w[S.impact_mark + a]
-        w[books + 3], w[books + 4] = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
+        active = active_at(S, w, k, a)
+        active.phase_kept, active.held_kept = active.phase, active.tangent_held
+        active.stored_kept, active.returned_kept, active.booked_kept = active.stored, active.returned, active.booked
+        active.direction_kept = contact_at(S, w, k, active.slot).direction
 
 
 @kernel("void(S, F, I)")
 def _restore_phases(S: Scalars, w: Floats, k: Integers) -> None:
     S.phases = S.phases_kept
     for a in range(S.n_active):
-        c, books = k[S.active + a], S.books_kept + 5 * a
-        k[S.phase + a], k[S.tangent_held + a] = k[S.kept + 2 * a], k[S.kept + 2 * a + 1]
-        w[S.stored + a], w[S.returned + a], w[S.impact_mark + a] = w[books], w[books + 1], w[books + 2]
-        w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = w[books + 3], w[books + 4]
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        active.phase, active.tangent_held = active.phase_kept, active.held_kept
+        active.stored, active.returned, active.booked = active.stored_kept, active.returned_kept, active.booked_kept
+        contact.direction = active.direction_kept
     prepare_guards(S, w, k)

@@ -6,48 +6,38 @@ import math
 
 from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.delassus.delassus import own_block
-from nonsmooth.engine.impact.rates import (
-    COMPRESSION,
-    DEFORMATION,
-    ENERGY,
-    EXPANSION,
-    IDLE,
-    IMPULSE,
-    LOST,
-    RUBBED,
-    STRIDE,
-    WORK,
-    evaluate_impact_rates,
-)
+from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
 from nonsmooth.engine.numerics.linear import SINGULAR
 
 
 @kernel("void(S, F, I, i8)")
 def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Book the work of the phase that ends at the active contact ``a``, or of the part of it so far."""
-    work = w[S.impact_y + STRIDE * a + WORK]
-    done = work - w[S.impact_mark + a]
-    if k[S.phase + a] == COMPRESSION:
-        w[S.stored + a] -= done
+    active = active_at(S, w, k, a)
+    state = impact_state(w, S.impact_y, a)
+    done = state.work - active.booked
+    if active.phase == COMPRESSION:
+        active.stored -= done
     else:
-        w[S.returned + a] += done
-    w[S.impact_mark + a] = work
+        active.returned += done
+    active.booked = state.work
 
 
 @kernel("void(S, F, i8)")
 def empty(S: Scalars, w: Floats, a: int) -> None:
     """Take the energy that is left of the active contact ``a``."""
-    state = S.impact_y + STRIDE * a
-    w[state + DEFORMATION] = w[state + ENERGY] = w[state + LOST] = 0.0
+    state = impact_state(w, S.impact_y, a)
+    state.deformation = state.energy = state.lost = 0.0
 
 
 @kernel("i8(S, F, I)")
 def finished(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if no contact is loaded."""
     for a in range(S.n_active):
-        if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
+        active = active_at(S, w, k, a)
+        if active.phase == COMPRESSION or active.phase == EXPANSION:
             return 0
     return 1
 
@@ -63,19 +53,22 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
     """
     brought = 0.0
     for a in range(S.n_active):
-        brought = max(brought, w[S.impact_energy_scale + a])
+        active = active_at(S, w, k, a)
+        brought = max(brought, active.energy_scale)
     for a in range(S.n_active):
-        loaded = k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION
-        if loaded and abs(w[S.impact_z + 3 * a]) > REST * math.sqrt(brought * w[own_block(S, k, a)]):
+        active = active_at(S, w, k, a)
+        loaded = active.phase == COMPRESSION or active.phase == EXPANSION
+        if loaded and abs(active.gap_rate) > REST * math.sqrt(brought * own_block(S, w, k, a).nn):
             return 0
     size = left = 0.0
     for a in range(S.n_active):
-        row = S.block_start + S.first_grouped + a
+        active = active_at(S, w, k, a)
         for r in range(3):
             total = total_size = 0.0
-            for block in range(k[row], k[row + 1]):
+            for block in range(active.first_block, active.end_block):
+                force = active_at(S, w, k, k[S.block_column + block]).force
                 for s in range(3):
-                    part = w[S.delassus + 9 * block + 3 * r + s] * w[S.f + 3 * k[S.block_column + block] + s]
+                    part = w[S.delassus + 9 * block + 3 * r + s] * force[s]
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
@@ -88,9 +81,10 @@ def end_trapped(S: Scalars, w: Floats, k: Integers) -> None:
     if _trapped(S, w, k) == 0:
         return
     for a in range(S.n_active):
-        if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
+        active = active_at(S, w, k, a)
+        if active.phase == COMPRESSION or active.phase == EXPANSION:
             account(S, w, k, a)
-            k[S.phase + a] = IDLE
+            active.phase = IDLE
             empty(S, w, a)
             S.phases += 1
 
@@ -100,12 +94,14 @@ def faded(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if what is left of the impact, stored or about to be, is below the tolerance."""
     small = max(S.impact_rtol, 1e-11)
     for a in range(S.n_active):
-        stored = w[S.impact_y + STRIDE * a + ENERGY]
-        if k[S.phase + a] == IDLE:
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
+        stored = state.energy
+        if active.phase == IDLE:
             stored = 0.0
-        if w[S.impact_z + 3 * a] < -small * S.speed_scale or stored > small * small * w[S.impact_energy_scale + a]:
+        if active.gap_rate < -small * S.speed_scale or stored > small * small * active.energy_scale:
             return 0
-        if w[S.impact_z + 3 * a] > small * S.speed_scale and stored > 0.0 and k[S.phase + a] == EXPANSION:
+        if active.gap_rate > small * S.speed_scale and stored > 0.0 and active.phase == EXPANSION:
             return 0
     return 1
 
@@ -114,15 +110,18 @@ def faded(S: Scalars, w: Floats, k: Integers) -> int:
 def cut_short(S: Scalars, w: Floats, k: Integers) -> None:
     """End a cascade of ever smaller compressions: stop the approach that is left, by the impulses that do so."""
     for a in range(S.n_active):
-        k[S.normal_held + a] = 1 if w[S.impact_z + 3 * a] < 0.0 else 0
-        k[S.tangent_held + a] = 0
-        w[S.f + 3 * a] = w[S.mu + a] = 0.0
+        active = active_at(S, w, k, a)
+        active.normal_held = 1 if active.gap_rate < 0.0 else 0
+        active.tangent_held = 0
+        active.normal_force = active.mu = 0.0
         for r in range(3):
-            w[S.b + 3 * a + r] = w[S.impact_z + 3 * a + r]
-        k[S.phase + a] = IDLE
+            active.free[r] = active.rate[r]
+        active.phase = IDLE
     resolve(S, w, k)
     for a in range(S.n_active):
-        w[S.impact_y + STRIDE * a + IMPULSE] += w[S.f + 3 * a]
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
+        state.impulse[0] += active.normal_force
     S.truncated = 1
 
 
@@ -130,8 +129,10 @@ def cut_short(S: Scalars, w: Floats, k: Integers) -> None:
 def finish(S: Scalars, w: Floats, k: Integers) -> None:
     """Hand over the impulses and the energies."""
     for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
         for r in range(3):
-            w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + IMPULSE + r]
+            active.impulse[r] = state.impulse[r]
         account(S, w, k, a)
-        w[S.rubbed + a] = w[S.impact_y + STRIDE * a + RUBBED]
+        active.rubbed = state.rubbed
     evaluate_impact_rates(S, w, k, S.impact_y)

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
-from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, own_block
-from nonsmooth.engine.impact.rates import (
-    COMPRESSION,
-    DEFORMATION,
-    EXPANSION,
-    HELD,
-    IMPULSE,
-    STRIDE,
-    evaluate_impact_rates,
-    normal_force,
+from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, evaluate_impact_rates, normal_force
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    impact_state,
+    kernel,
 )
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.numerics.vectors import length
 
 _IDLE = 1e-10
 """A slip that starts with less than this part of the largest acceleration does not."""
@@ -31,15 +30,17 @@ def _stop_slips(S: Scalars, w: Floats, k: Integers) -> None:
     What is left there is round-off, but its direction would stiffen the slip that starts from it.
     """
     for a in range(S.n_active):
-        k[S.normal_held + a] = 0
-        k[S.tangent_held + a] = k[S.at_rest + a]
-        w[S.f + 3 * a] = w[S.mu + a] = 0.0
+        active = active_at(S, w, k, a)
+        active.normal_held = 0
+        active.tangent_held = active.at_rest
+        active.normal_force = active.mu = 0.0
         for r in range(3):
-            w[S.b + 3 * a + r] = w[S.impact_z + 3 * a + r]
+            active.free[r] = active.rate[r]
     resolve(S, w, k)
     for a in range(S.n_active):
+        active, state = active_at(S, w, k, a), impact_state(w, S.impact_y, a)
         for r in range(1, 3):
-            w[S.impact_y + STRIDE * a + IMPULSE + r] += w[S.f + 3 * a + r]
+            state.impulse[r] += active.force[r]
     evaluate_impact_rates(S, w, k, S.impact_y)
 
 
@@ -51,15 +52,17 @@ def _hold_idle(S: Scalars, w: Floats, k: Integers) -> None:
     """
     largest = 0.0
     for a in range(S.n_active):
-        largest = max(largest, w[own_block(S, k, a)] * w[S.f + 3 * a])
+        active = active_at(S, w, k, a)
+        largest = max(largest, own_block(S, w, k, a).nn * active.normal_force)
     for a in range(S.n_active):
-        if k[S.at_rest + a] == 1 and k[S.tangent_held + a] == 0 and w[S.mu_static + a] > 0.0:
-            v1, v2 = add_product(S, w, k, 0.0, a, 1, S.f), add_product(S, w, k, 0.0, a, 2, S.f)
-            if math.sqrt(v1 * v1 + v2 * v2) <= _IDLE * largest:
-                k[S.tangent_held + a] = 1
+        active = active_at(S, w, k, a)
+        if active.at_rest == 1 and active.tangent_held == 0 and active.mu_static > 0.0:
+            growth = add_product(S, w, k, 0.0, a, 1, S.f), add_product(S, w, k, 0.0, a, 2, S.f)
+            if length(growth) <= _IDLE * largest:
+                active.tangent_held = 1
 
 
-@room("void(S, F, I, f8)")
+@entry_point("void(S, F, I, f8)")
 def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     """Decide which contacts at rest stick and which way the others start to slide.
 
@@ -68,55 +71,59 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     evaluate_impact_rates(S, w, k, S.impact_y)
     open_question = 0
     for a in range(S.n_active):
-        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
-        w[S.mu_static + a] = friction_coefficient(S, w, k, k[S.active + a], 0.0)
-        slow = speed <= w[S.rest_slip + a] or k[S.tangent_held + a] == 1
+        active = active_at(S, w, k, a)
+        speed = length(active.slip)
+        active.mu_static = friction_coefficient(S, w, k, active.slot, 0.0)
+        slow = speed <= active.rest_slip or active.tangent_held == 1
         # without friction nothing can stop a slip, however slow
-        k[S.at_rest + a] = 1 if slow and (w[S.mu_static + a] > 0.0 or speed == 0.0) else 0
-        open_question = max(open_question, k[S.at_rest + a])
+        active.at_rest = 1 if slow and (active.mu_static > 0.0 or speed == 0.0) else 0
+        open_question = max(open_question, active.at_rest)
     if open_question == 1:
         _stop_slips(S, w, k)
     for a in range(S.n_active):
-        c = k[S.active + a]
-        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        v1, v2 = active.slip
+        speed = length(active.slip)
         if speed == 0.0:
             # stopping the slips of others has stopped this one, too
-            k[S.at_rest + a] = 1
-        k[S.normal_held + a] = 1 if k[S.phase + a] == HELD else 0
-        k[S.tangent_held + a] = 0
-        x = w[S.impact_y + STRIDE * a + DEFORMATION]
-        w[S.f + 3 * a] = 0.0
-        if k[S.phase + a] == COMPRESSION or k[S.phase + a] == EXPANSION:
-            x = max(x, -probe * w[S.impact_z + 3 * a])
-            w[S.f + 3 * a] = normal_force(S, w, k, a, x)
-        if k[S.at_rest + a] == 0:
-            w[S.d + 2 * a], w[S.d + 2 * a + 1] = v1 / speed, v2 / speed
+            active.at_rest = 1
+        active.normal_held = 1 if active.phase == HELD else 0
+        active.tangent_held = 0
+        x = state.deformation
+        active.normal_force = 0.0
+        if active.phase == COMPRESSION or active.phase == EXPANSION:
+            x = max(x, -probe * active.gap_rate)
+            active.normal_force = normal_force(S, w, k, a, x)
+        if active.at_rest == 0:
+            active.direction = v1 / speed, v2 / speed
         else:
-            w[S.d + 2 * a], w[S.d + 2 * a + 1] = w[S.direction + 2 * c], w[S.direction + 2 * c + 1]
-        w[S.mu + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
-        for r in range(1, 3):
-            w[S.f + 3 * a + r] = -w[S.mu + a] * w[S.f + 3 * a] * w[S.d + 2 * a + r - 1]
+            active.direction = contact.direction
+        active.mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+        friction_of_slip(S, w, k, a)
     if open_question == 1:
         for i in range(3 * S.n_active):
             w[S.b + i] = 0.0
         gauss_seidel(S, w, k, SWEEPS)
         _hold_idle(S, w, k)
     for a in range(S.n_active):
-        c = k[S.active + a]
-        if w[S.f + 3 * a] <= 0.0:
-            k[S.tangent_held + a] = 0
-        for i in range(2):
-            w[S.direction + 2 * c + i] = w[S.d + 2 * a + i]
+        active = active_at(S, w, k, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        if active.normal_force <= 0.0:
+            active.tangent_held = 0
+        contact.direction = active.direction
 
 
 @kernel("void(S, F, I, i8)")
 def break_away(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Let the active contact ``a`` slip against the friction that held it."""
-    c = k[S.active + a]
-    t1, t2 = w[S.f + 3 * a + 1], w[S.f + 3 * a + 2]
-    norm = math.sqrt(t1 * t1 + t2 * t2)
-    k[S.tangent_held + a] = 0
+    active = active_at(S, w, k, a)
+    contact = contact_at(S, w, k, active.slot)
+    t1, t2 = active.friction
+    norm = length(active.friction)
+    active.tangent_held = 0
     if norm > 0.0:
-        w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = -t1 / norm, -t2 / norm
+        contact.direction = -t1 / norm, -t2 / norm

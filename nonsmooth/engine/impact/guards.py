@@ -13,12 +13,9 @@ from nonsmooth.engine.contact.forces import evaluate_margins
 from nonsmooth.engine.delassus.delassus import own_block
 from nonsmooth.engine.impact.rates import (
     COMPRESSION,
-    DEFORMATION,
-    ENERGY,
     EXPANSION,
     HELD,
     IDLE,
-    LOST,
     NOISE,
     STRIDE,
     efficiency,
@@ -26,7 +23,16 @@ from nonsmooth.engine.impact.rates import (
 )
 from nonsmooth.engine.impact.step import try_impact_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    impact_state,
+    kernel,
+)
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
@@ -64,36 +70,34 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write the three guards of every active contact: rate, energy, friction; all of order 1."""
     evaluate_margins(S, w, k)
     for a in range(S.n_active):
-        c = k[S.active + a]
-        guard = S.impact_guard + GUARDS * a
-        rate = w[S.impact_z + 3 * a] / S.speed_scale
-        phase = k[S.phase + a]
-        force_scale = 1.0 if a == S.lone else w[S.impact_f_scale + a]
-        w[guard + ENERGY_GUARD] = 1.0
+        active = active_at(S, w, k, a)
+        state = impact_state(w, y, a)
+        contact = contact_at(S, w, k, active.slot)
+        rate = active.gap_rate / S.speed_scale
+        phase = active.phase
+        force_scale = 1.0 if a == S.lone else active.force_scale
+        active.energy_guard = 1.0
         if phase == COMPRESSION:
-            w[guard + RATE_GUARD] = NOISE - rate
+            active.rate_guard = NOISE - rate
             if a != S.lone:
-                w[guard + ENERGY_GUARD] = _SLACK + w[y + STRIDE * a + DEFORMATION] / w[S.impact_x_scale + a]
+                active.energy_guard = _SLACK + state.deformation / active.deformation_scale
         elif phase == HELD:
-            w[guard + RATE_GUARD] = NOISE + w[S.f + 3 * a] / force_scale
+            active.rate_guard = NOISE + active.normal_force / force_scale
         else:
-            behind = phase == IDLE and S.faint > 0.0 and k[S.waves + c] > 0
-            w[guard + RATE_GUARD] = (S.faint if behind else NOISE) + rate
+            behind = phase == IDLE and S.faint > 0.0 and contact.waves > 0
+            active.rate_guard = (S.faint if behind else NOISE) + rate
         if phase == EXPANSION:
-            lost = w[y + STRIDE * a + LOST]
-            w[guard + ENERGY_GUARD] = w[y + STRIDE * a + DEFORMATION] / w[S.impact_x_scale + a]
+            lost = state.lost
+            active.energy_guard = state.deformation / active.deformation_scale
             if a == S.lone or lost > 0.0:
-                w[guard + ENERGY_GUARD] = (w[y + STRIDE * a + ENERGY] - lost) / w[S.impact_energy_scale + a]
-        if phase == IDLE or (k[S.tangent_held + a] == 0 and w[S.mu + a] == 0.0):
-            w[guard + FRICTION_GUARD] = 1.0
-        elif k[S.tangent_held + a] == 1:
-            w[guard + FRICTION_GUARD] = NOISE + w[S.margin + a] / force_scale
+                active.energy_guard = (state.energy - lost) / active.energy_scale
+        if phase == IDLE or (active.tangent_held == 0 and active.mu == 0.0):
+            active.friction_guard = 1.0
+        elif active.tangent_held == 1:
+            active.friction_guard = NOISE + active.margin / force_scale
         else:
-            slip = (
-                w[S.impact_z + 3 * a + 1] * w[S.direction + 2 * c]
-                + w[S.impact_z + 3 * a + 2] * w[S.direction + 2 * c + 1]
-            )
-            w[guard + FRICTION_GUARD] = NOISE + slip / S.speed_scale
+            slip = active.rate[1] * contact.direction[0] + active.rate[2] * contact.direction[1]
+            active.friction_guard = NOISE + slip / S.speed_scale
 
 
 @kernel("i8(S, F, I, i8)")
@@ -172,7 +176,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
     return theta
 
 
-@room("f8(S, F, I, f8)")
+@entry_point("f8(S, F, I, f8)")
 def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Step to the first guard to fire within ``h``, kept in ``trigger``; return the error of that step.
 
@@ -219,29 +223,30 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """
     S.aimed = -1
     a = S.lone
+    active = active_at(S, w, k, a)
     shortest = h
-    rates, forces, block = S.impact_z + 3 * a, S.f + 3 * a, own_block(S, k, a)
-    c = k[S.active + a]
+    contact = contact_at(S, w, k, active.slot)
+    rate, force, own = active.rate, active.force, own_block(S, w, k, a).entries
     growth = slip = slip_growth = 0.0
     for j in range(3):
-        growth += w[block + j] * w[forces + j]
+        growth += own[j] * force[j]
     for r in range(1, 3):
-        slip += w[rates + r] * w[S.direction + 2 * c + r - 1]
+        slip += rate[r] * contact.direction[r - 1]
         for j in range(3):
-            slip_growth += w[block + 3 * r + j] * w[forces + j] * w[S.direction + 2 * c + r - 1]
-    if k[S.phase + a] == COMPRESSION and growth > 0.0:
-        root = -w[rates] / growth
+            slip_growth += own[3 * r + j] * force[j] * contact.direction[r - 1]
+    if active.phase == COMPRESSION and growth > 0.0:
+        root = -rate[0] / growth
         if 0.0 < root < shortest:
             shortest, S.aimed = root, GUARDS * a + RATE_GUARD
-    if k[S.phase + a] == EXPANSION and growth > 0.0:
+    if active.phase == EXPANSION and growth > 0.0:
         # E + E' s + E'' s^2 / 2 = 0, with E' = -rate / efficiency
-        state = S.impact_y + STRIDE * a
-        energy, first = w[state + ENERGY] - w[state + LOST], w[S.impact_slopes + STRIDE * a + ENERGY]
-        square = first * first + 2.0 * growth / efficiency(S, w, k, a, max(w[rates], 1e-300)) * energy
+        state = impact_state(w, S.impact_y, a)
+        energy, first = state.energy - state.lost, impact_state(w, S.impact_slopes, a).energy
+        square = first * first + 2.0 * growth / efficiency(S, w, k, a, max(rate[0], 1e-300)) * energy
         speed = math.sqrt(max(0.0, square)) - first
         if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:
             shortest, S.aimed = 2.0 * energy / speed, GUARDS * a + ENERGY_GUARD
-    if k[S.tangent_held + a] == 0 and w[S.mu + a] > 0.0 and slip > 0.0 and slip_growth < 0.0:
+    if active.tangent_held == 0 and active.mu > 0.0 and slip > 0.0 and slip_growth < 0.0:
         root = -slip / slip_growth
         if root < shortest:
             shortest, S.aimed = root, GUARDS * a + FRICTION_GUARD

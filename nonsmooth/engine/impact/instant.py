@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.newton import STAGES, search_by_newton
 from nonsmooth.engine.contact.problem import friction_coefficient, lay_friction
 from nonsmooth.engine.delassus.delassus import add_product, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_map, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
+from nonsmooth.engine.numerics.vectors import length
 
 _MOMENT = 0.1
 """In a moment accelerations change velocities by this part of their tolerance."""
@@ -26,15 +25,17 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
     """
     scale = 0.0
     for a in range(S.n_active):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
         for r in range(3):
-            w[S.b + 3 * a + r] = w[S.bias + 3 * c + r] + row(S, w, k, c, r, S.du)
-            scale = max(scale, abs(w[S.bias + 3 * c + r]), abs(w[S.b + 3 * a + r]))
+            active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
+            scale = max(scale, abs(contact.bias[r]), abs(active.free[r]))
     plastic_impulses(S, w, k, _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0)
     moved = 0
     for a in range(S.n_active):
+        active = active_at(S, w, k, a)
         for r in range(3):
-            w[S.impulse + 3 * a + r] = w[S.f + 3 * a + r]
+            active.impulse[r] = active.force[r]
             if abs(add_product(S, w, k, 0.0, a, r, S.f)) > S.velocity_tolerance:
                 moved = 1
     _split_loss(S, w, k)
@@ -48,16 +49,17 @@ def plastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
     The rates are those at hand and what the accelerations, which stand in ``b``, make of them in a ``moment`` [s].
     """
     for a in range(S.n_active):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
         lay_friction(S, w, k, a)
-        w[S.mu_static + a] = w[S.mu + a] = w[S.mu_static + a] if k[S.at_rest + a] == 1 else w[S.mu + a]
-        k[S.at_rest + a] = k[S.normal_held + a] = 1
+        active.mu_static = active.mu = active.mu_static if active.at_rest == 1 else active.mu
+        active.at_rest = active.normal_held = 1
         for r in range(3):
-            rate = w[S.rate + 3 * c + r]
+            rate = contact.rate[r]
             if r == 0 and moment > 0.0 and abs(rate) <= S.velocity_tolerance:
                 rate = 0.0
-            w[S.b + 3 * a + r] = rate + moment * w[S.b + 3 * a + r]
-            w[S.f + 3 * a + r] = 0.0
+            active.free[r] = rate + moment * active.free[r]
+            active.force[r] = 0.0
     for stage in range(STAGES):
         if search_by_newton(S, w, k, stage) == 1:
             break
@@ -69,12 +71,13 @@ def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
     """Let a law that maps velocities to impulses treat the colliding set."""
     m = S.n_active
     for a in range(m):
-        c = k[S.active + a]
-        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
+        active = active_at(S, w, k, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        speed = length(contact.slip)
         w[S.map_block + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
         for i in range(1, S.map_width):
-            w[S.map_block + i * m + a] = w[k[S.map_parameters + c] + i - 1]
+            w[S.map_block + i * m + a] = w[contact.map_parameters + i - 1]
     write_dense(S, w, k)
     behind = S.impulse + 3 * m
     for i in range(GUARD):
@@ -90,6 +93,7 @@ def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
 def _split_loss(S: Scalars, w: Floats, k: Integers) -> None:
     """Split the energy that the impulses take, contact by contact, by the mean rates they act on."""
     for a in range(S.n_active):
+        active = active_at(S, w, k, a)
         normal = tangential = 0.0
         for r in range(3):
             line = 3 * a + r
@@ -98,4 +102,4 @@ def _split_loss(S: Scalars, w: Floats, k: Integers) -> None:
                 normal -= w[S.impulse + line] * mean
             else:
                 tangential -= w[S.impulse + line] * mean
-        w[S.stored + a], w[S.returned + a], w[S.rubbed + a] = normal, 0.0, tangential
+        active.stored, active.returned, active.rubbed = normal, 0.0, tangential

@@ -7,8 +7,6 @@ contact in action gets its own clock, in which its phases are polynomials.
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.impact.clock import change_clock
 from nonsmooth.engine.impact.end import account, cut_short, empty, end_trapped, faded, finish, finished
@@ -28,12 +26,9 @@ from nonsmooth.engine.impact.guards import (
 )
 from nonsmooth.engine.impact.rates import (
     COMPRESSION,
-    DEFORMATION,
-    ENERGY,
     EXPANSION,
     HELD,
     IDLE,
-    LOST,
     NOISE,
     STRIDE,
     efficiency,
@@ -43,9 +38,19 @@ from nonsmooth.engine.impact.rates import (
 from nonsmooth.engine.impact.scales import scale_impact
 from nonsmooth.engine.impact.step import try_impact_step, try_linear_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    impact_state,
+    kernel,
+)
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.runge_kutta import step_factor
+from nonsmooth.engine.numerics.vectors import length
 
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
 """How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
@@ -86,35 +91,37 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float, trigger: int) -> N
     """Change the phases whose guards have come to zero, ``trigger`` among them; they are evaluated."""
     friction = 0
     for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
         guard = GUARDS * a
-        phase = k[S.phase + a]
+        phase = active.phase
         loaded = phase == EXPANSION or phase == COMPRESSION
-        if loaded and (trigger == guard + ENERGY_GUARD or w[S.impact_guard + guard + ENERGY_GUARD] < TOGETHER):
+        if loaded and (trigger == guard + ENERGY_GUARD or active.energy_guard < TOGETHER):
             account(S, w, k, a)
-            k[S.waves + k[S.active + a]] += 1
-            k[S.phase + a] = IDLE
+            contact_at(S, w, k, active.slot).waves += 1
+            active.phase = IDLE
             # a contact that opens under load leaves the others with forces that they did not have
-            friction += 1 if w[S.impact_y + STRIDE * a + LOST] > 0.0 else 0
+            friction += 1 if state.lost > 0.0 else 0
             empty(S, w, a)
-            k[S.tangent_held + a] = 0
+            active.tangent_held = 0
             S.phases += 1
             continue
-        if trigger == guard + RATE_GUARD or w[S.impact_guard + guard + RATE_GUARD] < TOGETHER:
+        if trigger == guard + RATE_GUARD or active.rate_guard < TOGETHER:
             friction += _turn(S, w, k, a)
             S.phases += 1
             # where joints leave a line to move on, slip and approach come to rest together
             friction += _rests(S, w, k, a)
-        elif trigger == guard + FRICTION_GUARD or w[S.impact_guard + guard + FRICTION_GUARD] < TOGETHER:
+        elif trigger == guard + FRICTION_GUARD or active.friction_guard < TOGETHER:
             S.phases += 1
-            if k[S.tangent_held + a] == 1:
+            if active.tangent_held == 1:
                 break_away(S, w, k, a)
             else:
                 # a slip that only turned far from its first direction goes on
-                v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-                speed = math.sqrt(v1 * v1 + v2 * v2)
-                c = k[S.active + a]
-                if speed > w[S.rest_slip + a]:
-                    w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
+                v1, v2 = active.slip
+                speed = length(active.slip)
+                contact = contact_at(S, w, k, active.slot)
+                if speed > active.rest_slip:
+                    contact.direction = v1 / speed, v2 / speed
                 else:
                     friction = 1
     if friction > 0:
@@ -125,38 +132,40 @@ def _switch(S: Scalars, w: Floats, k: Integers, probe: float, trigger: int) -> N
 @kernel("i8(S, F, I, i8)")
 def _rests(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     """Return 1 if the active contact ``a``, which slides, has come to rest."""
-    if k[S.tangent_held + a] == 1 or w[S.mu + a] == 0.0:
+    active = active_at(S, w, k, a)
+    if active.tangent_held == 1 or active.mu == 0.0:
         return 0
-    v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-    return 1 if math.sqrt(v1 * v1 + v2 * v2) <= w[S.rest_slip + a] else 0
+    return 1 if length(active.slip) <= active.rest_slip else 0
 
 
 @kernel("i8(S, F, I, i8)")
 def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
     """Change the normal phase of the active contact ``a``; return 1 if friction must be chosen anew."""
-    phase = k[S.phase + a]
+    active = active_at(S, w, k, a)
+    state = impact_state(w, S.impact_y, a)
+    phase = active.phase
     if phase == COMPRESSION:
         account(S, w, k, a)
         share = efficiency(S, w, k, a, 0.0)
         if min(share, efficiency(S, w, k, a, 1e-300)) > _NO_RETURN:
-            k[S.phase + a] = EXPANSION
-            w[S.impact_y + STRIDE * a + LOST] = (1.0 - share) * w[S.impact_y + STRIDE * a + ENERGY]
+            active.phase = EXPANSION
+            state.lost = (1.0 - share) * state.energy
             return 0
         # without restitution the stored energy is lost at once and the contact stays closed
         empty(S, w, a)
-        k[S.phase + a] = HELD
+        active.phase = HELD
         evaluate_impact_forces(S, w, k, S.impact_y)
-        if w[S.f + 3 * a] < 0.0:
-            k[S.phase + a] = IDLE
+        if active.normal_force < 0.0:
+            active.phase = IDLE
         return 1
     if phase == HELD:
-        k[S.phase + a] = IDLE
-        k[S.tangent_held + a] = 0
+        active.phase = IDLE
+        active.tangent_held = 0
         return 0
     if phase == EXPANSION:
         account(S, w, k, a)
-        k[S.waves + k[S.active + a]] += 1
-    k[S.phase + a] = COMPRESSION
+        contact_at(S, w, k, active.slot).waves += 1
+    active.phase = COMPRESSION
     return 1 if phase == IDLE else 0
 
 
@@ -167,22 +176,25 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float, seed: float) 
         w[S.impact_y + i] = 0.0
     S.phases = 0
     for a in range(S.n_active):
-        w[S.stored + a] = w[S.returned + a] = w[S.impact_mark + a] = 0.0
-        k[S.tangent_held + a] = 0
-        pushed = w[S.impact_z0 + 3 * a] < -NOISE * S.speed_scale
-        if seed > 0.0 and k[S.impacting + k[S.active + a]] == 1:
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
+        active.stored = active.returned = active.booked = 0.0
+        active.tangent_held = 0
+        pushed = active.gap_rate_before < -NOISE * S.speed_scale
+        if seed > 0.0 and contact_at(S, w, k, active.slot).impacting == 1:
             # an impact without collision starts from a seed of deformation instead of a speed
             pushed = True
-            w[S.impact_y + STRIDE * a + DEFORMATION] = 1e-3 * w[S.impact_x_scale + a]
-        k[S.phase + a] = COMPRESSION if pushed else IDLE
+            state.deformation = 1e-3 * active.deformation_scale
+        active.phase = COMPRESSION if pushed else IDLE
         S.phases += 1 if pushed else 0
     choose_friction(S, w, k, probe)
     # a resting contact that the others press in takes part from the start
     pressed = 0
     for a in range(S.n_active):
+        active = active_at(S, w, k, a)
         growth = add_product(S, w, k, 0.0, a, 0, S.f)
-        if k[S.phase + a] == IDLE and growth < 0.0 and w[S.impact_z0 + 3 * a] <= S.rest_speed:
-            k[S.phase + a] = COMPRESSION
+        if active.phase == IDLE and growth < 0.0 and active.gap_rate_before <= S.rest_speed:
+            active.phase = COMPRESSION
             S.phases += 1
             pressed = 1
     if pressed == 1:
@@ -194,10 +206,11 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if some slip has come next to rest and is still slowing down, or does not get away from there."""
     slow = 0
     for a in range(S.n_active):
-        if k[S.phase + a] == IDLE or k[S.tangent_held + a] == 1 or w[S.mu + a] == 0.0:
+        active = active_at(S, w, k, a)
+        if active.phase == IDLE or active.tangent_held == 1 or active.mu == 0.0:
             continue
-        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-        if math.sqrt(v1 * v1 + v2 * v2) > w[S.rest_slip + a]:
+        v1, v2 = active.slip
+        if length(active.slip) > active.rest_slip:
             continue
         power = v1 * add_product(S, w, k, 0.0, a, 1, S.f) + v2 * add_product(S, w, k, 0.0, a, 2, S.f)
         slow = 1
@@ -217,15 +230,18 @@ def _fade(S: Scalars, w: Floats, k: Integers) -> None:
     They start again at twice the rate, so that the two do not chase each other.
     """
     for a in range(S.n_active):
-        x = S.impact_y + STRIDE * a + DEFORMATION
-        passed = k[S.phase + a] == EXPANSION or (k[S.phase + a] == COMPRESSION and k[S.waves + k[S.active + a]] > 0)
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        passed = active.phase == EXPANSION or (active.phase == COMPRESSION and contact.waves > 0)
         # the energy is known to the tolerance only, the deformation better
-        weak = w[S.f + 3 * a] * w[x] <= S.faint * S.faint * w[S.impact_energy_scale + a]
-        if passed and weak and abs(w[S.impact_z + 3 * a]) <= 0.5 * S.faint * S.speed_scale:
+        weak = (
+            active.normal_force * impact_state(w, S.impact_y, a).deformation <= S.faint * S.faint * active.energy_scale
+        )
+        if passed and weak and abs(active.gap_rate) <= 0.5 * S.faint * S.speed_scale:
             account(S, w, k, a)
-            k[S.waves + k[S.active + a]] += 1
-            k[S.phase + a] = IDLE
-            k[S.tangent_held + a] = 0
+            contact.waves += 1
+            active.phase = IDLE
+            active.tangent_held = 0
             empty(S, w, a)
             S.phases += 1
     prepare_guards(S, w, k)
@@ -236,14 +252,15 @@ def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if a contact at the rim of the window acts, so that its neighbours may be missing, or most are idle."""
     acting = 0
     for a in range(S.n_active):
-        if k[S.phase + a] != IDLE:
+        active = active_at(S, w, k, a)
+        if active.phase != IDLE:
             acting += 1
-            if k[S.rim + k[S.active + a]] == 1:
+            if contact_at(S, w, k, active.slot).rim == 1:
                 return 1
     return 1 if acting > 0 and _CROWDED * acting < S.n_active else 0
 
 
-@room("i8(S, F, I, f8)")
+@entry_point("i8(S, F, I, f8)")
 def energetic_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> int:
     """Carry the active contacts from the rates ``impact_z0`` through the impact; return how it ended.
 
@@ -268,7 +285,7 @@ def first_step(S: Scalars, shortest: float) -> float:
     return shortest * (_FAR if S.n_active == 1 else float(S.impact_rtol) ** _FIRST)
 
 
-@room("i8(S, F, I, f8, f8, i8)")
+@entry_point("i8(S, F, I, f8, f8, i8)")
 def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, windowed: int) -> int:
     """Integrate from the phases and the state at hand, with a first step of ``h``; return how it ended.
 
@@ -357,10 +374,10 @@ def _pass_switch(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, 
     """Change the phases at the guard that fired, and the clock, and end what is over; return the next step."""
     following = max(h, shortest * S.impact_rtol**_FIRST)
     if S.lone >= 0:
-        following = _FAR * w[S.impulse_scale + S.lone]
+        following = _FAR * active_at(S, w, k, S.lone).impulse_scale
     _switch(S, w, k, PROBE * shortest, S.trigger)
     if S.n_active > 1 and change_clock(S, w, k) == 1:
-        following = shortest if S.lone < 0 else _FAR * w[S.impulse_scale + S.lone]
+        following = shortest if S.lone < 0 else _FAR * active_at(S, w, k, S.lone).impulse_scale
     if S.phases > _LONG * (S.n_colliding if windowed == 1 else S.n_active) and faded(S, w, k) == 1:
         cut_short(S, w, k)
     end_trapped(S, w, k)
@@ -376,24 +393,27 @@ def _at_event(S: Scalars, w: Floats, k: Integers) -> float:
     Of a contact that opens under load the energy guard is what is still to come back, a part of all that may be small.
     """
     a = S.lone
-    lost = w[S.impact_y + STRIDE * a + LOST]
+    active = active_at(S, w, k, a)
+    state = impact_state(w, S.impact_y, a)
+    lost = state.lost
     if S.aimed != GUARDS * a + ENERGY_GUARD or lost == 0.0:
         return _AT_EVENT
     share = efficiency(S, w, k, a, 0.0)
-    returned = lost * share / ((1.0 - share) * w[S.impact_energy_scale + a])
-    return max(_ROUND_OFF, _AT_EVENT * min(1.0, returned))
+    returned = lost * share / ((1.0 - share) * active.energy_scale)
+    return float(max(_ROUND_OFF, _AT_EVENT * min(1.0, returned)))
 
 
 @kernel("void(S, F, I)")
 def _orient(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the present slip directions as those of the step that begins."""
     for a in range(S.n_active):
-        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
-        if k[S.phase + a] != IDLE and k[S.tangent_held + a] == 0 and speed > w[S.rest_slip + a]:
-            c = k[S.active + a]
-            w[S.direction + 2 * c], w[S.direction + 2 * c + 1] = v1 / speed, v2 / speed
-            w[S.impact_guard + GUARDS * a + FRICTION_GUARD] = NOISE + speed / S.speed_scale
+        active = active_at(S, w, k, a)
+        v1, v2 = active.slip
+        speed = length(active.slip)
+        if active.phase != IDLE and active.tangent_held == 0 and speed > active.rest_slip:
+            contact = contact_at(S, w, k, active.slot)
+            contact.direction = v1 / speed, v2 / speed
+            active.friction_guard = NOISE + speed / S.speed_scale
 
 
 @kernel("f8(S, F, I, f8)")
@@ -401,7 +421,9 @@ def _graded(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Shorten the step towards the end of an expansion, where the force law is not smooth, geometrically."""
     small = _LAST * S.impact_rtol**0.4
     for a in range(S.n_active):
-        x, rate = w[S.impact_y + STRIDE * a + DEFORMATION], w[S.impact_slopes + STRIDE * a + DEFORMATION]
-        if k[S.phase + a] == EXPANSION and x > small * w[S.impact_x_scale + a] and h * rate < -_SHARE * x:
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
+        x, rate = state.deformation, impact_state(w, S.impact_slopes, a).deformation
+        if active.phase == EXPANSION and x > small * active.deformation_scale and h * rate < -_SHARE * x:
             h = -_SHARE * x / rate
     return h

@@ -12,13 +12,24 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import follow_slip
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_scalar, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    at,
+    call_scalar,
+    contact_at,
+    entry_point,
+    impact_state,
+    kernel,
+)
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
 
-IMPULSE, DEFORMATION, WORK, RUBBED, ENERGY, LOST = 0, 3, 4, 5, 6, 7
-"""Where these stand in the state of an impact, of every contact."""
+DEFORMATION = 3
+"""Where the deformation stands in the state of an impact, of every contact, behind the impulses."""
 STRIDE = 8
 """Floats of one contact in that state."""
 
@@ -29,57 +40,59 @@ NOISE = 1e-12
 @kernel("f8(S, F, I, i8, f8)")
 def normal_force(S: Scalars, w: Floats, k: Integers, a: int, x: float) -> float:
     """Return the force of the active contact ``a`` at the deformation ``x``, Eq. (20)."""
+    active = active_at(S, w, k, a)
     if a == S.lone:
         return 1.0
     if x <= 0.0:
         return 0.0
-    c = k[S.active + a]
-    return call_scalar(k[S.force_function + c], x, at(w, k[S.force_parameters + c]))
+    contact = contact_at(S, w, k, active.slot)
+    return call_scalar(contact.force_function, x, at(w, contact.force_parameters))
 
 
 @kernel("f8(S, F, I, i8, f8)")
 def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float:
     """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
+    active = active_at(S, w, k, a)
     if S.lossless == 1:
         return 1.0
-    c = k[S.active + a]
-    return call_scalar(k[S.efficiency_function + c], rate, at(w, k[S.efficiency_parameters + c]))
+    contact = contact_at(S, w, k, active.slot)
+    return call_scalar(contact.efficiency_function, rate, at(w, contact.efficiency_parameters))
 
 
 @kernel("void(S, F, I, i8)")
 def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write z = z_0 + G P: gap rates and slip velocities at the impact state ``y``."""
     for a in range(S.n_active):
-        z = S.impact_z0 + 3 * a
-        z0, z1, z2 = w[z], w[z + 1], w[z + 2]
-        row = S.block_start + S.first_grouped + a
-        for block in range(k[row], k[row + 1]):
-            p = y + STRIDE * k[S.block_column + block] + IMPULSE
-            p0, p1, p2 = w[p], w[p + 1], w[p + 2]
-            g = S.delassus + 9 * block
-            z0 += w[g] * p0 + w[g + 1] * p1 + w[g + 2] * p2
-            z1 += w[g + 3] * p0 + w[g + 4] * p1 + w[g + 5] * p2
-            z2 += w[g + 6] * p0 + w[g + 7] * p1 + w[g + 8] * p2
-        z = S.impact_z + 3 * a
-        w[z], w[z + 1], w[z + 2] = z0, z1, z2
+        active = active_at(S, w, k, a)
+        z0, z1, z2 = active.rate_before[0], active.rate_before[1], active.rate_before[2]
+        for block in range(active.first_block, active.end_block):
+            p = impact_state(w, y, k[S.block_column + block]).impulse
+            p0, p1, p2 = p[0], p[1], p[2]
+            g = at(w, S.delassus + 9 * block)
+            z0 += g[0] * p0 + g[1] * p1 + g[2] * p2
+            z1 += g[3] * p0 + g[4] * p1 + g[5] * p2
+            z2 += g[6] * p0 + g[7] * p1 + g[8] * p2
+        active.gap_rate, active.slip = z0, (z1, z2)
 
 
-@room("void(S, F, I, i8)")
+@entry_point("void(S, F, I, i8)")
 def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write the forces ``f`` of the active contacts at the impact state ``y`` in the present phases."""
     evaluate_impact_rates(S, w, k, y)
     held = 0
     for a in range(S.n_active):
-        phase = k[S.phase + a]
+        active = active_at(S, w, k, a)
+        state = impact_state(w, y, a)
+        phase = active.phase
         if phase == COMPRESSION or phase == EXPANSION:
-            w[S.f + 3 * a] = normal_force(S, w, k, a, w[y + STRIDE * a + DEFORMATION])
+            active.normal_force = normal_force(S, w, k, a, state.deformation)
         else:
-            w[S.f + 3 * a] = 0.0
-        k[S.normal_held + a] = 1 if phase == HELD else 0
-        held += k[S.normal_held + a] + k[S.tangent_held + a]
-        if k[S.tangent_held + a] == 0:
-            follow_slip(S, w, k, a, S.impact_z + 3 * a + 1, w[S.rest_slip + a])
-            friction_of_slip(S, w, a)
+            active.normal_force = 0.0
+        active.normal_held = 1 if phase == HELD else 0
+        held += active.normal_held + active.tangent_held
+        if active.tangent_held == 0:
+            follow_slip(S, w, k, a, active.slip, active.rest_slip)
+            friction_of_slip(S, w, k, a)
     if held > 0:
         for i in range(3 * S.n_active):
             w[S.b + i] = 0.0
@@ -97,19 +110,18 @@ def impact_slope(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> None:
 def write_impact_slope(S: Scalars, w: Floats, k: Integers, out: int) -> None:
     """Write the slope where rates and forces are evaluated."""
     for a in range(S.n_active):
-        f, z, o = S.f + 3 * a, S.impact_z + 3 * a, out + STRIDE * a
-        rate = w[z]
+        active = active_at(S, w, k, a)
+        rate, force, slope = active.rate, active.force, impact_state(w, out, a)
         for r in range(3):
-            w[o + IMPULSE + r] = w[f + r]
-        phase = k[S.phase + a]
-        w[o + DEFORMATION] = 0.0
-        if phase == COMPRESSION:
-            w[o + DEFORMATION] = -rate
-        elif phase == EXPANSION:
-            w[o + DEFORMATION] = -rate / efficiency(S, w, k, a, max(rate, 1e-300))
-        w[o + ENERGY] = w[f] * w[o + DEFORMATION]
+            slope.impulse[r] = force[r]
+        slope.deformation = 0.0
+        if active.phase == COMPRESSION:
+            slope.deformation = -rate[0]
+        elif active.phase == EXPANSION:
+            slope.deformation = -rate[0] / efficiency(S, w, k, a, max(rate[0], 1e-300))
+        slope.energy = force[0] * slope.deformation
         if a == S.lone:
-            w[o + DEFORMATION] = 0.0
-        w[o + WORK] = w[f] * rate
-        w[o + RUBBED] = -(w[f + 1] * w[z + 1] + w[f + 2] * w[z + 2])
-        w[o + LOST] = 0.0
+            slope.deformation = 0.0
+        slope.work = force[0] * rate[0]
+        slope.rubbed = -(force[1] * rate[1] + force[2] * rate[2])
+        slope.lost = 0.0

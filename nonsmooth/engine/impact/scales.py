@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.delassus.delassus import own_block
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_scalar, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_scalar, contact_at, kernel
 
 REST = 1e-9
 """Slip velocities below this, relative to the impact speed, count as none; so do those within the tolerance."""
@@ -28,49 +28,52 @@ def scale_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> float:
     S.speed_scale = seed
     brought = 0.0
     for a in range(m):
-        speed = max(seed, -w[S.impact_z0 + 3 * a])
+        active = active_at(S, w, k, a)
+        speed = max(seed, -active.gap_rate_before)
         S.speed_scale = max(S.speed_scale, speed)
         if speed > 0.0:
-            brought = max(brought, speed * speed / w[own_block(S, k, a)])
+            brought = max(brought, speed * speed / own_block(S, w, k, a).nn)
     S.rest_speed = max(REST, _CIRCLING * S.impact_rtol) * S.speed_scale
     shortest = _UNUSED
     for a in range(m):
-        energy = min(brought, S.speed_scale * S.speed_scale / w[own_block(S, k, a)])
+        active = active_at(S, w, k, a)
+        energy = min(brought, S.speed_scale * S.speed_scale / own_block(S, w, k, a).nn)
         x = 1.0
-        w[S.impact_energy_scale + a] = energy
+        active.energy_scale = energy
         # the impulse that takes it up
-        w[S.impulse_scale + a] = math.sqrt(energy / w[own_block(S, k, a)])
+        active.impulse_scale = math.sqrt(energy / own_block(S, w, k, a).nn)
         if a != S.lone:
-            c = k[S.active + a]
+            contact = contact_at(S, w, k, active.slot)
             for _iteration in range(4):
-                force = call_scalar(k[S.force_function + c], x, at(w, k[S.force_parameters + c]))
-                double = call_scalar(k[S.force_function + c], 2.0 * x, at(w, k[S.force_parameters + c]))
+                force = call_scalar(contact.force_function, x, at(w, contact.force_parameters))
+                double = call_scalar(contact.force_function, 2.0 * x, at(w, contact.force_parameters))
                 if not (force > 0.0 and double > 0.5001 * force):
-                    S.culprit = c
+                    S.culprit = active.slot
                     return -1.0
                 if abs(energy - force * x) <= _MET * energy:
                     break
                 x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
-        w[S.impact_x_scale + a] = x
-        w[S.impact_f_scale + a] = energy / x
+        active.deformation_scale = x
+        active.force_scale = energy / x
         shortest = min(shortest, (energy if a == S.lone else x) / S.speed_scale)
     for a in range(m):
-        w[S.rest_slip + a] = _slip_at_rest(S, w, k, a)
+        active = active_at(S, w, k, a)
+        active.rest_slip = _slip_at_rest(S, w, k, a)
     return shortest
 
 
 @kernel("f8(S, F, I, i8)")
 def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return the slip of the active contact ``a`` that counts as none: small by its energy, or within the error."""
-    g = own_block(S, k, a)
+    active = active_at(S, w, k, a)
+    own = own_block(S, w, k, a)
     moved = 0.0
-    row = S.block_start + S.first_grouped + a
-    for block in range(k[row], k[row + 1]):
-        impulse = w[S.impulse_scale + k[S.block_column + block]]
+    for block in range(active.first_block, active.end_block):
+        impulse = active_at(S, w, k, k[S.block_column + block]).impulse_scale
         for i in range(3, 9):
             moved = max(moved, abs(w[S.delassus + 9 * block + i]) * impulse)
-    mobility = max(w[g + 4], w[g + 8])
+    mobility = max(own.t11, own.t22)
     small = float(S.rest_speed)
-    if mobility < w[g]:
-        small *= math.sqrt(mobility / w[g])
+    if mobility < own.nn:
+        small *= math.sqrt(mobility / own.nn)
     return float(max(small, _CIRCLING * S.impact_rtol * moved))

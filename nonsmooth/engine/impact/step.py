@@ -8,16 +8,17 @@ Linearly implicit Euler steps, 1 to 6 in one of ``h``, have no such bound; their
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.delassus.delassus import own_block
-from nonsmooth.engine.impact.rates import DEFORMATION, IMPULSE, STRIDE, evaluate_impact_rates, impact_slope
+from nonsmooth.engine.impact.rates import DEFORMATION, STRIDE, evaluate_impact_rates, impact_slope
 from nonsmooth.engine.memory import tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES, STIFF
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, impact_state, kernel
 from nonsmooth.engine.numerics.linear import eliminate
 from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
+from nonsmooth.engine.numerics.vectors import length
 
+_SLIPS = 2
+"""Slip components of a contact."""
 _EXTRAPOLATED = 6
 """Results that are extrapolated; they lie where the stages of the explicit step do, behind the first."""
 _STIFF = 1.0
@@ -52,10 +53,11 @@ def _relative_error(S: Scalars, w: Floats, k: Integers) -> float:
     """Return the largest of the errors in ``impact_stage``, relative to the tolerance."""
     worst = 0.0
     for a in range(S.n_active):
-        inverse = 1.0 / w[S.impulse_scale + a]
+        active = active_at(S, w, k, a)
+        inverse = 1.0 / active.impulse_scale
         for r in range(STRIDE):
             if r >= DEFORMATION:
-                inverse = 1.0 / (w[S.impact_x_scale + a] if r == DEFORMATION else w[S.impact_energy_scale + a])
+                inverse = 1.0 / (active.deformation_scale if r == DEFORMATION else active.energy_scale)
             error = inverse * abs(w[S.impact_stage + STRIDE * a + r])
             if error > worst or error != error:
                 worst = error
@@ -68,12 +70,12 @@ def _find_stiff(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     evaluate_impact_rates(S, w, k, S.impact_y)
     stiff = 0
     for a in range(S.n_active):
-        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
-        if k[S.tangent_held + a] == 1 or not speed > w[S.rest_slip + a] or stiff == STIFF:
+        active = active_at(S, w, k, a)
+        speed = length(active.slip)
+        if active.tangent_held == 1 or not speed > active.rest_slip or stiff == STIFF:
             continue
-        t, g = S.impact_slopes + STRIDE * a + IMPULSE + 1, own_block(S, k, a)
-        if h * math.sqrt(w[t] * w[t] + w[t + 1] * w[t + 1]) * max(w[g + 4], w[g + 8]) > _STIFF * speed:
+        friction, own = impact_state(w, S.impact_slopes, a).friction, own_block(S, w, k, a)
+        if h * length(friction) * max(own.t11, own.t22) > _STIFF * speed:
             k[S.stiff + stiff] = a
             stiff += 1
     return stiff
@@ -125,13 +127,13 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int)
 @kernel("i8(S, I, i8)")
 def _stiff_contact(S: Scalars, k: Integers, j: int) -> int:
     """Return the active contact that slip component ``j`` is of, two to each of the stiff ones."""
-    return k[S.stiff + j // 2]
+    return k[S.stiff + j // _SLIPS]
 
 
 @kernel("i8(i8)")
 def _tangent(j: int) -> int:
     """Return the direction of slip component ``j``, 1 or 2."""
-    return 1 + j % 2
+    return 1 + j % _SLIPS
 
 
 @kernel("void(S, F, I, i8)")
@@ -140,10 +142,10 @@ def _differentiate(S: Scalars, w: Floats, k: Integers, stiff: int) -> None:
     n = STRIDE * S.n_active
     for j in range(2 * stiff):
         a = _stiff_contact(S, k, j)
+        active = active_at(S, w, k, a)
         column, component = S.stiff_slopes + j * n, S.impact_z0 + 3 * a + _tangent(j)
         evaluate_impact_rates(S, w, k, S.impact_y)
-        v1, v2 = w[S.impact_z + 3 * a + 1], w[S.impact_z + 3 * a + 2]
-        kept, change = w[component], _NEAR * math.sqrt(v1 * v1 + v2 * v2)
+        kept, change = w[component], _NEAR * length(active.slip)
         w[component] += change
         change = w[component] - kept
         impact_slope(S, w, k, S.impact_y, column)
@@ -158,11 +160,11 @@ def _differentiate(S: Scalars, w: Floats, k: Integers, stiff: int) -> None:
 def _slip_of(S: Scalars, w: Floats, k: Integers, i: int, impulses: int) -> float:
     """Return the component ``i`` of the slips of the stiff contacts that the impulses make, which lie in a state."""
     r = 3 * _tangent(i)
-    row = S.block_start + S.first_grouped + _stiff_contact(S, k, i)
+    active = active_at(S, w, k, _stiff_contact(S, k, i))
     total = 0.0
-    for block in range(k[row], k[row + 1]):
-        g, p = S.delassus + 9 * block + r, impulses + STRIDE * k[S.block_column + block] + IMPULSE
-        total += w[g] * w[p] + w[g + 1] * w[p + 1] + w[g + 2] * w[p + 2]
+    for block in range(active.first_block, active.end_block):
+        g, p = at(w, S.delassus + 9 * block + r), impact_state(w, impulses, k[S.block_column + block]).impulse
+        total += g[0] * p[0] + g[1] * p[1] + g[2] * p[2]
     return total
 
 
@@ -206,7 +208,8 @@ def try_linear_step(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     impact_slope(S, w, k, S.impact_new, end)
     # a component that is round-off next to the contact's force is as straight as that force
     for a in range(S.n_active):
-        force = abs(w[S.f + 3 * a]) + abs(w[S.f + 3 * a + 1]) + abs(w[S.f + 3 * a + 2])
+        active = active_at(S, w, k, a)
+        force = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
         for i in range(STRIDE * a, STRIDE * (a + 1)):
             first, half, last = w[S.impact_slopes + i], w[middle + i], w[end + i]
             size = abs(first) + abs(last) + abs(half)

@@ -20,10 +20,20 @@ from nonsmooth.engine.impact.problem import (
     run_impact,
     start_impact,
 )
-from nonsmooth.engine.impact.rates import DEFORMATION, ENERGY, IDLE, IMPULSE, LOST, NOISE, RUBBED, STRIDE
+from nonsmooth.engine.impact.rates import IDLE, NOISE
 from nonsmooth.engine.impact.scales import scale_impact
 from nonsmooth.engine.memory.layout import TOTALS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    articulation_at,
+    contact_at,
+    entry_point,
+    impact_state,
+    kernel,
+)
 
 LARGE = 16
 """Impacts with more contacts than this are looked at through a window."""
@@ -33,31 +43,30 @@ _FAINT = 30.0
 """Rates and deformations of the error of so many steps are not told from rest behind the wave."""
 _MOST_WINDOWS = 1000000
 _SIDES = 2
-"""Entries of a contact in the chains of its linkages."""
-_IMPULSE, _STORED, _RETURNED, _RUBBED, _DEFORMATION, _ENERGY, _LOST = 0, 3, 4, 5, 6, 7, 8
-"""Where these stand among what a contact takes from one window to the next."""
+"""Entries of a contact in the chains of its articulations."""
 
 
 @kernel("void(S, F, I)")
 def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
-    """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their linkages."""
+    """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their articulations."""
     S.n_colliding = S.n_active
-    for linkage in range(S.n_linkages):
-        k[S.linkage_head + linkage] = -1
+    for number in range(S.n_articulations):
+        articulation_at(S, w, k, number).head = -1
     for i in range(S.n_u):
         w[S.u_impact + i] = w[S.own + i]
     for i in range(S.n_colliding):
         c = k[S.active + i]
+        contact = contact_at(S, w, k, c)
         k[S.colliding + i] = c
-        k[S.phase_kept + c] = IDLE
-        k[S.held_kept + c] = 0
-        k[S.waves + c] = 0
+        contact.phase_kept = IDLE
+        contact.held_kept = 0
+        contact.waves = 0
         for j in range(TOTALS):
-            w[S.impact_total + TOTALS * c + j] = 0.0
+            contact.total[j] = 0.0
         for side in range(2):
-            linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-            k[S.chain + _SIDES * c + side] = k[S.linkage_head + linkage]
-            k[S.linkage_head + linkage] = _SIDES * c + side
+            articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+            k[S.chain + _SIDES * c + side] = articulation.head
+            articulation.head = _SIDES * c + side
 
 
 @kernel("void(S, F, I, f8)")
@@ -66,11 +75,12 @@ def _draw(S: Scalars, w: Floats, k: Integers, fastest: float) -> None:
     m = 0
     for i in range(S.n_colliding):
         c = k[S.colliding + i]
-        acts = k[S.phase_kept + c] != IDLE
+        contact = contact_at(S, w, k, c)
+        acts = contact.phase_kept != IDLE
         if fastest > 0.0:
-            acts = w[S.rate + 3 * c] < -NOISE * fastest
-        k[S.depth + c] = 0 if acts else -1
-        k[S.rim + c] = 0
+            acts = contact.rate[0] < -NOISE * fastest
+        contact.depth = 0 if acts else -1
+        contact.rim = 0
         if acts:
             k[S.active + m] = c
             m += 1
@@ -79,14 +89,15 @@ def _draw(S: Scalars, w: Floats, k: Integers, fastest: float) -> None:
         end = m
         for i in range(begin, end):
             for side in range(2):
-                c = k[S.active + i]
-                linkage = k[S.linkage_a + c] if side == 0 else k[S.linkage_b + c]
-                entry = k[S.linkage_head + linkage] if k[S.linkage_nu + linkage] > 0 else -1
+                contact = contact_at(S, w, k, k[S.active + i])
+                articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+                entry = articulation.head if articulation.nu > 0 else -1
                 while entry >= 0:
                     other = entry // _SIDES
-                    if k[S.depth + other] < 0:
-                        k[S.depth + other] = layer
-                        k[S.rim + other] = 1 if layer == _LAYERS else 0
+                    neighbour = contact_at(S, w, k, other)
+                    if neighbour.depth < 0:
+                        neighbour.depth = layer
+                        neighbour.rim = 1 if layer == _LAYERS else 0
                         k[S.active + m] = other
                         m += 1
                     entry = k[S.chain + entry]
@@ -100,45 +111,50 @@ def _load(S: Scalars, w: Floats, k: Integers) -> None:
     link_active(S, w, k)
     assemble_delassus(S, w, k)
     for a in range(S.n_active):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
         for r in range(3):
-            w[S.impact_z0 + 3 * a + r] = w[S.prescribed_rate + 3 * c + r] + row(S, w, k, c, r, S.u_impact)
-        for i in range(STRIDE):
-            w[S.impact_y + STRIDE * a + i] = 0.0
-        w[S.impact_y + STRIDE * a + DEFORMATION] = w[S.impact_total + TOTALS * c + _DEFORMATION]
-        w[S.impact_y + STRIDE * a + ENERGY] = w[S.impact_total + TOTALS * c + _ENERGY]
-        w[S.impact_y + STRIDE * a + LOST] = w[S.impact_total + TOTALS * c + _LOST]
-        w[S.stored + a] = w[S.returned + a] = w[S.impact_mark + a] = 0.0
-        k[S.phase + a] = k[S.phase_kept + c]
-        k[S.tangent_held + a] = k[S.held_kept + c]
+            active.rate_before[r] = contact.prescribed_rate[r] + row(S, w, k, c, r, S.u_impact)
+        for r in range(3):
+            state.impulse[r] = 0.0
+        state.work = state.rubbed = 0.0
+        state.deformation = contact.deformation_kept
+        state.energy = contact.energy_kept
+        state.lost = contact.lost_kept
+        active.stored = active.returned = active.booked = 0.0
+        active.phase = contact.phase_kept
+        active.tangent_held = contact.held_kept
 
 
 @kernel("void(S, F, I)")
 def _store(S: Scalars, w: Floats, k: Integers) -> None:
     """Give the bodies the impulses of the window, and keep what goes on."""
     for a in range(S.n_active):
-        c = k[S.active + a]
+        active = active_at(S, w, k, a)
+        state = impact_state(w, S.impact_y, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
         account(S, w, k, a)
-        total = S.impact_total + TOTALS * c
         for r in range(3):
-            w[S.impulse + 3 * a + r] = w[S.impact_y + STRIDE * a + IMPULSE + r]
-            w[total + _IMPULSE + r] += w[S.impulse + 3 * a + r]
-        w[total + _STORED] += w[S.stored + a]
-        w[total + _RETURNED] += w[S.returned + a]
-        w[total + _RUBBED] += w[S.impact_y + STRIDE * a + RUBBED]
-        w[total + _DEFORMATION] = w[S.impact_y + STRIDE * a + DEFORMATION]
-        w[total + _ENERGY] = w[S.impact_y + STRIDE * a + ENERGY]
-        w[total + _LOST] = w[S.impact_y + STRIDE * a + LOST]
-        k[S.phase_kept + c], k[S.held_kept + c] = k[S.phase + a], k[S.tangent_held + a]
+            active.impulse[r] = state.impulse[r]
+            contact.total_impulse[r] += active.impulse[r]
+        contact.total_stored += active.stored
+        contact.total_returned += active.returned
+        contact.total_rubbed += state.rubbed
+        contact.deformation_kept, contact.energy_kept, contact.lost_kept = state.deformation, state.energy, state.lost
+        contact.phase_kept, contact.held_kept = active.phase, active.tangent_held
     add_response(S, w, k, S.impulse, S.u_impact)
 
 
-@room("i8(S, F, I)")
+@entry_point("i8(S, F, I)")
 def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     """Do what ``energetic_impact`` does, for many contacts; the Delassus matrix of all of them is not needed."""
     fastest = 0.0
     for a in range(S.n_active):
-        fastest = max(fastest, -w[S.rate + 3 * k[S.active + a]])
+        active = active_at(S, w, k, a)
+        fastest = max(fastest, -contact_at(S, w, k, active.slot).rate[0])
     S.faint = _FAINT * S.impact_rtol
     S.may_be_lone = 1
     S.truncated = 0
@@ -163,11 +179,14 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     S.faint = 0.0
     S.n_active = S.n_colliding
     for a in range(S.n_active):
-        c = k[S.colliding + a]
-        k[S.active + a] = c
-        total = S.impact_total + TOTALS * c
+        active = active_at(S, w, k, a)
+        active.slot = k[S.colliding + a]
+        contact = contact_at(S, w, k, active.slot)
         for r in range(3):
-            w[S.impulse + 3 * a + r] = w[total + _IMPULSE + r]
-        w[S.stored + a], w[S.returned + a] = w[total + _STORED], w[total + _RETURNED]
-        w[S.rubbed + a] = w[total + _RUBBED]
+            active.impulse[r] = contact.total_impulse[r]
+        active.stored, active.returned, active.rubbed = (
+            contact.total_stored,
+            contact.total_returned,
+            contact.total_rubbed,
+        )
     return ENDLESS if outcome == MOVED else outcome

@@ -7,7 +7,8 @@ bodies or contacts is another set of offsets, never another compilation.
 
 What plug-ins write stands in blocks of their own (:mod:`nonsmooth.engine.memory.blocks`).
 
-Bodies tied by joints form a linkage, every other body is a linkage of its own; its bodies stand next to each other.
+Bodies tied by joints form an articulation, every other body is an articulation of its own; the bodies of one stand next
+to each other.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ CATALOGUE = (
     "nu_b",
     "shift_a",
     "shift_b",
-    "linkage_a",
-    "linkage_b",
+    "articulation_a",
+    "articulation_b",
     "geometry_function",
     "geometry_parameters",
     "friction_function",

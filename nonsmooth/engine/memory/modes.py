@@ -33,7 +33,7 @@ POLICIES = ("impact", "compliant", "refuse")
 """Their names."""
 
 RUNNING, DONE, PAUSED = 0, 1, 2
-STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
+STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
 STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 13)
 GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED = range(13, 16)
 CONDITION_MET = 16
@@ -48,7 +48,7 @@ REASONS = {
     NOT_FINITE: "a law or a body returned a number that is not finite",
     IMPACT_ENDLESS: "an impact did not end within its steps",
     NO_CONTACT_SOLUTION: "the contact forces have no solution, and no impulse without collision leads to one",
-    SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
+    UPDATE_ENDLESS: "impacts at one instant did not settle into a mode",
     JOINTS_APART: "joints contradict each other: there is no motion that keeps all of them closed",
     GAP_UNEXPLAINED: "a gap is none that the tolerances explain",
     MOTION_UNEXPLAINED: "closing contacts or joints would move a body farther than the tolerances explain",

@@ -14,7 +14,7 @@ INTEGER_SCALARS = (
     "n_own_guards",
     "n_loads",
     "n_joints",
-    "n_linkages",
+    "n_articulations",
     "own",
     "n_q",
     "n_u",

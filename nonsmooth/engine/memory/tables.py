@@ -57,7 +57,7 @@ COUNTS = (
     "n_own_guards",
     "n_loads",
     "n_joints",
-    "n_linkages",
+    "n_articulations",
     "n_q",
     "n_u",
     "n_y",

@@ -156,7 +156,7 @@ def _compiler(numba_passes: Callable[[Any], PassManager], lowering: type) -> typ
     return Passes
 
 
-RoomPasses = _compiler(_engine_passes, NativeLowering)
+EntryPasses = _compiler(_engine_passes, NativeLowering)
 """For functions of the engine that are called by address."""
 KernelPasses = _compiler(_engine_passes, LowerRaw)
 """For functions of the engine that those take in."""

@@ -5,7 +5,8 @@ floats ``w`` and the heap of integers ``k`` (see :mod:`nonsmooth.engine.memory.l
 variable ``NONSMOOTH_PLAIN=1`` before the first import to run the same source as ordinary Python,
 without numba: for the debugger, for coverage, and to see that both agree.
 
-Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8`` and ``void``.
+Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8``, ``void``, ``v2`` and
+``v3``, tuples of two and three floats, and ``D``, a block of the Delassus matrix.
 """
 
 from __future__ import annotations
@@ -35,15 +36,43 @@ _half = importlib.import_module("nonsmooth.engine.native.plain" if PLAIN else "n
 
 kernel: _Decorator = _half.kernel
 """An engine function, compiled into its callers."""
-room: _Decorator = _half.room
+entry_point: _Decorator = _half.entry_point
 """An engine function compiled apart, reached by its address, by Python too."""
-room_addresses: Callable[[], tuple[int, ...]] = _half.room_addresses
-"""The addresses of all rooms, which belong at the head of ``k``."""
-call_room: Callable[..., Any] = _half.call_room
-"""``call_room(name, memory, *numbers)``: call a room from Python."""
+entry_addresses: Callable[[], tuple[int, ...]] = _half.entry_addresses
+"""The addresses of all entry points, which belong at the head of ``k``."""
+call_entry: Callable[..., Any] = _half.call_entry
+"""``call_entry(name, memory, *numbers)``: call an entry point from Python."""
 
-contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.contact_at
-"""A contact with its fields by name (:mod:`nonsmooth.engine.memory.contact_fields`)."""
+contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["contact"]
+"""A contact with its fields by name (:mod:`nonsmooth.engine.memory.records`)."""
+active_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["active"]
+"""An active contact with its fields by name."""
+body_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["body"]
+"""A body with its fields by name; likewise"""
+articulation_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["articulation"]
+"""an articulation,"""
+joint_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["joint"]
+"""a joint,"""
+load_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["load"]
+"""a load,"""
+unit_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unit"]
+"""a unit,"""
+pool_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pool"]
+"""a pool,"""
+guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["guard"]
+"""a guard,"""
+own_guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["own_guard"]
+"""and a guard of the scenario, by its number among these."""
+frame_at: Callable[[Floats, int], Any] = _half.records["frame"]
+"""``frame_at(w, place)``: a frame that a body writes by name."""
+joint_row: Callable[[Floats, int, int], Any] = _half.records["joint_row"]
+"""``joint_row(w, joint.out, r)``: a row that a joint writes by name."""
+load_wrench: Callable[[Floats, int], Any] = _half.records["load_wrench"]
+"""``load_wrench(w, load.out)``: what a load writes by name."""
+impact_state: Callable[[Floats, int, int], Any] = _half.records["impact_state"]
+"""``impact_state(w, y, a)``: an active contact in the state of an impact, or the slope, at ``y``, by name."""
+delassus_block: Callable[[Floats, int, int], Any] = _half.records["delassus_block"]
+"""``delassus_block(w, S.delassus, block)``: a block on the diagonal of the Delassus matrix by name."""
 at: Callable[[Floats, int], Floats] = _half.at
 """The heap from an offset on."""
 
@@ -97,29 +126,43 @@ __all__ = [
     "Integers",
     "Memory",
     "Scalars",
+    "active_at",
     "address_of",
+    "articulation_at",
     "at",
     "block_at",
+    "body_at",
     "call_body",
     "call_compliance",
+    "call_entry",
     "call_guard",
     "call_load",
     "call_map",
     "call_pair",
     "call_rates",
-    "call_room",
     "call_scalar",
     "call_support",
     "call_traction",
     "call_watch",
     "calls",
     "contact_at",
+    "delassus_block",
+    "entry_addresses",
+    "entry_point",
     "forget_watch",
+    "frame_at",
+    "guard_at",
+    "impact_state",
     "jit",
+    "joint_at",
+    "joint_row",
     "kernel",
-    "room",
-    "room_addresses",
+    "load_at",
+    "load_wrench",
+    "own_guard_at",
+    "pool_at",
     "shared",
+    "unit_at",
     "unshared",
     "watch_address",
 ]

@@ -1,4 +1,4 @@
-"""The compiled half of :mod:`nonsmooth.engine.native.kernel`: kernels, rooms, calls by address, shims."""
+"""The compiled half of :mod:`nonsmooth.engine.native.kernel`: kernels, entry points, calls by address, shims."""
 
 from __future__ import annotations
 
@@ -19,12 +19,13 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, typeof_impl
 
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.rooms import ROOMS
-from nonsmooth.engine.native.build import CFunction, KernelPasses, LawPasses, RoomPasses, ShimPasses, uncollected
+from nonsmooth.engine.native.build import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses, uncollected
 from nonsmooth.engine.native.cache import Store, folders
-from nonsmooth.engine.native.contact_view import contact_at as contact_at
 from nonsmooth.engine.native.forms import C_TYPES, FORMS
+from nonsmooth.engine.native.record_view import records as records
+from nonsmooth.engine.native.record_view import types_of
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, call_at, moved
 from nonsmooth.notices import say
 
@@ -42,12 +43,15 @@ _TYPES = {
     "I": INTEGERS,
     "f8": types.float64,
     "i8": types.int64,
+    "D": types_of["delassus_block"],
+    "v2": types.UniTuple(types.float64, 2),
+    "v3": types.UniTuple(types.float64, 3),
     "void": types.void,
 }
 _pending: list[tuple[Any, Any]] = []
 _alive: list[Any] = []
-_rooms: dict[str, tuple[Callable[..., Any], str]] = {}
-_STUB = "def stub_{name}({names}): return call(k[S.rooms + {index}], {names})"
+_entries: dict[str, tuple[Callable[..., Any], str]] = {}
+_STUB = "def stub_{name}({names}): return call(k[S.entry_points + {index}], {names})"
 
 
 def _signature(text: str) -> Any:
@@ -67,19 +71,19 @@ def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], A
     return decorate
 
 
-def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+def entry_point(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
     """Compile an engine function apart from its callers, which reach it by its address in ``k``.
 
     A caller does not compile it again as it would a kernel's, and Python can call it: see
-    :func:`room_addresses` and :func:`call_room`.  Its machine code is cached on disk.
+    :func:`entry_addresses` and :func:`call_entry`.  Its machine code is cached on disk.
     """
 
     def decorate(function: Callable[..., Any]) -> Any:
-        _rooms[function.__name__] = (function, signature)
+        _entries[function.__name__] = (function, signature)
         names = ", ".join(inspect.signature(function).parameters)
         scope: dict[str, Any] = {"call": by_address(_signature(signature))}
         name = function.__name__
-        exec(_STUB.format(name=name, names=names, index=ROOMS.index(name)), scope)
+        exec(_STUB.format(name=name, names=names, index=ENTRY_POINTS.index(name)), scope)
         return kernel(signature)(scope[f"stub_{name}"])
 
     return decorate
@@ -102,22 +106,22 @@ def by_address(signature: Any) -> Any:
 
 
 @functools.cache
-def room_addresses() -> tuple[int, ...]:
-    """Return the addresses of all rooms in the order of ``ROOMS``, compiling what the cache lacks."""
+def entry_addresses() -> tuple[int, ...]:
+    """Return the addresses of all entry points in the order of ``ENTRY_POINTS``, compiling what the cache lacks."""
     importlib.import_module("nonsmooth.engine.events.event_loop")
     if missing := _missing():
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
         _compile_apart(missing)
-        compile_rooms(_missing())
-    return tuple(_compiled(name) for name in ROOMS)
+        compile_entries(_missing())
+    return tuple(_compiled(name) for name in ENTRY_POINTS)
 
 
 def _missing() -> tuple[str, ...]:
-    return tuple(name for name in ROOMS if not _store(name).is_filled())
+    return tuple(name for name in ENTRY_POINTS if not _store(name).is_filled())
 
 
 def _compile_apart(names: tuple[str, ...]) -> None:
-    """Compile rooms into the cache, half of them each in two processes of their own, or all in one on one processor.
+    """Compile entry points into the cache, half each in two processes of their own, or all in one on one processor.
 
     They may fail, as only the cache knows of them.  In this process the compiler would leave half a gigabyte.
     """
@@ -137,7 +141,7 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
         return None
     task = (
         f"import sys; sys.path[:] = {sys.path!r}; from nonsmooth.engine.native import native; "
-        f"import nonsmooth.engine.events.event_loop; native.compile_rooms({names!r})"
+        f"import nonsmooth.engine.events.event_loop; native.compile_entries({names!r})"
     )
     try:
         quiet = subprocess.DEVNULL
@@ -146,8 +150,8 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
         return None
 
 
-def compile_rooms(names: tuple[str, ...]) -> None:
-    """Compile some of ``ROOMS`` into the cache."""
+def compile_entries(names: tuple[str, ...]) -> None:
+    """Compile some of ``ENTRY_POINTS`` into the cache."""
     with uncollected():
         for inner, typed in _kernels_of(names):
             inner.compile(typed)
@@ -155,11 +159,11 @@ def compile_rooms(names: tuple[str, ...]) -> None:
             _compiled(name)
 
 
-def _kernels_of(rooms: tuple[str, ...]) -> list[tuple[Any, Any]]:
-    """Return the kernels that rooms call, and those that these call, with their signatures, in order of definition."""
+def _kernels_of(names: tuple[str, ...]) -> list[tuple[Any, Any]]:
+    """Return the kernels that entry points call, and those that these call, in order of definition, with signatures."""
     kernels = {id(inner): inner for inner, _ in _pending}
     called: set[int] = set()
-    waiting = [_rooms[name][0] for name in rooms]
+    waiting = [_entries[name][0] for name in names]
     while waiting:
         function = waiting.pop()
         named = {id(function.__globals__.get(name)) for name in function.__code__.co_names}
@@ -170,15 +174,15 @@ def _kernels_of(rooms: tuple[str, ...]) -> list[tuple[Any, Any]]:
 
 
 @functools.cache
-def _store(room: str) -> Store:
-    return Store(room)
+def _store(name: str) -> Store:
+    return Store(name)
 
 
 @functools.cache
-def _compiled(room: str) -> int:
-    """Return the address of a room, and let its code live."""
-    function, signature = _rooms[room]
-    return _address(CFunction(function, _signature(signature), _store(room), RoomPasses))
+def _compiled(name: str) -> int:
+    """Return the address of an entry point, and let its code live."""
+    function, signature = _entries[name]
+    return _address(CFunction(function, _signature(signature), _store(name), EntryPasses))
 
 
 def _address(function: CFunction) -> int:
@@ -189,16 +193,16 @@ def _address(function: CFunction) -> int:
 
 @functools.cache
 def _callable(name: str) -> Callable[..., Any]:
-    """Return a room as a function of the addresses of the three heaps, and of numbers."""
-    _, signature = _rooms[name]
+    """Return an entry point as a function of the addresses of the three heaps, and of numbers."""
+    _, signature = _entries[name]
     result, _, names = signature.partition("(")
     extra = [C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[3:]]
     prototype = ctypes.CFUNCTYPE(C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
-    return prototype(room_addresses()[ROOMS.index(name)])
+    return prototype(entry_addresses()[ENTRY_POINTS.index(name)])
 
 
-def call_room(name: str, memory: Memory, *arguments: float) -> Any:
-    """Call a room from Python on the memory of one trajectory; the interpreter's lock is released."""
+def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call an entry point from Python on the memory of one trajectory; the interpreter's lock is released."""
     return _callable(name)(*memory.addresses, *arguments)
 
 

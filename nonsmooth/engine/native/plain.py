@@ -7,15 +7,16 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from nonsmooth.engine.memory.contact_fields import NUMBERS
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
+from nonsmooth.engine.memory.fields import Field, Fields
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.rooms import ROOMS
-from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, SCALARS
+from nonsmooth.engine.memory.records import PACKED, RECORDS
+from nonsmooth.engine.memory.tables import SCALARS
 from nonsmooth.engine.native.forms import FORMS
 
 _functions: list[Callable[..., Any]] = []
 _watches: dict[int, Callable[[float], float]] = {}
-_rooms: dict[str, Callable[..., Any]] = {}
+_entries: dict[str, Callable[..., Any]] = {}
 
 
 def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
@@ -23,59 +24,66 @@ def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], A
     return lambda function: function
 
 
-def room(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
-    """Leave the function as it is, and let :func:`call_room` find it."""
+def entry_point(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+    """Leave the function as it is, and let :func:`call_entry` find it."""
 
     def decorate(function: Callable[..., Any]) -> Any:
-        _rooms[function.__name__] = function
+        _entries[function.__name__] = function
         return function
 
     return decorate
 
 
-def room_addresses() -> tuple[int, ...]:
-    """Return as many numbers as there are rooms; nothing reads them."""
+def entry_addresses() -> tuple[int, ...]:
+    """Return as many numbers as there are entry points; nothing reads them."""
     importlib.import_module("nonsmooth.engine.events.event_loop")
-    return (0,) * len(ROOMS)
+    return (0,) * len(ENTRY_POINTS)
 
 
-def call_room(name: str, memory: Memory, *arguments: float) -> Any:
-    """Call a room on the memory of one trajectory."""
+def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call an entry point on the memory of one trajectory."""
     record = memory.scalars[0]
     scalars = SimpleNamespace(**{field: record[field].item() for field in SCALARS.names or ()})
     try:
-        return _rooms[name](scalars, memoryview(memory.floats.data), memoryview(memory.integers.data), *arguments)
+        return _entries[name](scalars, memoryview(memory.floats.data), memoryview(memory.integers.data), *arguments)
     finally:
         for field, value in vars(scalars).items():
             memory.scalars[field] = value
 
 
-class _Contact:
-    """A contact with named fields."""
+class _Record:
+    """A record whose fields are properties."""
 
-    __slots__ = ("_heaps", "_number", "_scalars")
+    __slots__ = ("S", "k", "n", "w")
 
     def __init__(self, scalars: Any, w: Any, k: Any, number: int) -> None:
-        object.__setattr__(self, "_scalars", scalars)
-        object.__setattr__(self, "_heaps", (w, k))
-        object.__setattr__(self, "_number", number)
-
-    def _field(self, name: str) -> Any:
-        heap, numbers = self._heaps[0 if name in FLOAT_ARRAYS else 1], NUMBERS[name]
-        start = getattr(self._scalars, name) + numbers * self._number
-        return heap[start : start + numbers]
-
-    def __getattr__(self, name: str) -> Any:
-        field = self._field(name)
-        return field[0] if NUMBERS[name] == 1 else field
-
-    def __setattr__(self, name: str, value: float) -> None:
-        self._field(name)[0] = value
+        self.S, self.w, self.k, self.n = scalars, w, k, number
 
 
-def contact_at(scalars: Any, w: Any, k: Any, c: int) -> Any:
-    """Return contact ``c`` with its fields by name."""
-    return _Contact(scalars, w, k, c)
+def _property(field: Field) -> property:
+    parts = [f"self.S.{name}" for name in (field.array, field.behind) if name]
+    start = " + ".join([*parts, f"{field.stride if field.array else 1} * self.n", str(field.first)])
+    heap = "self.w" if field.is_float else "self.k"
+    many = f"{heap}[{start} : {start} + {field.numbers}]"
+    one = f"{heap}[{start}]"
+    found = f"tuple({many})" if field.is_vector else many if field.numbers > 1 else one
+    target = ", ".join(f"{heap}[{start} + {i}]" for i in range(field.numbers)) if field.is_vector else one
+    scope: dict[str, Any] = {}
+    exec(f"def load(self): return {found}\ndef store(self, value): {target} = value", scope)
+    return property(scope["load"], scope["store"])
+
+
+def _kind(kind: str, fields: Fields) -> Any:
+    return type(kind, (_Record,), {"__slots__": (), **{name: _property(field) for name, field in fields.items()}})
+
+
+def _packed(kind: str, fields: Fields) -> Callable[..., Any]:
+    record, stride = _kind(kind, fields), next(iter(fields.values())).stride
+    return lambda w, start, number=0: record(None, w, None, start + stride * number)
+
+
+records = {kind: _kind(kind, fields) for kind, fields in RECORDS.items()}
+records |= {kind: _packed(kind, fields) for kind, fields in PACKED.items()}
 
 
 def at(heap: memoryview, offset: int) -> memoryview:

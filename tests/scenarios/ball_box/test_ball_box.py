@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.native.kernel import call_room
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.model import units
 from nonsmooth.model.assembly import assemble
 from scenarios.ball_box.scenario import BallBox
@@ -51,7 +51,7 @@ def _forces(scenario: BallBox, solution: ns.Solution) -> tuple[np.ndarray, np.nd
         again.set_start(ball, solution.q_end[i_q : i_q + 7], solution.u_end[i_u : i_u + 6])
     model = assemble(again, ns.EventDriven())
     model.memory.scalars["t_end"] = model.memory.scalars["sample_interval"] = 1e-6
-    call_room("advance", model.memory, 10, 0)
+    call_entry("advance", model.memory, 10, 0)
     n = int(model.memory.scalars["n_contacts"][0])
     first = [again.contacts[c].first for c in model.memory.array("identity", n)]
     force = model.memory.array("force", 3 * n).reshape(n, 3)[:, 0]

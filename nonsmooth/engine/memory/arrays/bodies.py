@@ -1,11 +1,11 @@
-"""Bodies, linkages, contacts, and what may come near: all that an engine needs to know where things are."""
+"""Bodies, articulations, contacts, and what may come near: all that an engine needs to know where things are."""
 
 from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, blocks, ends, fixed, per
 from nonsmooth.engine.memory.blocks import GEOMETRY
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS
-from nonsmooth.engine.memory.rooms import ROOMS
 
 ARRAYS = Arrays(
     floats={
@@ -17,9 +17,7 @@ ARRAYS = Arrays(
         "rate": per(3, "n_slots"),
         "slip": per(2, "n_slots"),
         "skew": per(4, "n_slots"),
-        "tangents": fixed(6),
         "motion": fixed(5),
-        "wrench": fixed(6),
         "compliant_force": per(1, "n_slots"),
         "reach": per(1, "n_slots"),
         "closing_rate": per(1, "n_slots"),
@@ -43,7 +41,7 @@ ARRAYS = Arrays(
         "u_own": per(1, "n_u"),
     },
     integers={
-        "rooms": fixed(len(ROOMS)),
+        "entry_points": fixed(len(ENTRY_POINTS)),
         "body_q": per(1, "n_bodies"),
         "body_u": per(1, "n_bodies"),
         "body_nq": per(1, "n_bodies"),
@@ -52,23 +50,23 @@ ARRAYS = Arrays(
         "body_parameters": per(1, "n_bodies"),
         "body_out": per(1, "n_bodies"),
         "body_tail": per(1, "n_bodies"),
-        "linkage_u": per(1, "n_linkages"),
-        "linkage_nu": per(1, "n_linkages"),
-        "linkage_body": per(1, "n_linkages"),
-        "linkage_bodies": per(1, "n_linkages"),
-        "linkage_inverse": per(1, "n_linkages"),
-        "linkage_joint": per(1, "n_linkages"),
-        "linkage_joints": per(1, "n_linkages"),
-        "linkage_rows": per(1, "n_linkages"),
-        "linkage_driven": per(1, "n_linkages"),
-        "linkage_jacobian": per(1, "n_linkages"),
-        "linkage_r": per(1, "n_linkages"),
-        "linkage_y": per(1, "n_linkages"),
-        "linkage_factor": per(1, "n_linkages"),
-        "linkage_residual": per(1, "n_linkages"),
-        "linkage_rate": per(1, "n_linkages"),
-        "linkage_bias": per(1, "n_linkages"),
-        "linkage_x": per(1, "n_linkages"),
+        "articulation_u": per(1, "n_articulations"),
+        "articulation_nu": per(1, "n_articulations"),
+        "articulation_body": per(1, "n_articulations"),
+        "articulation_bodies": per(1, "n_articulations"),
+        "articulation_inverse": per(1, "n_articulations"),
+        "articulation_joint": per(1, "n_articulations"),
+        "articulation_joints": per(1, "n_articulations"),
+        "articulation_rows": per(1, "n_articulations"),
+        "articulation_driven": per(1, "n_articulations"),
+        "articulation_jacobian": per(1, "n_articulations"),
+        "articulation_r": per(1, "n_articulations"),
+        "articulation_y": per(1, "n_articulations"),
+        "articulation_factor": per(1, "n_articulations"),
+        "articulation_residual": per(1, "n_articulations"),
+        "articulation_rate": per(1, "n_articulations"),
+        "articulation_bias": per(1, "n_articulations"),
+        "articulation_x": per(1, "n_articulations"),
         "joint_function": per(1, "n_joints"),
         "joint_parameters": per(1, "n_joints"),
         "joint_frame_a": per(1, "n_joints"),

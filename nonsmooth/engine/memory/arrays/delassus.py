@@ -8,10 +8,10 @@ ARRAYS = Arrays(
     floats={},
     integers={
         "active": per(1, "n_slots"),
-        "link_head": per(1, "n_linkages"),
+        "link_head": per(1, "n_articulations"),
         "link_next": per(2, "n_slots"),
-        "linkage_root": per(1, "n_linkages"),
-        "linkage_group": per(1, "n_linkages"),
+        "articulation_root": per(1, "n_articulations"),
+        "articulation_group": per(1, "n_articulations"),
         "member": per(1, "n_slots"),
         "grouped": per(1, "n_slots"),
         "group_of": per(1, "n_slots"),

@@ -43,7 +43,7 @@ ARRAYS = Arrays(
         "guard_deflated": guards,
         "doubtful": per(1, "n_slots"),
         "astray": per(1, "n_slots"),
-        "tied": per(1, "n_slots"),
+        "redundant_contact": per(1, "n_slots"),
         "holds": per(1, "n_slots"),
     },
 )

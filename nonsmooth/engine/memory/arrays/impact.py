@@ -46,7 +46,7 @@ ARRAYS = Arrays(
         "rim": per(1, "n_slots"),
         "waves": per(1, "n_slots"),
         "chain": per(2, "n_slots"),
-        "linkage_head": per(1, "n_linkages"),
+        "articulation_head": per(1, "n_articulations"),
         "kept": per(2, "n_slots"),
         "armed": per(3, "n_slots"),
     },

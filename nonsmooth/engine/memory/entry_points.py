@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # the halves, which are compiled side by side, take the same time: forces and impacts first, then motion and events
-ROOMS = (
+ENTRY_POINTS = (
     "resolve",
     "energetic_impact",
     "run_impact",
@@ -44,4 +44,4 @@ ROOMS = (
     "follow",
     "evaluate_forces",
 )
-"""Engine functions that are compiled apart and called by address (:func:`nonsmooth.engine.native.kernel.room`)."""
+"""Functions of the engine that are called by address (:func:`nonsmooth.engine.native.kernel.entry_point`)."""

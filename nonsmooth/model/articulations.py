@@ -1,4 +1,4 @@
-"""Which bodies stand in one linkage."""
+"""Which bodies stand in one articulation."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from nonsmooth.system.system import System
 
 
 @dataclass(frozen=True)
-class Linkage:
+class Articulation:
     """Bodies that joints tie together, and those joints.
 
     Attributes
@@ -28,10 +28,10 @@ class Linkage:
     joints: tuple[Tie, ...]
 
 
-def linkages(system: System) -> list[Linkage]:
-    """Return the linkages in the order of their bodies.
+def articulations(system: System) -> list[Articulation]:
+    """Return the articulations in the order of their bodies.
 
-    Bodies that stand between those of a linkage in the order of the system come with it, which costs time and
+    Bodies that stand between those of an articulation in the order of the system come with it, which costs time and
     changes nothing.
     """
     bodies = system.bodies
@@ -39,7 +39,7 @@ def linkages(system: System) -> list[Linkage]:
     for tie in system.joints:
         numbers = [i for i, body in enumerate(bodies) if (body is tie.first or body is tie.second) and body.n_u > 0]
         last[numbers[0]] = max(last[numbers[0]], numbers[-1])
-    found: list[Linkage] = []
+    found: list[Articulation] = []
     first = 0
     while first < len(bodies):
         end = number = first
@@ -49,6 +49,6 @@ def linkages(system: System) -> list[Linkage]:
         members = bodies[first : end + 1]
         movable = [body for body in members if body.n_u > 0]
         joints = tuple(t for t in system.joints if any(body is t.first or body is t.second for body in movable))
-        found.append(Linkage(first, members, joints))
+        found.append(Articulation(first, members, joints))
         first = end + 1
     return found

@@ -1,0 +1,205 @@
+"""Articulations: bodies tied by joints, which the rest of the engine sees as one body with fewer ways to move.
+
+With the joints' rows A (A u + prescribed = 0) the accelerations that forces give are K = M^-1 - R^T Y,
+R = A M^-1, Y = (A R^T)^-1 R, so that contact forces, impulses and projections respect the joints at all times.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.kinematics import side_wrench
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    articulation_at,
+    at,
+    body_at,
+    call_pair,
+    frame_at,
+    joint_at,
+    joint_row,
+    kernel,
+)
+from nonsmooth.engine.numerics.vectors import Vector, minus, opposite
+
+_REDUNDANT = 1e-10
+"""A pivot below this part of its diagonal belongs to a row that the rows before it imply."""
+
+
+@kernel("f8(F, i8, v3, v3, v3)")
+def _speed(w: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
+    """Return how fast a frame moves along a row: axis . velocity of the point + moment . angular velocity."""
+    frame = frame_at(w, place)
+    x, y, z = minus(point, frame.origin)
+    ox, oy, oz = frame.spin
+    vx, vy, vz = frame.velocity
+    return float(
+        axis[0] * (vx + oy * z - oz * y)
+        + axis[1] * (vy + oz * x - ox * z)
+        + axis[2] * (vz + ox * y - oy * x)
+        + moment[0] * ox
+        + moment[1] * oy
+        + moment[2] * oz
+    )
+
+
+@kernel("void(S, F, I, i8, i8)")
+def _write_rows(S: Scalars, w: Floats, k: Integers, joint_number: int, number: int) -> None:
+    """Write rows, residuals, rates and biases of a joint of an articulation, behind those of the joints before."""
+    joint, articulation = joint_at(S, w, k, joint_number), articulation_at(S, w, k, number)
+    frame_a, frame_b = joint.frame_a, joint.frame_b
+    call_pair(joint.function, at(w, frame_a), at(w, frame_b), at(w, joint.parameters), at(w, joint.out))
+    for r in range(joint.rows):
+        row, i = joint_row(w, joint.out, r), joint.first + r
+        axis, moment = row.axis, row.moment
+        line = articulation.jacobian + i * articulation.nu
+        side_a, side_b = line + joint.shift_a, line + joint.shift_b
+        side_wrench(w, frame_a, row.point_a, opposite(axis), opposite(moment), joint.nu_a, side_a)
+        side_wrench(w, frame_b, row.point_b, axis, moment, joint.nu_b, side_b)
+        w[articulation.residual + i] = row.residual
+        w[articulation.bias + i] = row.bias
+        w[articulation.rate + i] = _speed(w, frame_b, axis, row.point_b, moment) - _speed(
+            w, frame_a, axis, row.point_a, moment
+        )
+
+
+@kernel("void(S, F, I, i8)")
+def _inverse_masses(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+    """Write M^-1 of the articulation's bodies to K and R = A M^-1."""
+    articulation = articulation_at(S, w, k, number)
+    n, m = articulation.nu, articulation.rows
+    matrix, jacobian, r = articulation.inverse, articulation.jacobian, articulation.r
+    for i in range(n * n):
+        w[matrix + i] = 0.0
+    for i in range(n * m):
+        w[r + i] = 0.0
+    for one in range(articulation.body, articulation.body + articulation.bodies):
+        body = body_at(S, w, k, one)
+        n_u = body.nu
+        shift = body.u - articulation.u
+        inverse = body.tail + body.nq + n_u
+        for i in range(n_u):
+            for j in range(n_u):
+                entry = w[inverse + i * n_u + j]
+                if entry != 0.0:
+                    w[matrix + (shift + i) * n + shift + j] = entry
+                    for line in range(m):
+                        w[r + line * n + shift + i] += entry * w[jacobian + line * n + shift + j]
+
+
+@kernel("void(F, i8, i8)")
+def _factorise(w: Floats, a: int, n: int) -> None:
+    """Overwrite the symmetric matrix at ``a`` by its Cholesky factor; rows that others imply get a zero pivot."""
+    for j in range(n):
+        own = w[a + j * n + j]
+        pivot = own
+        for i in range(j):
+            pivot -= w[a + j * n + i] * w[a + j * n + i]
+        if not pivot > _REDUNDANT * own:
+            for i in range(j, n):
+                w[a + i * n + j] = 0.0
+            continue
+        root = math.sqrt(pivot)
+        w[a + j * n + j] = root
+        for i in range(j + 1, n):
+            total = w[a + i * n + j]
+            for c in range(j):
+                total -= w[a + i * n + c] * w[a + j * n + c]
+            w[a + i * n + j] = total / root
+
+
+@kernel("void(F, i8, i8, i8, i8)")
+def substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
+    """Solve with the factor at ``a`` in place, the right-hand side at ``x`` in steps of ``stride``."""
+    for i in range(n):
+        total = w[x + i * stride]
+        for c in range(i):
+            total -= w[a + i * n + c] * w[x + c * stride]
+        w[x + i * stride] = total / w[a + i * n + i] if w[a + i * n + i] > 0.0 else 0.0
+    for i in range(n - 1, -1, -1):
+        total = w[x + i * stride]
+        for c in range(i + 1, n):
+            total -= w[a + c * n + i] * w[x + c * stride]
+        w[x + i * stride] = total / w[a + i * n + i] if w[a + i * n + i] > 0.0 else 0.0
+
+
+@kernel("void(S, F, I, i8)")
+def evaluate_articulation(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+    """Write K, Y, residuals and rates of the joints, the part of u that is not prescribed, and the driven power."""
+    articulation = articulation_at(S, w, k, number)
+    for joint in range(articulation.joint, articulation.joint + articulation.joints):
+        _write_rows(S, w, k, joint, number)
+    _inverse_masses(S, w, k, number)
+    n, m = articulation.nu, articulation.rows
+    jacobian, r, y = articulation.jacobian, articulation.r, articulation.y
+    matrix, factor = articulation.inverse, articulation.factor
+    for i in range(m):
+        for j in range(i + 1):
+            total = 0.0
+            for c in range(n):
+                total += w[jacobian + i * n + c] * w[r + j * n + c]
+            w[factor + i * m + j] = total
+    _factorise(w, factor, m)
+    for i in range(m * n):
+        w[y + i] = w[r + i]
+    for c in range(n):
+        substitute(w, factor, m, y + c, n)
+    for i in range(n):
+        for line in range(m):
+            entry = w[r + line * n + i]
+            if entry != 0.0:
+                for j in range(n):
+                    w[matrix + i * n + j] -= entry * w[y + line * n + j]
+    _prescribe(S, w, k, number)
+
+
+@kernel("f8(S, F, I, i8)")
+def _power(S: Scalars, w: Floats, k: Integers, number: int) -> float:
+    """Return the power of the bodies' own forces on the velocities ``u_own``."""
+    articulation, power = articulation_at(S, w, k, number), 0.0
+    for one in range(articulation.body, articulation.body + articulation.bodies):
+        body = body_at(S, w, k, one)
+        for i in range(body.nu):
+            power += w[body.tail + body.nq + i] * w[S.u_own + body.u + i]
+    return power
+
+
+@kernel("void(S, F, I, i8)")
+def _prescribe(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+    """Take off the velocities that driven bodies impose through joints, and book their power but for contact forces."""
+    articulation = articulation_at(S, w, k, number)
+    if articulation.driven == 0:
+        return
+    n, m = articulation.nu, articulation.rows
+    u, x = S.u_own + articulation.u, articulation.x
+    S.driven_power -= _power(S, w, k, number)
+    for line in range(m):
+        total = 0.0
+        for c in range(n):
+            total += w[articulation.jacobian + line * n + c] * w[u + c]
+        w[x + line] = total
+    for line in range(m):
+        for c in range(n):
+            w[u + c] -= w[articulation.y + line * n + c] * w[x + line]
+    S.driven_power += _power(S, w, k, number)
+    substitute(w, articulation.factor, m, x, 1)
+    for line in range(m):
+        S.driven_power -= w[x + line] * w[articulation.bias + line]
+
+
+@kernel("void(S, F, I, i8)")
+def constrain(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+    """Subtract from the accelerations ``du`` of an articulation what its joints do not allow: Y^T (A du + bias)."""
+    articulation = articulation_at(S, w, k, number)
+    n, m = articulation.nu, articulation.rows
+    du, x = S.du + articulation.u, articulation.x
+    for line in range(m):
+        total = w[articulation.bias + line]
+        for c in range(n):
+            total += w[articulation.jacobian + line * n + c] * w[du + c]
+        w[x + line] = total
+    for line in range(m):
+        for c in range(n):
+            w[du + c] -= w[articulation.y + line * n + c] * w[x + line]

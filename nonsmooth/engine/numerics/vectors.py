@@ -1,0 +1,50 @@
+"""Small vectors, which are tuples."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from nonsmooth.engine.native.kernel import kernel
+
+Pair: TypeAlias = tuple[float, float]
+"""A vector of a tangent plane, ``v2`` in signatures."""
+Vector: TypeAlias = tuple[float, float, float]
+"""A vector of space, ``v3`` in signatures."""
+
+
+@kernel("f8(v2)")
+def length(v: Pair) -> float:
+    """Return the length of a vector of the plane."""
+    return math.sqrt(v[0] * v[0] + v[1] * v[1])
+
+
+@kernel("v3(v3, v3)")
+def minus(a: Vector, b: Vector) -> Vector:
+    """Return a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@kernel("v3(v3)")
+def opposite(a: Vector) -> Vector:
+    """Return -a."""
+    return -a[0], -a[1], -a[2]
+
+
+@kernel("f8(v3, v3)")
+def dot(a: Vector, b: Vector) -> float:
+    """Return a . b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel("f8(v3, v3)")
+def distance(a: Vector, b: Vector) -> float:
+    """Return the length of a - b."""
+    way = minus(a, b)
+    return math.sqrt(dot(way, way))
+
+
+@kernel("v3(v3, v3)")
+def cross(a: Vector, b: Vector) -> Vector:
+    """Return a x b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
