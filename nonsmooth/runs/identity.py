@@ -7,7 +7,7 @@ import hashlib
 import numpy as np
 
 from nonsmooth.engine.memory.layout import CATALOGUE
-from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
+from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS, places
 from nonsmooth.model.image import Image, Integers
 from nonsmooth.model.laid_out import LaidOut
 
@@ -46,14 +46,12 @@ def constants(model: LaidOut, blank: Image) -> tuple[Integers, ...]:
     Where the rest of an image comes from a file, these are left as this process has them.
     """
     record = blank.parts[0].copy().view(SCALARS)
-    known = list(SCALARS.names or ())
-    scalars = [known.index(name) for name in (*CONSTANT_SCALARS, "impact_map", "watch")]
     ranges = [range(int(record[name][0]), int(record[name][0]) + _size(record, name)) for name in _FUNCTIONS]
     start, width = int(record["catalogue"][0]), len(CATALOGUE)
     rows = start + np.arange(width * int(record["n_declared"][0])).reshape(-1, width)
     blocks = np.array([place - model.memory.blocks for place, _, _ in model.memory.references], dtype=np.int64)
     integers = np.concatenate([*map(np.array, ranges), rows[:, :-1].ravel()]).astype(np.int64)
-    return np.array(scalars), np.zeros(0, np.int64), blocks, integers
+    return places(*CONSTANT_SCALARS, "impact_map", "watch"), np.zeros(0, np.int64), blocks, integers
 
 
 def _size(record: np.ndarray, name: str) -> int:
