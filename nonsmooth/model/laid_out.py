@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -102,7 +103,7 @@ def energies(bodies: tuple[Body, ...], tails: np.ndarray, numbers: np.ndarray) -
     return kinetic, potential
 
 
-def map_width(contacts: tuple[Contact, ...]) -> int:
+def map_width(contacts: Sequence[Contact]) -> int:
     """Return how many numbers a law that maps velocities takes per contact."""
     for contact in contacts:
         if isinstance(contact.impact, ImpactMap):

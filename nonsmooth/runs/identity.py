@@ -10,6 +10,7 @@ from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS, places
 from nonsmooth.model.image import Image, Integers
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying_contacts import by_kind
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
 _COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]
@@ -35,8 +36,12 @@ def digest(model: LaidOut, blank: Image) -> str:
     for place, _, _ in memory.references:
         blocks[place - memory.blocks] = 0
     found = hashlib.blake2b(_LAYOUT + _kinds(model))
-    for part in (scalars, floats, blocks, integers, (memory.owner or memory).floats[memory.tables :]):
-        found.update(part.data)
+    for part in (scalars, floats, blocks, integers):
+        # most of them are zero
+        filled = np.flatnonzero(part)
+        found.update(filled.data)
+        found.update(part[filled].data)
+    found.update((memory.owner or memory).floats[memory.tables :].data)
     return found.hexdigest()
 
 
@@ -62,8 +67,13 @@ def _kinds(model: LaidOut) -> bytes:
     """Return the names of the classes of all parts of a system, and which part is of which."""
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]
-    for contact in system.contacts:
-        parts += (contact.kinematics, contact.normal, contact.friction, contact.impact)
     known: dict[type, int] = {}
     numbers = [known.setdefault(type(part), len(known)) for part in parts]
-    return repr([(kind.__module__, kind.__qualname__) for kind in known]).encode() + np.array(numbers).tobytes()
+    contacts = system.contacts
+    rows = np.zeros((len(contacts), 4), np.int64)
+    for same in by_kind(contacts):
+        one = contacts[same[0]]
+        laws = one.kinematics, one.normal, one.friction, one.impact
+        rows[same] = [known.setdefault(type(part), len(known)) for part in laws]
+    names = repr([(kind.__module__, kind.__qualname__) for kind in known]).encode()
+    return names + np.array(numbers).tobytes() + rows.tobytes()

@@ -48,6 +48,11 @@ class Left:
     now: Image
     told: int
 
+    @property
+    def size(self) -> int:
+        """Memory that it takes besides what all runs of the model share [bytes]."""
+        return sum(part.nbytes for image in (self.before, self.now) for part in image.parts)
+
     def end(self, said: tuple[str, str], wall: float, samples: Floats) -> End:
         """Return how the run ended: with a status and a reason, after a time [s], its samples as recorded."""
         record, state = self.now.record, self.state()

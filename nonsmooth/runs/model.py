@@ -38,6 +38,8 @@ from nonsmooth.system.system import System
 
 _DEFAULT_SAMPLES = 2000
 _SAMPLES_AT_ONCE = 0.5
+_HELD = 1 << 20
+"""Memory that a solution may hold until somebody looks at it [bytes]."""
 
 
 @final
@@ -319,6 +321,9 @@ class Model:
             wall += time.perf_counter() - began
             left, recorded = self._left(energy, ending.image, ending.told), records.joined(self._engine)
             solution = Solution(laid.system, recorded, partial(left.end, said, wall, recorded.rows))
+            if left.size > _HELD:
+                # reads it: next to a run of so many contacts that takes no time
+                _ = solution.end
             failed = said[0] == "failed"
             if not ending.trouble:
                 try:

@@ -117,7 +117,10 @@ class Solution:
     @functools.cached_property
     def end(self) -> End:
         """How it ended."""
-        return self.find_end()
+        end = self.find_end()
+        # what it was found in may be large
+        object.__setattr__(self, "find_end", lambda: end)
+        return end
 
     @property
     def t(self) -> NDArray[np.float64]:
