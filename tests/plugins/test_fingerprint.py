@@ -99,7 +99,7 @@ def test_functions_of_numpy_and_math_and_records_count() -> None:
     values = (math.sqrt, math.exp, np.sqrt, namedtuple("One", ["a", "b"]), namedtuple("One", ["b", "a"]))
     keys = [fingerprint(_law("def law(x): return VALUE(x)", VALUE=value), "scalar") for value in values]
     assert len({*keys, ""}) == len(values) + 1
-    with_default = namedtuple("One", ["a"], defaults=[1.0])
+    with_default = namedtuple("with_default", ["a"], defaults=[1.0])
     assert fingerprint(_law("def law(x): return VALUE(x)", VALUE=with_default), "scalar") == ""
 
 
