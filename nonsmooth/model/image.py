@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -44,7 +45,7 @@ class Image:
         """Take the image of a memory."""
         return cls(tuple([part.copy() for part in memory.bits]), memory.blocks)
 
-    @property
+    @functools.cached_property
     def record(self) -> np.void:
         """The scalars."""
         return cast(np.void, self.parts[0].view(SCALARS)[0])
