@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from abc import abstractmethod
 from collections.abc import Callable
@@ -10,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from bodies.blocks import put
-from bodies.inertia import check_inertia, tensor_of
+from bodies.inertia import Triple, check_inertia, tensor_of
 from bodies.values import Word, read_start, unit_quaternion
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
@@ -104,6 +105,15 @@ def _evaluate(
     out[_ENERGY + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
 
 
+@functools.lru_cache(maxsize=256)
+def _mobility(name: str, mass: float, moments: Triple, products: Triple) -> tuple[float, ...]:
+    """Return J^-1 in the order of moments and products, of which bodies that are alike have one; all of it checked."""
+    tensor = tensor_of(moments, products)
+    check_inertia(name, mass, tensor)
+    inverse = np.linalg.inv(tensor) if any(products) else np.diag([1.0 / j for j in moments])
+    return *np.diag(inverse).tolist(), *(float(inverse[i, j]) for i, j in ((1, 2), (0, 2), (0, 1)))
+
+
 class FreeBody(Body):
     """A rigid body that moves freely; its frame has its origin at the mass centre.
 
@@ -134,14 +144,11 @@ class FreeBody(Body):
 
     def parameters(self) -> dict[str, float]:
         """Return mass, inertia tensor and its inverse (the mobility), checked."""
-        moments, products = self.inertia, self.products
-        tensor = tensor_of(moments, products)
-        check_inertia(type(self).__name__, self.total_mass, tensor)
-        inverse = np.linalg.inv(tensor) if any(products) else np.diag([1.0 / j for j in moments])
+        mass, moments, products = self.total_mass, tuple(self.inertia), tuple(self.products)
+        mobility = _mobility(type(self).__name__, mass, moments, products)
         names = ("x", "y", "z", "yz", "xz", "xy")
-        mobility = (*np.diag(inverse).tolist(), *(float(inverse[i, j]) for i, j in ((1, 2), (0, 2), (0, 1))))
         return {
-            "mass": self.total_mass,
+            "mass": mass,
             **{f"inertia_{name}": value for name, value in zip(names, (*moments, *products), strict=True)},
             **{f"mobility_{name}": value for name, value in zip(names, mobility, strict=True)},
         }

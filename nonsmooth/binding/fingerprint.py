@@ -21,9 +21,10 @@ _OWN = (at, block_at, call_support)
 def fingerprint(function: Callable[..., Any], context: str) -> str:
     """Return a digest of a function's bytecode, of the constants and of the functions that it names, and of a context.
 
-    The digest is of what runs, not of files, which may be newer.  It covers numbers, strings, tuples of them,
-    functions at module level, :mod:`math` and :mod:`numpy`; where a function names anything else there is none.  Nor
-    is there one for a closure: a program may make any number of them, and what is kept on disk would grow with it.
+    The digest is of what runs, not of files, which may be newer.  It covers numbers, strings, tuples of them, classes
+    of named tuples, functions at module level, and :mod:`math` and :mod:`numpy` with what is in them; where a function
+    names anything else there is none.  Nor is there one for a closure: a program may make any number of them, and what
+    is kept on disk would grow with it.
 
     Parameters
     ----------
@@ -55,6 +56,8 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
                 parts.append(f"{name} = {value.__name__}")
             elif _is_constant(value) or any(value is module for module in _MODULES):
                 parts.append(f"{name} = {value!r}")
+            elif theirs := _place_in_modules(value) or _fields(value):
+                parts.append(f"{name} = {theirs}")
             elif inspect.isfunction(named):
                 reached += [] if named in reached else [named]
                 parts.append(f"{name} = function {reached.index(named)}")
@@ -69,6 +72,20 @@ def _shape(code: CodeType) -> tuple[Any, ...]:
     # a table of its own since Python 3.11
     handlers = getattr(code, "co_exceptiontable", b"")
     return *arguments, code.co_code, handlers, code.co_names, code.co_varnames
+
+
+def _place_in_modules(value: Any) -> str:
+    """Return where a value stands in a module that is known by its version; nothing if it stands in none."""
+    found = (f"{module.__name__}.{name}" for module in _MODULES for name, one in vars(module).items() if one is value)
+    return next(found, "")
+
+
+def _fields(value: Any) -> str:
+    """Return the fields of a class of named tuples; nothing of anything else."""
+    if not isinstance(value, type) or value.__bases__ != (tuple,):
+        return ""
+    fields, defaults = (vars(value).get(name) for name in ("_fields", "_field_defaults"))
+    return f"fields {fields!r}" if fields and not defaults else ""
 
 
 def _is_constant(value: Any) -> bool:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.binding.compile import bind, bind_in_python, refused
-from nonsmooth.engine.native.kernel import PLAIN, jit
+from nonsmooth.engine.native.kernel import PLAIN, shared
 from nonsmooth.interfaces import ConvexShape
 
 _BY_NUMBERS = """def support(direction, out, middle_x, middle_y, middle_z{names}):
@@ -63,7 +63,7 @@ def _by_numbers(owner: type[ConvexShape], names: tuple[str, ...]) -> Callable[..
         "__name__": __name__,
         "array": np.array,
         "nan": np.nan,
-        "method": jit(owner.support),
+        "method": shared(owner.support),
         "Numbers": namedtuple("Numbers", names),
     }
     values = ", ".join(f"{name}_" for name in names)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from abc import abstractmethod
 from typing import final
 
@@ -68,7 +69,7 @@ class ConvexShape(Shape):
         """How far the surface that contacts see may lie off that of the solid [m]; none by default."""
         return 0.0
 
-    @property
+    @functools.cached_property
     @final
     def solid(self) -> ConvexSolid:
         """What it encloses."""

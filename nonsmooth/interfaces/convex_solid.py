@@ -46,7 +46,7 @@ class ConvexSolid(Solid):
         # in the middle of what is extreme, and so inside
         return Piece(self.farthest, np.mean(self._extremes, axis=0))
 
-    @property
+    @functools.cached_property
     def bounds(self) -> tuple[Vector, Vector]:
         """Those of the farthest points along the axes [m]."""
         return np.diag(self._extremes[:3]), np.diag(self._extremes[3:])

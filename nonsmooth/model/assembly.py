@@ -14,7 +14,7 @@ from nonsmooth.model.articulations import articulations
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
-from nonsmooth.model.laying_contacts import initial_state, lay_contacts
+from nonsmooth.model.laying_contacts import by_kind, initial_state, lay_contacts
 from nonsmooth.model.pools import lay_pools
 from nonsmooth.model.units import find_units, lay_units
 from nonsmooth.system.system import System
@@ -66,7 +66,8 @@ def lay(system: System, engine: Engine) -> LaidOut:
     bodies, contacts = system.bodies, system.contacts
     n_q = sum(body.n_q for body in bodies)
     n_u = sum(body.n_u for body in bodies)
-    n_states = sum(len(initial_state(contact)) for contact in contacts)
+    kinds = by_kind(contacts)
+    n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in kinds)
     groups = articulations(system)
     units = find_units(contacts)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
@@ -87,7 +88,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "n_u": n_u,
         "n_y": n_y,
         "n_states": n_states,
-        "map_width": map_width(contacts),
+        "map_width": map_width([contacts[numbers[0]] for numbers in kinds]),
         "event_floats": _EVENTS * (head + LISTED * min(units.n_slots, _TYPICAL))
         + MOST_EVENTS * (head + LISTED * units.n_slots),
         "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL))
@@ -102,7 +103,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     places = lay_bodies(system, memory, heap)
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)
-    lay_contacts(memory, heap, contacts, places)
+    lay_contacts(memory, heap, contacts, kinds, places)
     lay_units(memory, units, {(i, f): at for i, place in places.items() for f, at in enumerate(place.frames)})
     lay_pools(memory, heap, units.pools, units.frames)
     lay_guards(system, memory, heap)

@@ -34,7 +34,9 @@ def check_start(model: LaidOut) -> None:
     past = written_past(model)
     if past:
         raise PluginError(past[0].upper() + past[1:])
-    for number, (contact, gap) in enumerate(zip(model.system.contacts, gaps.tolist(), strict=True)):
+    contacts = model.system.contacts
+    for number in np.flatnonzero(~(gaps >= 0.0)).tolist():
+        contact, gap = contacts[number], float(gaps[number])
         compliant = isinstance(contact.normal, CompliantNormalLaw)
         if not gap >= (-math.inf if compliant else -overlap_allowed(contact)):
             _ask_shapes(model, number)

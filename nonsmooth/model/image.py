@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import final
+from typing import cast, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +14,10 @@ from nonsmooth.engine.memory.blocks import UNTOUCHED
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, SCALARS
 from nonsmooth.errors import InvalidInput
 from nonsmooth.packing import packed, unpacked
+from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
 _WIDTH = len(CATALOGUE)
@@ -31,14 +34,33 @@ class Image:
     ----------
     parts : tuple of array
         Copies of the scalars and of :attr:`nonsmooth.engine.memory.memory.Memory.kept`, as integers of the same bits.
+    first : int
+        Where in the memory the blocks begin that the assembly appended.
     """
 
     parts: tuple[Integers, ...]
+    first: int
 
     @classmethod
     def of(cls, memory: Memory) -> Image:
         """Take the image of a memory."""
-        return cls(tuple(part.copy() for part in memory.bits))
+        return cls(tuple([part.copy() for part in memory.bits]), memory.blocks)
+
+    @functools.cached_property
+    def record(self) -> np.void:
+        """The scalars."""
+        return cast(np.void, self.parts[0].view(SCALARS)[0])
+
+    @property
+    def blocks(self) -> Array:
+        """The blocks that the assembly appended."""
+        return self.parts[2].view(np.float64)
+
+    def array(self, name: str, size: int) -> np.ndarray:
+        """Return a view of ``size`` entries of the named array, as the memory does."""
+        part = self.parts[1].view(np.float64) if name in FLOAT_ARRAYS else self.parts[3]
+        start = int(self.record[name])
+        return part[start : start + size]
 
     def put(self, memory: Memory) -> None:
         """Give a memory of the same system this content."""
@@ -53,21 +75,21 @@ class Guards:
 
     Attributes
     ----------
-    places : tuple of array
-        Where they stand in the parts of an image that have floats.
+    places : array
+        Where they stand in the heap of floats.
     """
 
-    places: tuple[Integers, ...]
+    places: Integers
 
     @classmethod
     def of(cls, blank: Image) -> Guards:
         """Find them in an image of a memory before any run."""
-        return cls(tuple(np.flatnonzero(part == _UNTOUCHED) for part in blank.parts[1:3]))
+        arrays, blocks = (np.flatnonzero(part == _UNTOUCHED) for part in blank.parts[1:3])
+        return cls(np.concatenate([arrays, blank.first + blocks]))
 
     def hold(self, memory: Memory) -> bool:
         """Tell whether all of them are as they were."""
-        parts = memory.bits[1:3]
-        return all(bool((part[at] == _UNTOUCHED).all()) for part, at in zip(parts, self.places, strict=True))
+        return bool((memory.floats[self.places] == UNTOUCHED).all())
 
 
 @final

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +15,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, PluginError
-from nonsmooth.interfaces import ImpactMap
+from nonsmooth.interfaces import Body, ImpactMap
 from nonsmooth.model.pools import failed_search
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
@@ -44,6 +46,11 @@ class LaidOut:
         """Length of the integrated state: q, u, accounts, states of laws."""
         return self.n_q + self.n_u + N_ACCOUNTS + self.n_states
 
+    @functools.cached_property
+    def sizes(self) -> tuple[int, int, int, int]:
+        """Numbers of contacts, coordinates, velocities, and of all that is integrated."""
+        return len(self.system.contacts), self.n_q, self.n_u, self.n_y
+
     def list_contacts(self) -> None:
         """List the contacts that are near each other at the present state.
 
@@ -65,22 +72,19 @@ class LaidOut:
                 "Place the bodies farther apart, or take coarser meshes.",
             )
 
+    def evaluate(self) -> None:
+        """Evaluate bodies and contacts at the present state."""
+        call_entry("evaluate_at", self.memory)
+
     def energy(self) -> tuple[float, float]:
         """Return kinetic and potential energy [J] of the present state."""
+        self.evaluate()
         bodies = self.system.bodies
-        call_entry("evaluate_at", self.memory)
-        kinetic = potential = 0.0
-        tails = self.memory.array("body_tail", len(bodies))
-        for body, tail in zip(bodies, tails, strict=True):
-            if body.n_u > 0:
-                energy = int(tail) + body.n_q + body.n_u + body.n_u**2
-                kinetic += float(self.memory.floats[energy])
-                potential += float(self.memory.floats[energy + 1])
-        return kinetic, potential
+        return energies(bodies, self.memory.array("body_tail", len(bodies)), self.memory.floats)
 
     def gaps(self) -> np.ndarray:
         """Return the gaps [m, n_contacts] at the present state; infinite for contacts too far to be listed."""
-        call_entry("evaluate_at", self.memory)
+        self.evaluate()
         n = int(self.memory.scalars["n_contacts"][0])
         gaps = np.full(len(self.system.contacts), np.inf)
         listed = self.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, 0]
@@ -88,7 +92,18 @@ class LaidOut:
         return gaps
 
 
-def map_width(contacts: tuple[Contact, ...]) -> int:
+def energies(bodies: tuple[Body, ...], tails: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
+    """Return kinetic and potential energy [J] of bodies that were evaluated; their tails stand there in ``numbers``."""
+    kinetic = potential = 0.0
+    for body, tail in zip(bodies, tails.tolist(), strict=True):
+        if body.n_u > 0:
+            energy = tail + body.n_q + body.n_u + body.n_u**2
+            kinetic += float(numbers[energy])
+            potential += float(numbers[energy + 1])
+    return kinetic, potential
+
+
+def map_width(contacts: Sequence[Contact]) -> int:
     """Return how many numbers a law that maps velocities takes per contact."""
     for contact in contacts:
         if isinstance(contact.impact, ImpactMap):

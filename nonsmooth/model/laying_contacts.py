@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from operator import itemgetter
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -34,6 +35,8 @@ COLUMN = {name: number for number, name in enumerate(CATALOGUE)}
 """Where the entries of the catalogue stand in its rows."""
 _Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
 """Name in the catalogue, function, form, parameters that it may ask for."""
+Kinds: TypeAlias = Sequence[list[int]]
+"""The numbers of the contacts of each kind."""
 
 
 @dataclass
@@ -64,12 +67,12 @@ class Kind:
         return start
 
 
-def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places: Places) -> None:
+def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], kinds: Kinds, places: Places) -> None:
     """Lay the contacts, and reserve the Jacobians of the slots."""
     n = len(contacts)
     rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
     tried = set[tuple[Any, ...]]()
-    for numbers in by_kind(contacts):
+    for numbers in kinds:
         kind = kind_of(memory, contacts[numbers[0]], tried)
         starts = heap.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
         row, leads = np.zeros(len(CATALOGUE), np.int64), np.zeros(len(CATALOGUE), np.int64)
@@ -81,31 +84,33 @@ def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], places
         for place, start, table in kind.tables:
             for begin in starts.tolist():
                 heap.refer(begin + place, begin + start, table)
-    _lay_states(memory, contacts, rows)
+    _lay_states(memory, contacts, kinds, rows)
     _lay_sides(rows, contacts, places)
-    lay_floats(memory, contacts)
-    widths = [places[id(body)].articulation_nu for contact in contacts for body in (contact.first, contact.second)]
-    size, slots = 3 * max(widths, default=0), int(memory.scalars["n_slots"][0])
+    lay_floats(memory, contacts, kinds)
+    touching = {id(body) for contact in contacts for body in (contact.first, contact.second)}
+    size = 3 * max((places[body].articulation_nu for body in touching), default=0)
+    slots = int(memory.scalars["n_slots"][0])
     for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
         memory.array(name, slots)[:] = heap.block(size * slots) + size * np.arange(slots)
 
 
-def by_kind(contacts: Sequence[Contact]) -> list[list[int]]:
+def by_kind(contacts: Sequence[Contact]) -> Kinds:
     """Return the numbers of the contacts of each kind: those of the same geometry and laws."""
-    same: dict[tuple[int, ...], list[int]] = {}
+    same: dict[tuple[int, int, int, int], list[int]] = {}
     for number, contact in enumerate(contacts):
-        parts = contact.kinematics, contact.normal, contact.friction, contact.impact
-        same.setdefault(tuple(map(id, parts)), []).append(number)
+        key = id(contact.kinematics), id(contact.normal), id(contact.friction), id(contact.impact)
+        same.setdefault(key, []).append(number)
     return list(same.values())
 
 
-def _lay_states(memory: Memory, contacts: Sequence[Contact], rows: np.ndarray) -> None:
+def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds, rows: np.ndarray) -> None:
     """Say where the inner states of each contact stand, and how large they usually are."""
     scales: list[float] = []
-    for number, contact in enumerate(contacts):
-        if isinstance(contact.friction, (TractionLaw, StatefulFrictionLaw)):
-            rows[number, COLUMN["state"]] = len(scales)
-            scales += contact.friction.state_scale
+    laws = [(numbers, contacts[numbers[0]].friction) for numbers in kinds]
+    with_states = [(numbers, law) for numbers, law in laws if isinstance(law, (TractionLaw, StatefulFrictionLaw))]
+    for number, law in sorted(((number, law) for numbers, law in with_states for number in numbers), key=itemgetter(0)):
+        rows[number, COLUMN["state"]] = len(scales)
+        scales += law.state_scale
     n_y = int(memory.scalars["n_y"][0])
     memory.array("y_scale", n_y)[n_y - len(scales) :] = scales
 
@@ -126,16 +131,16 @@ def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) ->
             rows[:, COLUMN[f"{name}_{side}"]] = values
 
 
-def lay_floats(memory: Memory, contacts: Sequence[Contact]) -> None:
+def lay_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
     """Lay what the catalogue holds of each contact in floats."""
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * len(contacts)).reshape(len(contacts), CATALOGUE_FLOATS)
-    floats[:, CONTACT_TIME] = [0.0 if contact.impact is None else contact.impact.contact_time for contact in contacts]
     floats[:, DIRECTION] = 1.0
-    floats[:, REACH] = [
-        contact.normal.reach if isinstance(contact.normal, CompliantNormalLaw) else 0.0 for contact in contacts
-    ]
+    for numbers in kinds:
+        normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
+        floats[numbers, CONTACT_TIME] = 0.0 if impact is None else impact.contact_time
+        floats[numbers, REACH] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
     floats[:, LEVERS : LEVERS + 2] = np.reshape([contact.levers for contact in contacts], (len(contacts), 2))
-    floats[:, SIZE] = [contact.size for contact in contacts]
+    floats[:, SIZE] = np.reshape([contact.extents for contact in contacts], (len(contacts), 2)).min(axis=1)
 
 
 def initial_state(contact: Contact) -> tuple[float, ...]:

@@ -25,7 +25,8 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     _check_same(model.system, system)
     memory, contacts = model.memory, system.contacts
     rows = memory.array("catalogue", len(CATALOGUE) * len(contacts)).reshape(len(contacts), len(CATALOGUE))
-    for numbers in by_kind(contacts):
+    kinds = by_kind(contacts)
+    for numbers in kinds:
         before, after = (kind_of(memory, one.contacts[numbers[0]]) for one in (model.system, system))
         if (before.offsets, len(before.block)) != (after.offsets, len(after.block)):
             _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
@@ -36,7 +37,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         starts = rows[numbers, COLUMN["geometry_parameters"]]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
-    lay_floats(memory, contacts)
+    lay_floats(memory, contacts, kinds)
     return LaidOut(system, memory, model.n_q, model.n_u, model.n_states)
 
 

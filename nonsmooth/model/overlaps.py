@@ -75,12 +75,13 @@ def solid_pairs(
         Shapes whose balls about the origins of their frames are farther apart than this are left out [m].
     """
     pairs: dict[tuple[int, ...], list[int]] = {}
+    contacts = model.system.contacts
     for number in numbers:
-        contact = model.system.contacts[number]
+        contact = contacts[number]
         key = (*map(id, (contact.first, contact.second, *contact.shapes)), *contact.frames)
         pairs.setdefault(key, []).append(number)
     for same in pairs.values():
-        contact, frames = model.system.contacts[same[0]], frames_of(model, same[0])
+        contact, frames = contacts[same[0]], frames_of(model, same[0])
         apart = float(np.linalg.norm(frames[0][:3] - frames[1][:3]))
         if apart - sum(contact.extents) > within:
             continue

@@ -55,22 +55,23 @@ def find_pools(contacts: Sequence[Contact]) -> list[Pool]:
         If a shape is unbounded: nobody could say when its features have to be looked for again.
     """
     found = []
-    for _, group in itertools.groupby(enumerate(contacts), lambda item: id(item[1].kinematics.candidates)):
-        rows = list(group)
-        number, one = rows[0]
-        search = one.kinematics.candidates
-        if search is not None:
-            for shape, extent in zip(one.shapes, one.extents, strict=True):
-                if not math.isfinite(extent):
-                    raise InvalidInput(
-                        f"{type(shape).__name__} of the {one}",
-                        "must be bounded where its features are searched for (`candidates`)",
-                        extent,
-                        "Give the shape a finite `extent`, or return contacts of given features from `between`.",
-                    )
-            sides = (id(one.first), one.frames[0]), (id(one.second), one.frames[1])
-            name = f"{type(one.kinematics).__name__} ({one})"
-            found.append(Pool(search, range(number, number + len(rows)), sides, name))
+    searches = [contact.kinematics.candidates for contact in contacts]
+    numbers = [number for number, search in enumerate(searches) if search is not None]
+    for _, group in itertools.groupby(numbers, lambda number: id(searches[number])):
+        first, *more = group
+        one, search = contacts[first], searches[first]
+        assert search is not None
+        for shape, extent in zip(one.shapes, one.extents, strict=True):
+            if not math.isfinite(extent):
+                raise InvalidInput(
+                    f"{type(shape).__name__} of the {one}",
+                    "must be bounded where its features are searched for (`candidates`)",
+                    extent,
+                    "Give the shape a finite `extent`, or return contacts of given features from `between`.",
+                )
+        sides = (id(one.first), one.frames[0]), (id(one.second), one.frames[1])
+        name = f"{type(one.kinematics).__name__} ({one})"
+        found.append(Pool(search, range(first, first + 1 + len(more)), sides, name))
     return found
 
 

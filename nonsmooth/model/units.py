@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-import math
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.model.pools import Pool, find_pools
 from nonsmooth.system.contact import Contact
+from nonsmooth.types import Array
 
 SMALL = 64
 """Systems with up to this many declared contacts keep all of them in slots."""
@@ -20,7 +24,7 @@ _MARGIN = 0.5
 """Margin of the list, in units of the smallest radius."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Units:
     """The units of a system.
 
@@ -28,51 +32,54 @@ class Units:
     ----------
     frames : dict
         (id of body, frame) -> number of the unit.
-    radii : list of float
+    radii : array
         Radius of every unit about its frame's origin [m].
-    pairs : dict
-        (unit, later unit) -> numbers of their contacts.
-    unbounded : list of int
-        Contacts with an unbounded shape.
+    pairs : array
+        Unit and later unit of all pairs with contacts, in order, shape [n, 2].
+    counts : array
+        How many contacts each pair has.
+    contacts : array
+        Numbers of the contacts, pair by pair, and then of those with an unbounded shape.
     pools : list of Pool
         Contacts whose features are searched for.
     """
 
     frames: dict[tuple[int, int], int]
-    radii: list[float]
-    pairs: dict[tuple[int, int], list[int]]
-    unbounded: list[int]
+    radii: Array
+    pairs: NDArray[np.int64]
+    counts: NDArray[np.int64]
+    contacts: NDArray[np.int64]
     pools: list[Pool]
 
     @property
     def n_slots(self) -> int:
         """Contacts that may be near each other at once."""
-        counts = [len(contacts) for contacts in self.pairs.values()]
-        each = max(_SLOTS, _NEIGHBOURS * max(counts, default=0))
-        return len(self.unbounded) + min(sum(counts), each * len(self.frames))
+        bounded = int(self.counts.sum())
+        each = max(_SLOTS, _NEIGHBOURS * int(self.counts.max(initial=0)))
+        return len(self.contacts) - bounded + min(bounded, each * len(self.frames))
 
 
 def find_units(contacts: Sequence[Contact]) -> Units:
     """Return the units of many contacts; none for few, which need no list."""
     pools = find_pools(contacts)
-    units = Units({}, [], {}, [], pools)
+    extents = np.array([contact.extents for contact in contacts]).reshape(-1, 2)
+    bounded = np.isfinite(extents).all(axis=1)
     if len(contacts) <= SMALL and not pools:
-        return Units({}, [], {}, list(range(len(contacts))), [])
-    for number, contact in enumerate(contacts):
-        sides = [(id(body), frame) for body, frame in zip((contact.first, contact.second), contact.frames, strict=True)]
-        if not all(math.isfinite(extent) for extent in contact.extents):
-            units.unbounded.append(number)
-            continue
-        pair = []
-        for side, extent in zip(sides, contact.extents, strict=True):
-            if side not in units.frames:
-                units.frames[side] = len(units.radii)
-                units.radii.append(0.0)
-            unit = units.frames[side]
-            units.radii[unit] = max(units.radii[unit], extent)
-            pair.append(unit)
-        units.pairs.setdefault((min(pair), max(pair)), []).append(number)
-    return units
+        bounded[:] = False
+    numbers, frames = np.flatnonzero(bounded), dict[tuple[int, int], int]()
+    sides = [
+        frames.setdefault((id(body), frame), len(frames))
+        for contact in itertools.compress(contacts, bounded.tolist())
+        for body, frame in ((contact.first, contact.frames[0]), (contact.second, contact.frames[1]))
+    ]
+    radii = np.zeros(len(frames))
+    np.maximum.at(radii, sides, extents[numbers].ravel())
+    one, two = np.sort(np.reshape(sides, (-1, 2)), axis=1).astype(np.int64).T
+    places = one * len(frames) + two
+    order = np.argsort(places, kind="stable")
+    _, first, counts = np.unique(places[order], return_index=True, return_counts=True)
+    pairs = np.column_stack([one, two])[order[first]]
+    return Units(frames, radii, pairs, counts, np.concatenate([numbers[order], np.flatnonzero(~bounded)]), pools)
 
 
 def lay_units(memory: Memory, units: Units, places: dict[tuple[int, int], int]) -> None:
@@ -84,20 +91,9 @@ def lay_units(memory: Memory, units: Units, places: dict[tuple[int, int], int]) 
         memory.array("unit_frame", n)[unit] = places[side]
     memory.array("unit_radius", n)[:] = units.radii
     memory.array("unit_order", n)[:] = range(n)
-    memory.scalars["margin_of_list"] = memory.scalars["widest_margin"] = _MARGIN * min(units.radii)
-    ordered = sorted(units.pairs)
-    starts = [0] * (n + 1)
-    for one, _ in ordered:
-        starts[one + 1] += 1
-    for i in range(n):
-        starts[i + 1] += starts[i]
-    memory.array("unit_partner", n + 1)[:] = starts
-    memory.array("partner_unit", len(ordered))[:] = [two for _, two in ordered]
-    contacts: list[int] = []
-    offsets = memory.array("partner_contact", len(ordered) + 1)
-    for i, pair in enumerate(ordered):
-        offsets[i] = len(contacts)
-        contacts += units.pairs[pair]
-    offsets[len(ordered)] = len(contacts)
-    contacts += units.unbounded
-    memory.array("paired_contact", len(contacts))[:] = contacts
+    memory.scalars["margin_of_list"] = memory.scalars["widest_margin"] = _MARGIN * float(units.radii.min())
+    one, two = units.pairs.T
+    memory.array("unit_partner", n + 1)[1:] = np.cumsum(np.bincount(one, minlength=n))
+    memory.array("partner_unit", len(two))[:] = two
+    memory.array("partner_contact", len(two) + 1)[1:] = np.cumsum(units.counts)
+    memory.array("paired_contact", len(units.contacts))[:] = units.contacts

@@ -37,7 +37,7 @@ class Ties:
         number = {id(body): i for i, body in enumerate(system.bodies)}
 
         def pairs(bodies: Iterable[tuple[Body, Body]]) -> Pairs:
-            return frozenset(frozenset((number[id(one)], number[id(two)])) for one, two in bodies)
+            return frozenset([frozenset((number[id(one)], number[id(two)])) for one, two in bodies])
 
         joined = pairs((tie.first, tie.second) for tie in system.joints)
         return cls(

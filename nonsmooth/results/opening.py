@@ -16,7 +16,7 @@ from nonsmooth.plugins import file
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.solution.recorded import Recorded
-from nonsmooth.solution.solution import Counters, Solution
+from nonsmooth.solution.solution import Counters, End, Solution
 from nonsmooth.system.system import System
 
 _NONE: dict[str, Any] = {"limits": {}}
@@ -51,24 +51,12 @@ def open_solution(
     """
     where = Output.to(output)
     folder = SolutionFolder.opened(where)
-    made, state, rows = system or stored_setup(where, folder).system, folder.state(), folder.rows()
-    n_q, n_u = len(state.q), len(state.u)
-    counters = folder.said("counters") if "counters" in folder.attributes else {}
-    return Solution(
-        made,
-        rows[:, 0],
-        rows[:, 1 : 1 + n_q],
-        rows[:, 1 + n_q : 1 + n_q + n_u],
-        state.energy,
-        Counters(**{field.name: counters.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}),
-        state.time,
-        state.q.copy(),
-        state.u.copy(),
-        folder.status,
-        str(folder.attributes.get("message")),
-        state,
-        Recorded.of(folder.events(), rows, engine or stored_engine(where, folder)),
-    )
+    said = folder.said("counters") if "counters" in folder.attributes else {}
+    counters = {field.name: said.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}
+    end = End(folder.state(), Counters(**counters), folder.status, str(folder.attributes.get("message")))
+    made = system or stored_setup(where, folder).system
+    recorded = Recorded.of(folder.events(), folder.rows(), engine or stored_engine(where, folder))
+    return Solution.known(made, recorded, end)
 
 
 def stored_setup(output: Output, folder: SolutionFolder) -> Setup:

@@ -7,9 +7,18 @@ import hashlib
 import numpy as np
 
 from nonsmooth.engine.memory.layout import CATALOGUE
-from nonsmooth.engine.memory.tables import ARRAYS_OF, CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
+from nonsmooth.engine.memory.tables import (
+    ARRAYS_OF,
+    CONSTANT_SCALARS,
+    COUNTS,
+    FLOAT_ARRAYS,
+    INTEGER_ARRAYS,
+    SCALARS,
+    places,
+)
 from nonsmooth.model.image import Image, Integers
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying_contacts import by_kind
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "entry_points")
 _CHANGING = {"facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent", *CATALOGUE}
@@ -39,8 +48,12 @@ def digest(model: LaidOut, blank: Image) -> str:
     for place, _, _ in memory.references:
         blocks[place - memory.blocks] = 0
     found = hashlib.blake2b(_LAYOUT + _kinds(model))
-    for part in (scalars, floats, blocks, integers, (memory.owner or memory).floats[memory.tables :]):
-        found.update(part.data)
+    for part in (scalars, floats, blocks, integers):
+        # most of them are zero
+        filled = np.flatnonzero(part)
+        found.update(filled.data)
+        found.update(part[filled].data)
+    found.update((memory.owner or memory).floats[memory.tables :].data)
     return found.hexdigest()
 
 
@@ -50,8 +63,6 @@ def constants(model: LaidOut, blank: Image) -> tuple[Integers, ...]:
     Where the rest of an image comes from a file, these are left as this process has them.
     """
     record = blank.parts[0].copy().view(SCALARS)
-    known = list(SCALARS.names or ())
-    scalars = [known.index(name) for name in (*CONSTANT_SCALARS, "impact_map", "watch")]
     ranges, numerics = (
         [np.arange(_size(record, name)) + int(record[name][0]) for name in names] for names in (_STANDING, _NUMERICS)
     )
@@ -59,7 +70,7 @@ def constants(model: LaidOut, blank: Image) -> tuple[Integers, ...]:
     rows = start + np.arange(width * int(record["n_declared"][0])).reshape(-1, width)
     blocks = np.array([place - model.memory.blocks for place, _, _ in model.memory.references], dtype=np.int64)
     integers = np.concatenate([*ranges, rows[:, :-1].ravel()]).astype(np.int64)
-    return np.array(scalars), np.concatenate(numerics), blocks, integers
+    return places(*CONSTANT_SCALARS, "impact_map", "watch"), np.concatenate(numerics), blocks, integers
 
 
 def _size(record: np.ndarray, name: str) -> int:
@@ -70,8 +81,13 @@ def _kinds(model: LaidOut) -> bytes:
     """Return the names of the classes of all parts of a system, and which part is of which."""
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]
-    for contact in system.contacts:
-        parts += (contact.kinematics, contact.normal, contact.friction, contact.impact)
     known: dict[type, int] = {}
     numbers = [known.setdefault(type(part), len(known)) for part in parts]
-    return repr([(kind.__module__, kind.__qualname__) for kind in known]).encode() + np.array(numbers).tobytes()
+    contacts = system.contacts
+    rows = np.zeros((len(contacts), 4), np.int64)
+    for same in by_kind(contacts):
+        one = contacts[same[0]]
+        laws = one.kinematics, one.normal, one.friction, one.impact
+        rows[same] = [known.setdefault(type(part), len(known)) for part in laws]
+    names = repr([(kind.__module__, kind.__qualname__) for kind in known]).encode()
+    return names + np.array(numbers).tobytes() + rows.tobytes()

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.engine.memory.modes import CONDITION_MET, PAUSED, STOPPED
+from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, STOPPED
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
@@ -78,17 +78,18 @@ def run_engine(
     try:
         with Watch(memory, report) as watch:
             while status == PAUSED:
-                looks, reached = looks + 1, (so_far.time, so_far.n_events)
+                looks, reached = looks + 1, None if until is None else so_far.reached
                 # a condition sees the start before any step
                 status = engine.advance(watch.call, memory, keeper.steps if until is None else min(looks - 1, 1), True)
                 # a wary engine that does nothing is next to the end
-                near = status == PAUSED and (until is None or reached == (so_far.time, so_far.n_events))
+                near = status == PAUSED and (until is None or reached == so_far.reached)
                 if near or (status == PAUSED and looks % keeper.steps == 0):
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
                 if near:
                     status = engine.advance(watch.call, memory, _STEPS_NEAR_END if until is None else 1, False)
-                pace.look(status)
+                if status != DONE:
+                    pace.look(status)
                 records.drain()
                 if status == PAUSED and until is not None and until(so_far):
                     status = CONDITION_MET

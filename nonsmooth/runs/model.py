@@ -9,10 +9,10 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import final
 
-from nonsmooth.engine.memory.modes import PAUSED
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
@@ -25,8 +25,9 @@ from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.identity import constants, digest
 from nonsmooth.runs.keeper import Keeper, KeepsNothing
-from nonsmooth.runs.loop import Ending, Progress, run_engine
-from nonsmooth.runs.outcome import reason, solution_of, state_of
+from nonsmooth.runs.left import Left
+from nonsmooth.runs.loop import Progress, run_engine
+from nonsmooth.runs.outcome import reason
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, check_arrays, check_closed, check_start_numbers, go_on, restore
@@ -38,6 +39,8 @@ from nonsmooth.system.system import System
 
 _DEFAULT_SAMPLES = 2000
 _SAMPLES_AT_ONCE = 0.5
+_HELD = 1 << 20
+"""Memory that a solution may hold until somebody looks at it [bytes]."""
 
 
 @final
@@ -188,7 +191,7 @@ class Model:
         state = self._start if start is None else start
         if state is not self._start:
             check_arrays(self._laid, state)
-            if not self._left(state):
+            if not self._goes_on(state):
                 check_start_numbers(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
         with self._alone("run"):
@@ -231,7 +234,7 @@ class Model:
                 "Give the same function: nonsmooth.resume(folder, until=...).",
             )
         state = folder.cut_to_checkpoint()
-        if not self._left(state):
+        if not self._goes_on(state):
             raise InvalidInput(
                 str(Output.to(output).folder),
                 "must hold a run of this model: same system, same numbers, same options",
@@ -249,9 +252,15 @@ class Model:
 
     def _states_from(self, energy: tuple[float, float]) -> Callable[[Image], State]:
         """Return what makes states of images, for the account of energy that begins with these [J]."""
-        return lambda image: state_of(self._laid, self._blank, self._key, energy, Ending(PAUSED, False, image, 0, ""))
+        return lambda image: self._left(energy, image, 0).state()
 
-    def _left(self, state: State) -> bool:
+    def _left(self, energy: tuple[float, float], before: Image, told: int) -> Left:
+        """Return what has been left by now, so many events after an image."""
+        laid = self._laid
+        laid.evaluate()
+        return Left(laid.system, self._key, energy, self._blank, before, Image.of(laid.memory), told)
+
+    def _goes_on(self, state: State) -> bool:
         """Tell whether a run of this model left a state, which goes on then."""
         return state.continuation is not None and state.continuation.model == self._key
 
@@ -272,7 +281,7 @@ class Model:
             begun = self._begun
             begun.put(laid.memory)
             energy = self._energy
-        elif self._left(state):
+        elif self._goes_on(state):
             go_on(laid, self._blank, state, self._standing)
             records.begin_with(state)
             energy = state.energy.kinetic_start, state.energy.potential_start
@@ -313,14 +322,21 @@ class Model:
             ending = run_engine(self._engine, laid, records, begun, progress, keeper, until)
             said = reason(laid, self._guards, ending)
             wall += time.perf_counter() - began
-            left = state_of(laid, self._blank, self._key, energy, ending)
-            solution = solution_of(laid, records, energy, said, left, wall, self._engine)
+            left, recorded = self._left(energy, ending.image, ending.told), records.joined(self._engine)
+            solution = Solution(laid.system, recorded, partial(left.end, said, wall, recorded.rows))
+            if left.size > _HELD:
+                # reads it: next to a run of so many contacts that takes no time
+                _ = solution.end
+            failed = said[0] == "failed"
             if not ending.trouble:
                 try:
                     keeper.finish(solution)
                 except FileError as error:
-                    solution = replace(solution, status="failed", message=str(error))
-        if solution.status == "failed":
+                    failed = True
+                    solution = Solution.known(
+                        laid.system, recorded, replace(solution.end, status="failed", message=str(error))
+                    )
+        if failed:
             raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
         return solution
 

@@ -11,6 +11,7 @@ from nonsmooth.engine.events.record import EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
+from nonsmooth.engine.memory.tables import places
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.events import Events
@@ -21,6 +22,9 @@ from nonsmooth.solution.track import row_of
 _BEFORE_THE_FIRST = -1
 _CODES = 1 + 8 + 64
 """Before, during and after an event."""
+_FILLED = places("calls", "n_events", "n_samples", "floats_used", "integers_used")
+_EMPTIED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats")
+_PASSED = places("n_events", "told")
 
 
 @final
@@ -51,9 +55,9 @@ class Records:
     @property
     def n_passed(self) -> int:
         """Events that the engine has recorded, less those that it has still to pass as told."""
-        record = self.model.memory.scalars[0]
+        now, told = self.model.memory.bits[0][_PASSED].tolist()
         earlier = 0 if self.earlier is None else len(self.earlier[0])
-        return earlier + self._events + int(record["n_events"]) - int(record["told"])
+        return earlier + self._events + int(now) - int(told)
 
     def drain(self) -> None:
         """Empty the engine's buffers.
@@ -61,17 +65,15 @@ class Records:
         An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
         """
         memory, width = self.model.memory, self._width
-        record = memory.scalars[0]
-        key, n_samples = int(record["calls"]), int(record["n_samples"])
+        key, n_events, n_samples, n_floats, n_integers = memory.bits[0][_FILLED].tolist()
         if key not in self._parts:
-            self._events += int(record["n_events"])
+            self._events += n_events
             self._parts[key] = (
-                memory.array("events", int(record["floats_used"])).copy(),
-                memory.array("event_codes", int(record["integers_used"])).copy(),
+                memory.array("events", n_floats).copy(),
+                memory.array("event_codes", n_integers).copy(),
                 memory.array("samples", n_samples * width).reshape(n_samples, width).copy(),
             )
-        for name in ("n_events", "n_samples", "floats_used", "integers_used", "last_floats"):
-            memory.scalars[name] = 0
+        memory.bits[0][_EMPTIED] = 0
 
     def begin_with(self, state: State) -> None:
         """Record the start of a run that goes on: its modes are those of the state."""
@@ -97,18 +99,14 @@ class Records:
         """Return what has been recorded of the whole run, which an engine integrated."""
         floats, integers, samples = self._joined(0)
         if self.earlier is None:
-            return Recorded(samples, engine, floats, integers, self._sizes)
+            return Recorded(samples, engine, floats, integers, self.model.sizes)
         events, rows = self.earlier
-        return Recorded(np.concatenate([rows, samples]), engine, floats, integers, self._sizes, events)
+        return Recorded(np.concatenate([rows, samples]), engine, floats, integers, self.model.sizes, events)
 
     def unwritten(self) -> tuple[Events, Floats]:
         """Return events and samples of the parts that are not yet written."""
         floats, integers, samples = self._joined(self.written)
-        return Events.from_buffers(floats, integers, *self._sizes), samples
-
-    @property
-    def _sizes(self) -> tuple[int, int, int, int]:
-        return len(self.model.system.contacts), self.model.n_q, self.model.n_u, self.model.n_y
+        return Events.from_buffers(floats, integers, *self.model.sizes), samples
 
     def _joined(self, first: int) -> tuple[Floats, Integers, Floats]:
         nothing = np.zeros(0), np.zeros(0, np.int64), np.zeros((0, self._width))

@@ -46,6 +46,11 @@ class RunSoFar:
         return self._records.n_passed
 
     @property
+    def reached(self) -> tuple[float, int]:
+        """Time [s] and events: they are as they were only if nothing was done."""
+        return self.time, self.n_events
+
+    @property
     def n_impacts(self) -> int:
         """Impacts so far in this run."""
         return int(self._model.memory.scalars["impacts"][0])

@@ -43,13 +43,13 @@ class Passage:
     way: Vector
     height: float
 
-    @property
+    @functools.cached_property
     def _size(self) -> float:
         """No points of the two are farther from each other than this [m]."""
         (low, high), (below, above) = self.one.bounds, self.two.bounds
         return float(np.linalg.norm(np.maximum(high, above) - np.minimum(low, below)))
 
-    @property
+    @functools.cached_property
     def tolerance(self) -> float:
         """How much nearer than the height solids may be that have met [m]."""
         sizes = [float(np.linalg.norm(high - low)) for low, high in (self.one.bounds, self.two.bounds)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import final
@@ -35,7 +36,7 @@ class Placed:
         """Return the same solid elsewhere by ``way`` [m], shape [3]."""
         return replace(self, position=self.position + way)
 
-    @property
+    @functools.cached_property
     def bounds(self) -> tuple[Vector, Vector]:
         """Corners of a box along the axes that holds it [m], shape [3] each."""
         return _box(*self.solid.bounds, self.rotation, self.position)

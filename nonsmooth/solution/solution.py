@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -61,53 +61,126 @@ class Counters:
     wall_seconds: float
 
 
+@final
 @dataclass(frozen=True)
+class End:
+    """How a run ended.
+
+    Attributes
+    ----------
+    state : State
+        Where it ended.
+    counters : Counters
+        What it cost.
+    status, message : str
+        Why it stopped, in a word and in a sentence.
+    """
+
+    state: State
+    counters: Counters
+    status: str
+    message: str
+
+
+@final
+@dataclass(frozen=True, eq=False)
 class Solution:
     """The result of a run.
 
     What held at any time of it, next to events on the side after them, is told by :meth:`at`, :meth:`poses`,
-    :meth:`contact_forces`, :meth:`joint_forces` and :meth:`energies`.
+    :meth:`contact_forces`, :meth:`joint_forces` and :meth:`energies`.  All of it is read from what the run recorded
+    and left when it is first asked for.
 
     Attributes
     ----------
     system : System
         What was simulated.
-    t : array
-        Times of the samples [s], shape [n].
-    q, u : array
-        Coordinates and velocities at the samples, shapes [n, n_q] and [n, n_u].
-    energy : EnergyAccount
-        The energy account.
-    counters : Counters
-        Steps and times.
-    t_end : float
-        Time that the run reached [s].
-    q_end, u_end : array
-        State at that time.
-    status : str
-        "done", "suspect", "interrupted" or "failed".  A suspect run reached its end, but what it found in itself no
-        tolerance explains, as an energy account that is open.
-    message : str
-        Why it stopped, and what is suspect.
-    state : State
-        Where the run ended, from which it can go on.
     recorded : Recorded
         What it recorded, from which :attr:`events` and :attr:`track` are read.
+    find_end : callable
+        Returns how it ended; :attr:`end` asks once.
     """
 
     system: System
-    t: NDArray[np.float64]
-    q: NDArray[np.float64]
-    u: NDArray[np.float64]
-    energy: EnergyAccount
-    counters: Counters
-    t_end: float
-    q_end: NDArray[np.float64]
-    u_end: NDArray[np.float64]
-    status: str
-    message: str
-    state: State
-    recorded: Recorded = field(repr=False)
+    recorded: Recorded
+    find_end: Callable[[], End]
+
+    def __reduce__(self) -> tuple[Callable[..., Solution], tuple[Any, ...]]:
+        """Let a copy hold what was found, and not what it is found in."""
+        return Solution.known, (self.system, self.recorded, self.end)
+
+    @classmethod
+    def known(cls, system: System, recorded: Recorded, end: End) -> Solution:
+        """Return the solution of a run whose end is known."""
+        return cls(system, recorded, lambda: end)
+
+    @functools.cached_property
+    def end(self) -> End:
+        """How it ended."""
+        end = self.find_end()
+        # what it was found in may be large
+        object.__setattr__(self, "find_end", lambda: end)
+        return end
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Times of the samples [s], shape [n]."""
+        return self.recorded.rows[:, 0]
+
+    @property
+    def q(self) -> NDArray[np.float64]:
+        """Coordinates at the samples, shape [n, n_q]."""
+        return self.recorded.rows[:, 1 : 1 + len(self.state.q)]
+
+    @property
+    def u(self) -> NDArray[np.float64]:
+        """Velocities at the samples, shape [n, n_u]."""
+        first = 1 + len(self.state.q)
+        return self.recorded.rows[:, first : first + len(self.state.u)]
+
+    @property
+    def state(self) -> State:
+        """Where the run ended, from which it can go on."""
+        return self.end.state
+
+    @property
+    def t_end(self) -> float:
+        """Time that the run reached [s]."""
+        return self.state.time
+
+    @property
+    def q_end(self) -> NDArray[np.float64]:
+        """Coordinates at that time, shape [n_q]."""
+        return self.state.q
+
+    @property
+    def u_end(self) -> NDArray[np.float64]:
+        """Velocities at that time, shape [n_u]."""
+        return self.state.u
+
+    @property
+    def energy(self) -> EnergyAccount:
+        """The energy account."""
+        return self.state.energy
+
+    @property
+    def counters(self) -> Counters:
+        """Steps and times."""
+        return self.end.counters
+
+    @property
+    def status(self) -> str:
+        """How it ended in a word: "done", "suspect", "interrupted" or "failed".
+
+        A suspect run reached its end, but what it found in itself no tolerance explains, as an energy account that is
+        open.
+        """
+        return self.end.status
+
+    @property
+    def message(self) -> str:
+        """Why it stopped, and what is suspect."""
+        return self.end.message
 
     def __repr__(self) -> str:
         """Return how it ended, and how much there is of it."""

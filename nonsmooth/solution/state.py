@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, final
 
@@ -112,8 +113,8 @@ class State:
         """
         placed = system.starts()
         laws = [contact.friction for contact in system.contacts]
-        states = {id(law): _n_states(law) for law in {id(law): law for law in laws}.values()}
-        n, n_states = len(laws), sum(states[id(law)] for law in laws)
+        counts, known = Counter(map(id, laws)), {id(law): law for law in laws}
+        n, n_states = len(laws), sum(count * _n_states(known[law]) for law, count in counts.items())
         return cls(
             time,
             placed[0] if q is None else np.asarray(q, dtype=float),

@@ -6,7 +6,6 @@ Made names count from 1, where there are several of a kind: "ball 1", "ball 2", 
 
 from __future__ import annotations
 
-import copy
 import itertools
 import re
 from collections import Counter
@@ -89,7 +88,11 @@ class Naming:
 
     def __copy__(self) -> Naming:
         made = Naming(self._bodies)
-        made._chosen, made._made, made._given = [*self._chosen], self._made, copy.deepcopy(self._given)
+        made._chosen, made._made, made._given = (
+            [*self._chosen],
+            self._made,
+            {kind: counter.copy() for kind, counter in self._given.items()},
+        )
         return made
 
     def choose(self, where: str, number: int, name: str) -> None:

@@ -16,21 +16,20 @@ import warnings
 from collections.abc import Callable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+from typing import cast
 
 import numpy as np
 
 import nonsmooth as ns
 from bodies import Ball, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, MoreauImpact, NewtonImpact, PoissonImpact, Unilateral
-from nonsmooth.interfaces import FrictionLaw, ImpactLaw
+from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw
 from scenarios.ball_box.scenario import _TURNS
 
 RADIUS = 0.01
 DENSITY = {"steel": 7800.0, "rubber": 1100.0}
 FRICTION = {("steel", "steel"): 0.15, ("rubber", "steel"): 0.5, ("rubber", "rubber"): 0.8}
 RESTITUTION = {("steel", "steel"): 0.9, ("rubber", "steel"): 0.7, ("rubber", "rubber"): 0.5}
-BOX = {"steel": ("rubber", "steel"), "rubber": ("rubber", "rubber")}
-"""The box is of rubber."""
 T_END = 4.0
 LIMIT = 20.0
 """A run that takes longer counts as one that does not end [s]."""
@@ -71,18 +70,20 @@ def build(variant: str, seed: int) -> ns.System:
     balls = [Ball(RADIUS, DENSITY[kind]) for kind in kinds]
     system = ns.System([*box, *balls], 9.81)
 
-    def laws(pair: tuple[str, str]) -> dict[str, object]:
+    def touch(first: Body, second: Body, *materials: str) -> None:
+        pair = min(materials), max(materials)
         mu = FRICTION[pair] if friction is None else friction
         rub: FrictionLaw = Coulomb(mu) if mu > 0.0 else Frictionless()
-        return {"normal": Unilateral(), "friction": rub, "impact": impact(RESTITUTION[pair])}
+        system.contact(first, second, Unilateral(), rub, impact(RESTITUTION[pair]))
 
     a_side = min(int(width / (2.2 * RADIUS)), 3)
     cell = width / a_side
+    # the box is of rubber
     for i, ball in enumerate(balls):
         for wall in box:
-            system.contact(wall, ball, **laws(BOX[kinds[i]]))
+            touch(wall, ball, "rubber", kinds[i])
         for j in range(i):
-            system.contact(balls[j], ball, **laws(tuple(sorted((kinds[i], kinds[j])))))  # type: ignore[arg-type]
+            touch(balls[j], ball, kinds[j], kinds[i])
         layer, place = divmod(i, a_side**2)
         free = np.array([cell - 2.0 * RADIUS, cell - 2.0 * RADIUS, 0.5 * RADIUS])
         centre = np.array(
@@ -106,7 +107,8 @@ def run(variant: str, seed: int) -> tuple[str, float, float, float, int]:
         solution = model.run(T_END, sample_interval=1e-2, until=partial(_too_long, began))
         reason = "at the end" if solution.t_end == T_END else "too long"
     except ns.RunFailed as error:
-        solution, reason = error.solution, error.solution.message
+        solution = cast(ns.Solution, error.solution)
+        reason = solution.message
     wall = time.perf_counter() - began
     speed = max(np.linalg.norm(solution.of(ball)[1][-1, :3]) for ball in model.system.bodies if isinstance(ball, Ball))
     return reason, wall, solution.t_end, float(speed), len(solution.events.time)

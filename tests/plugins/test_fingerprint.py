@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import sys
+from collections import namedtuple
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,9 +14,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from bodies.shapes.egg import Egg
+from bodies.shapes.support_shape import SupportShape
 from nonsmooth.binding.fingerprint import fingerprint
+from nonsmooth.binding.methods import _by_numbers
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.interfaces.body import Vector
 
 _SOURCE = """
 import math
@@ -86,6 +92,28 @@ def test_the_context_counts() -> None:
 def test_what_is_not_understood_has_no_key(source: str, value: object) -> None:
     """Arrays, other modules, bound methods, inner functions and closures."""
     assert fingerprint(_law(source, VALUE=value), "scalar") == ""
+
+
+def test_functions_of_numpy_and_math_and_records_count() -> None:
+    """Each by where it stands, or by its fields in their order."""
+    values = (math.sqrt, math.exp, np.sqrt, namedtuple("One", ["a", "b"]), namedtuple("One", ["b", "a"]))
+    keys = [fingerprint(_law("def law(x): return VALUE(x)", VALUE=value), "scalar") for value in values]
+    assert len({*keys, ""}) == len(values) + 1
+    with_default = namedtuple("with_default", ["a"], defaults=[1.0])
+    assert fingerprint(_law("def law(x): return VALUE(x)", VALUE=with_default), "scalar") == ""
+
+
+@pytest.mark.skipif(PLAIN, reason="nothing is compiled")
+def test_the_method_of_a_shape_has_a_key_of_its_own() -> None:
+    """So that another process need not compile it; another method, or other fields, give another key."""
+
+    class Longer(SupportShape):
+        def support(self, direction: Vector) -> Vector:
+            return direction
+
+    found = [(Egg, ("radius", "longer")), (Egg, ("longer", "radius")), (Longer, ("radius", "longer"))]
+    keys = {fingerprint(_by_numbers(owner, names), "support") for owner, names in found}
+    assert len({*keys, ""}) == len(found) + 1
 
 
 def test_a_law_of_a_module_that_cannot_be_imported_has_no_key() -> None:

@@ -107,9 +107,13 @@ class Memory:
 
     def array(self, name: str, size: int) -> np.ndarray:
         """Return a view of ``size`` entries of the named array."""
-        heap = self.floats if name in FLOAT_ARRAYS else self.integers
-        start = int(self.scalars[name][0])
+        heap, start = self._places[name]
         return heap[start : start + size]
+
+    @functools.cached_property
+    def _places(self) -> dict[str, tuple[np.ndarray, int]]:
+        heaps = (self.floats, FLOAT_ARRAYS), (self.integers, INTEGER_ARRAYS)
+        return {name: (heap, int(self.scalars[name][0])) for heap, names in heaps for name in names}
 
     @functools.cached_property
     def addresses(self) -> tuple[int, int, int]:

@@ -7,6 +7,7 @@ array holds the offset of that array in its heap.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.arrays import bodies, contact, delassus, events, flow, impact, numerics
 from nonsmooth.engine.memory.arrays.arrays import Arrays, Size
@@ -46,6 +47,14 @@ SCALARS = np.dtype(
     align=True,
 )
 """The record ``S``."""
+
+
+def places(*names: str) -> NDArray[np.int64]:
+    """Return where scalars stand in the record, all of which take as much room."""
+    known = SCALARS.names or ()
+    return np.array([known.index(name) for name in names])
+
+
 COUNTS = (
     "n_bodies",
     "n_slots",

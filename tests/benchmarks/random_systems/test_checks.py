@@ -118,13 +118,24 @@ def _shifted(array: Vector, rows: slice, column: int, change: float, factor: flo
     return changed
 
 
+def _spoilt(solution: ns.Solution, q: Any = None, u: Any = None, **at_end: Any) -> ns.Solution:
+    """Return the solution with other samples, and another state at its end."""
+    rows, n_q, n_u = solution.recorded.rows.copy(), len(solution.state.q), len(solution.state.u)
+    rows[:, 1 : 1 + n_q] = solution.q if q is None else q
+    rows[:, 1 + n_q : 1 + n_q + n_u] = solution.u if u is None else u
+    names = {"u_end": "u", "energy": "energy"}
+    state = dataclasses.replace(solution.state, **{names[name]: value for name, value in at_end.items()})
+    end = dataclasses.replace(solution.end, state=state)
+    return ns.Solution.known(solution.system, dataclasses.replace(solution.recorded, rows=rows), end)
+
+
 def test_a_run_that_is_right_passes_and_one_that_is_spoilt_does_not() -> None:
     case, right = _swinging()
     assert right.counters.impacts > 0
     assert findings(case, right) == []
 
     def kinds(**changes: Any) -> set[str]:
-        return {text.split(":")[0] for text in findings(case, dataclasses.replace(right, **changes))}
+        return {text.split(":")[0] for text in findings(case, _spoilt(right, **changes))}
 
     late = slice(len(right.t) // 2, None)
     assert kinds(q=_shifted(right.q, late, 0, 1e-4)) >= {"jump", "joint"}
@@ -144,15 +155,14 @@ def test_compliant_bodies_may_start_indented_but_must_feel_it() -> None:
     case = Case((Ball(0.01), Ball(0.01)), starts, ((0, 1, law),), (), 0.0, 0.01)
     right = ns.simulate(case.build(), case.t_end, sample_interval=case.sample_interval)
     assert findings(case, right) == []
-    unmoved = dataclasses.replace(right, q=0.0 * right.q + right.q[0], u=0.0 * right.u)
+    unmoved = _spoilt(right, 0.0 * right.q + right.q[0], 0.0 * right.u)
     still = dataclasses.replace(right.events, time=right.events.time[:0], q=right.events.q[:0])
     still = dataclasses.replace(still, u_before=right.events.u_before[:0], u_after=right.events.u_after[:0])
-    found = findings(
-        case, dataclasses.replace(unmoved, recorded=Recorded.of(still, unmoved.recorded.rows, unmoved.recorded.engine))
-    )
+    recorded = Recorded.of(still, unmoved.recorded.rows, unmoved.recorded.engine)
+    found = findings(case, dataclasses.replace(unmoved, recorded=recorded))
     assert "unfelt" in {text.split(":")[0] for text in found}
     # deeper than all that the start holds
-    deeper = dataclasses.replace(right, q=_shifted(right.q, slice(len(right.t) // 2, None), 7, 0.005, 0.0))
+    deeper = _spoilt(right, _shifted(right.q, slice(len(right.t) // 2, None), 7, 0.005, 0.0))
     assert "inside" in {text.split(":")[0] for text in findings(case, deeper)}
 
 

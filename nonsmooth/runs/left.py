@@ -1,0 +1,123 @@
+"""Left: what a run left in the memory of its model, read when it is asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
+from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.model.image import Difference, Image
+from nonsmooth.model.laid_out import energies
+from nonsmooth.solution.energy import EnergyAccount
+from nonsmooth.solution.solution import Counters, End
+from nonsmooth.solution.state import Continuation, Floats, State
+from nonsmooth.solution.suspicion import suspicions
+from nonsmooth.system.system import System
+
+_MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Left:
+    """What a run left.
+
+    Attributes
+    ----------
+    system : System
+        What ran.
+    key : str
+        Digest of its model.
+    start : tuple
+        Kinetic and potential energy where the account begins [J].
+    blank, before, now : Image
+        What the memory held before any run, where nothing yet said when the run would end, and now.
+    told : int
+        Events since ``before``.
+    """
+
+    system: System
+    key: str
+    start: tuple[float, float]
+    blank: Image
+    before: Image
+    now: Image
+    told: int
+
+    @property
+    def size(self) -> int:
+        """Memory that it takes besides what all runs of the model share [bytes]."""
+        return sum(part.nbytes for image in (self.before, self.now) for part in image.parts)
+
+    def end(self, said: tuple[str, str], wall: float, samples: Floats) -> End:
+        """Return how the run ended: with a status and a reason, after a time [s], its samples as recorded."""
+        record, state = self.now.record, self.state()
+        counters = Counters(
+            steps=int(record["steps"]),
+            rejected=int(record["rejected"]),
+            impacts=int(record["impacts"]),
+            impact_steps=int(record["impact_steps"]),
+            limits={word: int(n) for word, n in zip(LIMITS, self.now.array("limits", len(LIMITS)), strict=True) if n},
+            gap_looks=int(record["gap_looks"]),
+            listings=int(record["listings"]),
+            wall_seconds=wall,
+        )
+        status, message = said
+        if status == "done":
+            worst = float(record["open_t"]), float(record["open_energy"]), float(record["open_share"])
+            tolerances = float(record["rtol"]), float(record["impact_rtol"])
+            bodies = dict(zip(self.system.names.bodies, self.system.bodies, strict=True))
+            moved = samples[:, 0], samples[:, 1 : 1 + int(record["n_q"])]
+            found = suspicions(worst, state.energy, bodies, moved, tolerances, counters.steps)
+            if found:
+                status, message = "suspect", f"{message}, but {found}"
+        return End(state, counters, status, message)
+
+    def state(self) -> State:
+        """Return the state in which the model is now."""
+        now, record = self.now, self.now.record
+        n_q, n_u, n, slots = (int(record[name]) for name in ("n_q", "n_u", "n_declared", "n_contacts"))
+        y = now.array("y", int(record["n_y"]))
+        rows = now.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
+        floats = now.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
+        modes, rates = rows[:, _MODE].copy(), floats[:, CLOSING_RATE].copy()
+        directions = floats[:, DIRECTION : DIRECTION + 2].copy()
+        # what stands in a slot is newer than what the catalogue keeps of it
+        listed = now.array("identity", slots)
+        modes[listed] = now.array("mode", slots)
+        directions[listed] = now.array("direction", 2 * slots).reshape(slots, 2)
+        rates[listed] = now.array("closing_rate", slots)
+        features, places = np.zeros((n, CANDIDATE)), rows[:, _PLACE]
+        for number in np.flatnonzero(places > 0).tolist():
+            features[number] = now.blocks[places[number] - now.first :][:CANDIDATE]
+        state = State(
+            float(record["t"]),
+            y[:n_q],
+            y[n_q : n_q + n_u],
+            modes,
+            directions,
+            rates,
+            features,
+            y[n_q + n_u + N_ACCOUNTS :],
+            now.array("own_guard_spent", int(record["n_own_guards"])),
+            self._account(y[n_q + n_u :]),
+        )
+        return state.with_continuation(Continuation(self.key, Difference.between(self.blank, self.before), self.told))
+
+    def _account(self, integrated: Floats) -> EnergyAccount:
+        now, record, bodies = self.now, self.now.record, self.system.bodies
+        driven, rubbed, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
+        return EnergyAccount(
+            *self.start,
+            *energies(bodies, now.array("body_tail", len(bodies)) - now.first, now.blocks),
+            driven_work=float(record["driven_work"]) + driven,
+            restitution_loss=float(record["restitution_loss"]),
+            friction_loss=float(record["friction_loss"]) + rubbed,
+            closing_loss=float(record["closing_loss"]),
+            exchanged_in_flow=exchanged,
+            load_work=loads,
+        )
