@@ -5,7 +5,7 @@ It is stored by blocks, of contacts that share a movable linkage only (:mod:`non
 
 from __future__ import annotations
 
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 
 
 @kernel("void(F, i8, i8, i8, i8)")
@@ -18,7 +18,7 @@ def _add_block(w: Floats, jacobian: int, response: int, n_u: int, out: int) -> N
             w[out + 3 * r + s] += total
 
 
-@kernel()
+@room()
 def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the blocks of G = [W N]^T K [W N] of the active contacts, rows and columns (n, t1, t2) each."""
     for a in range(S.n_active):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 
 
 @kernel("i8(S, F, I, i8)")
@@ -35,7 +35,7 @@ def activate_group(S: Scalars, w: Floats, k: Integers, group: int) -> None:
         k[S.active + a] = k[S.grouped + first + a]
 
 
-@kernel("void(S, F, I)")
+@room()
 def group_members(S: Scalars, w: Floats, k: Integers) -> None:
     """Sort the contacts marked as ``member`` into islands, in the order of their first contacts, and link each."""
     for c in range(S.n_contacts):

@@ -30,7 +30,7 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_guard, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_guard, contact_at, kernel, room
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
@@ -67,7 +67,7 @@ def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
         contact.feature = int(contact.geometry[FEATURE]) if looks and contact.mode != OPEN else -1
 
 
-@kernel("void(S, F, I, f8, i8, i8)")
+@room("void(S, F, I, f8, i8, i8)")
 def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: int) -> None:
     """Write the guards after the right-hand side at ``t`` and ``y``; of closed contacts if ``forces`` are known (1)."""
     if S.n_grouped == 0:
