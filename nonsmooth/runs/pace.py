@@ -22,7 +22,6 @@ from nonsmooth.engine.memory.modes import (
     NO_CONTACT_SOLUTION,
     PAUSED,
     SETTLE_ENDLESS,
-    SINGULAR_SLIDING,
     START,
     STEP_TOO_SMALL,
     STOPPED,
@@ -36,7 +35,7 @@ _LONG = 10_000
 """So many of those in a row are told."""
 _LAST = 200
 _NAMED = 3
-_AT_ONE_INSTANT = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, SINGULAR_SLIDING)
+_AT_ONE_INSTANT = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS)
 
 _Event = tuple[int, int]
 """Cause and contact, or guard."""

@@ -70,7 +70,7 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
 
 
 @kernel("void(S, F, I, i8)")
-def _lay_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+def lay_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write coefficients, slip direction and whether it is at rest of active contact ``a``."""
     c = k[S.active + a]
     v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
@@ -99,7 +99,7 @@ def set_up(S: Scalars, w: Floats, k: Integers) -> None:
             bias, free = w[S.bias + 3 * c + r], row(S, w, k, c, r, S.du)
             w[S.b + 3 * a + r] = bias + free
             S.acceleration_scale = max(S.acceleration_scale, abs(bias), abs(free))
-        _lay_friction(S, w, k, a)
+        lay_friction(S, w, k, a)
     decouple_normals(S, w, k)
 
 
@@ -135,7 +135,7 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
 def solve_from_rates(S: Scalars, w: Floats, k: Integers) -> int:
     """Solve on G and b as given, the friction following from the slip velocities in ``rate``; return 1 if solved."""
     for a in range(S.n_active):
-        _lay_friction(S, w, k, a)
+        lay_friction(S, w, k, a)
     return solve_contact(S, w, k)
 
 

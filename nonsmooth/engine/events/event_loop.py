@@ -6,10 +6,8 @@ import math
 
 from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
-from nonsmooth.engine.delassus.delassus import assemble_delassus
-from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import (
     CODE_HEAD,
@@ -22,7 +20,7 @@ from nonsmooth.engine.events.record import (
 )
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
 from nonsmooth.engine.flow.clearance import bound_speeds
-from nonsmooth.engine.flow.flow import right_hand_side, slope, try_step
+from nonsmooth.engine.flow.flow import right_hand_side, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -40,7 +38,7 @@ from nonsmooth.engine.flow.projection import (
     project_joints,
 )
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
-from nonsmooth.engine.impact.instant import is_jammed
+from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
 from nonsmooth.engine.memory.layout import BOOKED, FALL, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
@@ -53,6 +51,7 @@ from nonsmooth.engine.memory.modes import (
     IMPACT,
     JAM,
     LIFT_OFF,
+    NO_CONTACT_SOLUTION,
     NO_SLOT,
     NOT_FINITE,
     OPEN,
@@ -196,18 +195,16 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("i8(S, F, I)")
-def _singular(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return a contact that slides at the Painleve singularity, or -1."""
+def _hardest_pressed(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return the sliding contact of the greatest normal force, or -1."""
     evaluate_bodies(S, w, k, S.t, S.y)
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        for a in range(S.n_active):
-            evaluate_contact(S, w, k, k[S.active + a], 1)
-        assemble_delassus(S, w, k)
-        for a in range(S.n_active):
-            if is_jammed(S, w, k, a) == 1:
-                return k[S.active + a]
-    return -1
+    right_hand_side(S, w, k, S.t, S.y, 0)
+    hardest, most = -1, 0.0
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.mode == SLIDE and contact.normal_function == 0 and contact.force[0] > most:
+            hardest, most = c, contact.force[0]
+    return hardest
 
 
 @kernel("i8(S, F, I)")
@@ -289,8 +286,13 @@ def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
 def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
     S.limit = NO_STEP
-    contact = _singular(S, w, k) if status == STEP_TOO_SMALL else -1
-    return _carry_out(S, w, k, JAM, contact) if contact >= 0 else _up_to_end(S, status)
+    if status == STEP_TOO_SMALL:
+        contact = _hardest_pressed(S, w, k)
+        if contact >= 0:
+            outcome = _carry_out(S, w, k, JAM, contact)
+            if outcome != NO_CONTACT_SOLUTION:
+                return int(outcome)
+    return _up_to_end(S, status)
 
 
 @kernel("i8(S, F, I)")

@@ -48,7 +48,6 @@ from nonsmooth.engine.memory.modes import (
     REFUSE,
     RUNNING,
     SETTLE_ENDLESS,
-    SINGULAR_SLIDING,
     SLIDE,
     START,
     STICK,
@@ -102,6 +101,9 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, contact: int, seed: 
     """
     S.lossless = 1 if cause == PAINLEVE and S.policy == COMPLIANT else 0
     remember(S, w, k)
+    if cause == JAM:
+        free_acceleration(S, w, k)
+        push_compliant(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
     for group in range(S.n_groups):
@@ -146,7 +148,7 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
     S.phases, S.truncated = 1, 0
     if cause == JAM:
         if jam_slips(S, w, k) == 0:
-            return SINGULAR_SLIDING
+            return NO_CONTACT_SOLUTION
     elif S.impact_map != 0:
         map_impact(S, w, k)
     else:
@@ -271,6 +273,12 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
     return 2 if turned > 0 else 1
 
 
+@kernel("i8(S, F, I, i8)")
+def _jam(S: Scalars, w: Floats, k: Integers, contact: int) -> int:
+    """Run the impact of a jam on the island of ``contact``; return the status."""
+    return PARADOX_REFUSED if S.policy == REFUSE else int(collide(S, w, k, JAM, contact, 0.0))
+
+
 @kernel("i8(S, F, I)")
 def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
     """Run the impact from rest on the contacts whose reduced normal coefficient has the wrong sign."""
@@ -283,7 +291,7 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
             k[S.impacting + contact] = 1
             seed = max(seed, slip_speed(S, w, k, contact))
     if contact < 0:
-        return NO_CONTACT_SOLUTION
+        return _jam(S, w, k, k[S.active])
     if S.policy == REFUSE:
         return PARADOX_REFUSED
     return int(collide(S, w, k, PAINLEVE, contact, seed))
@@ -310,9 +318,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, contact: int
     approaching = touch(S, w, k)
     open_account(S, w, k)
     if cause == JAM:
-        if S.policy == REFUSE:
-            return PARADOX_REFUSED
-        status = collide(S, w, k, JAM, contact, 0.0)
+        status = _jam(S, w, k, contact)
         if status != RUNNING:
             return status
         approaching = _approaches(S, w, k)

@@ -7,8 +7,8 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.flow.clearance import foresee
-from nonsmooth.engine.flow.flow import try_step
 from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.limits import (
     BY_END,
     BY_ERROR,

@@ -1,4 +1,4 @@
-"""Smooth motion between events: the right-hand side in the present modes, and one step of it."""
+"""Smooth motion between events: the right-hand side in the present modes."""
 
 from __future__ import annotations
 
@@ -15,17 +15,13 @@ from nonsmooth.engine.bodies.compliance import (
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.contact.held_contacts import hold_contacts, lay_rows
+from nonsmooth.engine.contact.implicit_slip import hold_at_end
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
-from nonsmooth.engine.memory import tableau
 from nonsmooth.engine.memory.blocks import GAP
-from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LAST_STAGE, LOADS, N_ACCOUNTS, N_STAGES
-from nonsmooth.engine.memory.modes import STICK
+from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
+from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
-from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
-
-_SHARE = tableau.NODES[1] / tableau.NODES[2]
-"""Where the second stage lies between the first and the third."""
 
 
 @room("i8(S, F, I, f8, i8, i8)")
@@ -34,6 +30,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
 
     The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.  With ``choosing``
     (1) the null-space force of those not unique is chosen anew; return 0 if somewhere none keeps every bound, else 1.
+    Within an implicit step friction opposes the slip that the stage ends with.
     """
     keeps = 1
     S.singular = -1
@@ -45,17 +42,23 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
     refresh_states(S, w, k, y)
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
+        implicit = S.ahead > 0.0 and _slides(S, w, k) == 1
         for a in range(S.n_active):
             c = k[S.active + a]
             contact = contact_at(S, w, k, c)
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
+            if implicit:
+                continue
             if contact.normal_function != 0:
                 evaluate_compliant_force(S, w, k, c)
             _set_friction(S, w, k, a, y)
             evaluate_bias(S, w, k, c, 1 + 2 * k[S.tangent_held + a])
             lay_rows(S, w, k, a)
-        keeps = min(keeps, hold_contacts(S, w, k, choosing))
+        if implicit:
+            hold_at_end(S, w, k)
+        else:
+            keeps = min(keeps, hold_contacts(S, w, k, choosing))
         for a in range(S.n_active):
             c = k[S.active + a]
             contact = contact_at(S, w, k, c)
@@ -65,6 +68,15 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
             for r in range(3):
                 contact.force[r] = w[S.f + 3 * a + r]
     return keeps
+
+
+@kernel("i8(S, F, I)")
+def _slides(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if one of the active contacts slides."""
+    for a in range(S.n_active):
+        if k[S.mode + k[S.active + a]] == SLIDE:
+            return 1
+    return 0
 
 
 @kernel("f8(S, F, I, i8)")
@@ -159,57 +171,3 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
     w[powers + DRIVEN], w[powers + FRICTION_LOSS], w[powers + LOADS] = S.driven_power, lost, S.load_power
     w[powers + EXCHANGED] = abs(own) + abs(S.driven_power) + abs(lost)
     write_state_rates(S, w, k, y, out)
-
-
-@kernel("f8(S, F, i8, i8, f8)")
-def _worst_error(S: Scalars, w: Floats, first: int, end: int, worst: float) -> float:
-    """Return the largest error of some components relative to the tolerance, or ``worst`` if that is larger."""
-    for i in range(first, end):
-        scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
-        error = abs(w[S.y_stage + i]) / (S.rtol * scale)
-        if error > worst or error != error:
-            worst = error
-    return worst
-
-
-@room("f8(S, F, I, f8)")
-def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
-
-    ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip
-    that violates its mode at some stage raises ``suspect``.
-    """
-    n = S.n_y
-    S.suspect = 0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        contact.least_force = 1e300
-    for stage in range(1, N_STAGES):
-        out = S.y_new if stage == LAST_STAGE else S.y_stage
-        stage_state(S, w, S.y, S.slopes, n, stage, h, out)
-        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0)
-    step_errors(S, w, S.slopes, n, h, S.y_stage)
-    worst = 0.0
-    worst = _worst_error(S, w, 0, S.n_q + S.n_u, worst)
-    if S.n_states > 0:
-        worst = _worst_error(S, w, S.n_q + S.n_u + N_ACCOUNTS, n, worst)
-    return max(worst, _unseen(S, w, h))
-
-
-@kernel("f8(S, F, f8)")
-def _unseen(S: Scalars, w: Floats, h: float) -> float:
-    """Return how far the second stage is from the first and third, relative to what a step of the tolerance explains.
-
-    It has no weight in the result, nor in the error: a force that only it meets, as where it throws the later stages
-    out of a contact, would count for nothing.  Its own error is of the order (L h)^3 where that of the step is of the
-    order (L h)^5.
-    """
-    first = S.slopes + S.n_q
-    second, third = first + S.n_y, first + 2 * S.n_y
-    y_scale, y, y_new = S.y_scale + S.n_q, S.y + S.n_q, S.y_new + S.n_q
-    worst, rtol = 0.0, math.sqrt(S.rtol)
-    for i in range(S.n_u):
-        change = h * abs(w[second + i] - (1.0 - _SHARE) * w[first + i] - _SHARE * w[third + i])
-        explained = rtol * (w[y_scale + i] + max(abs(w[y + i]), abs(w[y_new + i])))
-        worst = max(worst, change / explained)
-    return worst if worst > 1.0 else 0.0

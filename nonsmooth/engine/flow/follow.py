@@ -10,10 +10,11 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
 from nonsmooth.engine.delassus.islands import group_closed
-from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope, try_step
+from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.self_check import energy_of_bodies
+from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel, room
 from nonsmooth.engine.numerics.runge_kutta import step_factor

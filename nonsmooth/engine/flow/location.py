@@ -11,7 +11,6 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing
-from nonsmooth.engine.flow.flow import try_step
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_own_guard,
@@ -28,12 +27,13 @@ from nonsmooth.engine.flow.guards import (
     keep_end,
     write_guards,
 )
+from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, PAST_END
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
 from nonsmooth.engine.numerics.roots import weakened
-from nonsmooth.engine.numerics.runge_kutta import dense_state
+from nonsmooth.engine.numerics.runge_kutta import dense_slope, dense_state
 
 _MIDDLE = 0.5
 _NEAR = 0.2
@@ -85,7 +85,11 @@ def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
 def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
+    if forces == 1 and S.stage_time > 0.0:
+        dense_slope(S, w, S.slopes, S.n_y, theta, S.y_guess)
+        S.ahead, S.guess = S.stage_time, S.y_guess + S.n_q
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
+    S.ahead = 0.0
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")

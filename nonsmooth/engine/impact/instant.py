@@ -4,52 +4,51 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
-from nonsmooth.engine.contact.problem import friction_coefficient
-from nonsmooth.engine.delassus.delassus import add_product, own_block, write_dense
+from nonsmooth.engine.bodies.kinematics import row
+from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
+from nonsmooth.engine.contact.problem import friction_coefficient, lay_friction
+from nonsmooth.engine.delassus.delassus import add_product, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
-from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, call_map, kernel
 
-_NEXT_TO_ZERO = 1e-3
-"""A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
-
-
-@kernel("i8(S, F, I, i8)")
-def is_jammed(S: Scalars, w: Floats, k: Integers, a: int) -> int:
-    """Return 1 if the active contact ``a`` slides at the Painleve singularity, its slip direction being known."""
-    c = k[S.active + a]
-    slides = k[S.mode + c] == SLIDE and k[S.normal_function + c] == 0
-    return 1 if slides and reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * w[own_block(S, k, a)] else 0
+_MOMENT = 0.1
+"""In a moment accelerations change velocities by this part of their tolerance."""
 
 
 @kernel("i8(S, F, I)")
 def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
-    """Stop the slips whose normal force grows without bound; return 1 if pushing impulses do that.
+    """Find the impulses of a moment in which the forces have no bound; return 1 if they change a velocity.
 
-    In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
-    impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
+    They are those of the inelastic impact on Coulomb's cone, its slip being the one that it leaves, under what the
+    accelerations do in so short a time that they change no velocity beyond its tolerance.  Where there are forces that
+    is all; where there are none the impulses are finite in the limit, and bring slips to rest.
     """
+    scale = 0.0
     for a in range(S.n_active):
         c = k[S.active + a]
-        v1, v2 = w[S.rate + 3 * c + 1], w[S.rate + 3 * c + 2]
-        speed = math.sqrt(v1 * v1 + v2 * v2)
-        w[S.mu + a] = 0.0
-        if k[S.mode + c] == SLIDE and speed > 0.0:
-            w[S.mu + a] = friction_coefficient(S, w, k, c, speed)
-            w[S.d + 2 * a], w[S.d + 2 * a + 1] = v1 / speed, v2 / speed
-        k[S.normal_held + a] = 1
-        k[S.tangent_held + a] = 1 if k[S.mode + c] == STICK or is_jammed(S, w, k, a) == 1 else 0
         for r in range(3):
-            w[S.b + 3 * a + r] = w[S.rate + 3 * c + r]
-    resolve(S, w, k)
+            w[S.b + 3 * a + r] = w[S.bias + 3 * c + r] + row(S, w, k, c, r, S.du)
+            scale = max(scale, abs(w[S.bias + 3 * c + r]), abs(w[S.b + 3 * a + r]))
+    moment = _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0
     for a in range(S.n_active):
-        if not w[S.f + 3 * a] >= 0.0:
-            return 0
+        c = k[S.active + a]
+        lay_friction(S, w, k, a)
+        k[S.at_rest + a] = k[S.normal_held + a] = 1
+        for r in range(3):
+            rate = w[S.rate + 3 * c + r]
+            if r == 0 and abs(rate) <= S.velocity_tolerance:
+                rate = 0.0
+            w[S.b + 3 * a + r] = rate + moment * w[S.b + 3 * a + r]
+            w[S.f + 3 * a + r] = 0.0
+    gauss_seidel(S, w, k, SWEEPS)
+    moved = 0
+    for a in range(S.n_active):
         for r in range(3):
             w[S.impulse + 3 * a + r] = w[S.f + 3 * a + r]
+            if abs(add_product(S, w, k, 0.0, a, r, S.f)) > S.velocity_tolerance:
+                moved = 1
     _split_loss(S, w, k)
-    return 1
+    return moved
 
 
 @kernel()

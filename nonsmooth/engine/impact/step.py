@@ -35,9 +35,9 @@ def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     n = STRIDE * S.n_active
     for stage in range(1, N_STAGES):
         out = S.impact_new if stage == LAST_STAGE else S.impact_stage
-        stage_state(S, w, S.impact_y, S.impact_slopes, n, stage, h, out)
+        stage_state(S, w, S.stages, S.impact_y, S.impact_slopes, n, stage, h, out)
         impact_slope(S, w, k, out, S.impact_slopes + stage * n)
-    step_errors(S, w, S.impact_slopes, n, h, S.impact_stage)
+    step_errors(S, w, S.error_weights, S.impact_slopes, n, h, S.impact_stage)
     error = _relative_error(S, w, k)
     if not error <= 1.0:
         stiff = _find_stiff(S, w, k, h)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nonsmooth.engine.memory import tableau
+from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.blocks import GEOMETRY, GUARD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNER, SCALARS
@@ -153,5 +153,7 @@ def allocate(counts: Mapping[str, int], rooms: Collection[str]) -> Memory:
     memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
     memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
     memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
+    memory.array("implicit_stages", 6 * N_STAGES)[:] = np.ravel(implicit_tableau.STAGES)
+    memory.array("implicit_errors", N_STAGES)[:] = implicit_tableau.ERROR
     memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
     return memory

@@ -34,9 +34,9 @@ POLICIES = ("impact", "compliant", "refuse")
 
 RUNNING, DONE, PAUSED = 0, 1, 2
 STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, SETTLE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
-SINGULAR_SLIDING, STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 14)
-GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED = range(14, 17)
-CONDITION_MET = 17
+STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 13)
+GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED = range(13, 16)
+CONDITION_MET = 16
 """Status of the engine."""
 
 REASONS = {
@@ -47,7 +47,7 @@ REASONS = {
     STEP_TOO_SMALL: "the step size fell below the time tolerance",
     NOT_FINITE: "a law or a body returned a number that is not finite",
     IMPACT_ENDLESS: "an impact did not end within its steps",
-    NO_CONTACT_SOLUTION: "the contact forces have no solution and the impact without collision did not help",
+    NO_CONTACT_SOLUTION: "the contact forces have no solution, and no impulse without collision leads to one",
     SETTLE_ENDLESS: "impacts at one instant did not settle into a mode",
     JOINTS_APART: "joints contradict each other: there is no motion that keeps all of them closed",
     GAP_UNEXPLAINED: "a gap is none that the tolerances explain",
@@ -55,7 +55,6 @@ REASONS = {
     QUATERNION_UNEXPLAINED: "a quaternion has left unit length by more than the tolerances explain",
     PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",
     NO_SLOT: "more contacts came near each other than a system of this size has room for",
-    SINGULAR_SLIDING: "sliding ran into the Painleve singularity, and no pushing impulse stops it there",
     EVENTS_ENDLESS: "events repeat without end within the time tolerance",
 }
 

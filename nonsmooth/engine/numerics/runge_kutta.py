@@ -11,14 +11,16 @@ _TINY = (SAFETY / GROW) ** 5
 """Below this error the step grows by the most it may."""
 
 
-@kernel("void(S, F, i8, i8, i8, i8, f8, i8)")
-def stage_state(S: Scalars, w: Floats, start: int, slopes: int, n: int, stage: int, h: float, out: int) -> None:
-    """Write the state at which the slope of ``stage`` is evaluated."""
-    weight = h * w[S.stages + 6 * stage]
+@kernel("void(S, F, i8, i8, i8, i8, i8, f8, i8)")
+def stage_state(
+    S: Scalars, w: Floats, stages: int, start: int, slopes: int, n: int, stage: int, h: float, out: int
+) -> None:
+    """Write the state at which the slope of ``stage`` is evaluated, by the weights of ``stages``."""
+    weight = h * w[stages + 6 * stage]
     for i in range(n):
         w[out + i] = w[start + i] + weight * w[slopes + i]
     for j in range(1, stage):
-        weight = h * w[S.stages + 6 * stage + j]
+        weight = h * w[stages + 6 * stage + j]
         for i in range(n):
             w[out + i] += weight * w[slopes + j * n + i]
 
@@ -46,13 +48,25 @@ def dense_part(
 
 
 @kernel("void(S, F, i8, i8, f8, i8)")
-def step_errors(S: Scalars, w: Floats, slopes: int, n: int, h: float, out: int) -> None:
+def dense_slope(S: Scalars, w: Floats, slopes: int, n: int, theta: float, out: int) -> None:
+    """Write the derivative of the interpolated state at the fraction ``theta`` of the step."""
+    for i in range(n):
+        w[out + i] = 0.0
+    for j in range(N_STAGES):
+        d = S.dense + 4 * j
+        weight = w[d] + theta * (2.0 * w[d + 1] + theta * (3.0 * w[d + 2] + theta * 4.0 * w[d + 3]))
+        for i in range(n):
+            w[out + i] += weight * w[slopes + j * n + i]
+
+
+@kernel("void(S, F, i8, i8, i8, f8, i8)")
+def step_errors(S: Scalars, w: Floats, weights: int, slopes: int, n: int, h: float, out: int) -> None:
     """Write the estimated errors of the components of the step."""
-    weight = h * w[S.error_weights]
+    weight = h * w[weights]
     for i in range(n):
         w[out + i] = weight * w[slopes + i]
     for j in range(1, N_STAGES):
-        weight = h * w[S.error_weights + j]
+        weight = h * w[weights + j]
         for i in range(n):
             w[out + i] += weight * w[slopes + j * n + i]
 

@@ -1,4 +1,4 @@
-"""The coefficients of the Runge-Kutta pair."""
+"""The coefficients of the Runge-Kutta pairs."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ ARRAYS = Arrays(
     floats={
         "stages": fixed(6 * N_STAGES),
         "error_weights": fixed(N_STAGES),
+        "implicit_stages": fixed(6 * N_STAGES),
+        "implicit_errors": fixed(N_STAGES),
         "dense": fixed(4 * N_STAGES),
     },
     integers={},

@@ -1,0 +1,178 @@
+"""One step of the smooth motion: explicit, or implicit where friction turns slips too fast for that.
+
+Between events the motion is smooth, but next to rest the direction of a slip relaxes at a rate of mu f_N G / |v|, and
+an explicit step bears no more than some relaxations.  An implicit one, whose stages end with friction against their own
+slip (:mod:`nonsmooth.engine.contact.implicit_slip`), is as long as its accuracy allows.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.flow.flow import slope
+from nonsmooth.engine.memory import implicit_tableau, tableau
+from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
+from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel, room
+from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
+
+_STIFF = 2.0
+"""Relaxations within a step that an explicit one bears."""
+_ITERATIONS = 12
+"""Of a stage: what is not stiff is iterated on,"""
+_SETTLED = 0.01
+"""up to this part of the tolerance."""
+_UNUSABLE = 1e300
+_SHARE = tableau.NODES[1] / tableau.NODES[2]
+"""Where the second stage lies between the first and the third."""
+
+
+@kernel("f8(S, F, i8, i8, f8)")
+def _worst_error(S: Scalars, w: Floats, first: int, end: int, worst: float) -> float:
+    """Return the largest error of some components relative to the tolerance, or ``worst`` if that is larger."""
+    for i in range(first, end):
+        scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
+        error = abs(w[S.y_stage + i]) / (S.rtol * scale)
+        if error > worst or error != error:
+            worst = error
+    return worst
+
+
+@kernel("f8(S, F)")
+def _relative_error(S: Scalars, w: Floats) -> float:
+    """Return the largest of the errors in ``y_stage`` relative to the tolerance."""
+    n, worst = S.n_y, 0.0
+    worst = _worst_error(S, w, 0, S.n_q + S.n_u, worst)
+    if S.n_states > 0:
+        worst = _worst_error(S, w, S.n_q + S.n_u + N_ACCOUNTS, n, worst)
+    return worst
+
+
+@kernel("f8(S, F, f8)")
+def _unseen(S: Scalars, w: Floats, h: float) -> float:
+    """Return how far the second stage is from the first and third, relative to what a step of the tolerance explains.
+
+    It has no weight in the result, nor in the error: a force that only it meets, as where it throws the later stages
+    out of a contact, would count for nothing.  Its own error is of the order (L h)^3 where that of the step is of the
+    order (L h)^5.
+    """
+    first = S.slopes + S.n_q
+    second, third = first + S.n_y, first + 2 * S.n_y
+    y_scale, y, y_new = S.y_scale + S.n_q, S.y + S.n_q, S.y_new + S.n_q
+    worst, rtol = 0.0, math.sqrt(S.rtol)
+    for i in range(S.n_u):
+        change = h * abs(w[second + i] - (1.0 - _SHARE) * w[first + i] - _SHARE * w[third + i])
+        explained = rtol * (w[y_scale + i] + max(abs(w[y + i]), abs(w[y_new + i])))
+        worst = max(worst, change / explained)
+    return worst if worst > 1.0 else 0.0
+
+
+@kernel("f8(S, F)")
+def _relaxation(S: Scalars, w: Floats) -> float:
+    """Return how fast accelerations relax [1/s]: from the last two stages, both of one time (Hairer, Wanner, IV.2)."""
+    first, last = S.slopes + (LAST_STAGE - 1) * S.n_y + S.n_q, S.slopes + LAST_STAGE * S.n_y + S.n_q
+    accelerations = velocities = 0.0
+    for i in range(S.n_u):
+        accelerations += (w[last + i] - w[first + i]) ** 2
+        velocities += (w[S.y_new + S.n_q + i] - w[S.y_stage + S.n_q + i]) ** 2
+    return math.sqrt(accelerations / velocities) if velocities > 0.0 else 0.0
+
+
+@kernel("i8(S, F, I)")
+def _slips_only(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if some closed contact slides, and all are rigid and rub alike in all directions."""
+    slides = 0
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        contact = contact_at(S, w, k, c)
+        if contact.normal_function != 0 or k[S.oriented + c] == 1:
+            return 0
+        if contact.mode == SLIDE:
+            slides = 1
+    return slides
+
+
+@kernel("i8(S, F, I, f8, i8)")
+def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> int:
+    """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
+
+    Friction of slips, which is stiff, is solved for; all else is iterated.
+    """
+    n = S.n_y
+    out = S.y_new if stage == LAST_STAGE else S.y_stage
+    here = S.slopes + stage * n
+    for i in range(n):
+        w[here + i] = w[here - n + i]
+    S.unsettled = 0
+    for _iteration in range(_ITERATIONS):
+        stage_state(S, w, S.implicit_stages, S.y, S.slopes, n, stage, h, out)
+        for i in range(n):
+            w[out + i] += S.stage_time * w[here + i]
+            w[S.y_guess + i] = w[here + i]
+        S.ahead, S.guess, S.stiffness = S.stage_time, S.y_guess + S.n_q, 0.0
+        slope(S, w, k, S.t + implicit_tableau.NODES[stage] * h, out, here, 0)
+        S.ahead = 0.0
+        if S.unsettled == 1:
+            return 0
+        worst = 0.0
+        for i in range(S.n_q + S.n_u):
+            change = S.stage_time * abs(w[here + i] - w[S.y_guess + i])
+            worst = max(worst, change / (S.rtol * (w[S.y_scale + i] + abs(w[S.y + i]))))
+        if worst <= _SETTLED:
+            for i in range(n):
+                w[out + i] += S.stage_time * (w[here + i] - w[S.y_guess + i])
+            return 1
+    return 0
+
+
+@kernel("f8(S, F, I, f8)")
+def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Take one step of ``h`` whose stages end with friction against their own slip; return its relative error.
+
+    Leaves slopes from which the dense output of the explicit step makes the cubic through both ends.
+    """
+    n = S.n_y
+    S.stage_time = implicit_tableau.DIAGONAL * h
+    for i in range(n):
+        w[S.slopes + n + i] = w[S.slopes + i]
+    for stage in range(2, N_STAGES):
+        if _solve_stage(S, w, k, h, stage) == 0:
+            return _UNUSABLE
+    step_errors(S, w, S.implicit_errors, S.slopes, n, h, S.y_stage)
+    error = _relative_error(S, w)
+    last = S.slopes + LAST_STAGE * n
+    for stage in range(1, LAST_STAGE):
+        c = tableau.NODES[stage]
+        for i in range(n):
+            rise = (w[S.y_new + i] - w[S.y + i]) / h
+            w[S.slopes + stage * n + i] = (
+                6.0 * c * (1.0 - c) * rise
+                + (1.0 - c) * (1.0 - 3.0 * c) * w[S.slopes + i]
+                + c * (3.0 * c - 2.0) * w[last + i]
+            )
+    return error
+
+
+@room("f8(S, F, I, f8)")
+def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
+
+    ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip
+    that violates its mode at some stage raises ``suspect``.
+    """
+    n = S.n_y
+    S.suspect = 0
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        contact.least_force = 1e300
+    S.stage_time = 0.0
+    if h * S.stiffness > _STIFF and _slips_only(S, w, k) == 1:
+        return _try_implicit_step(S, w, k, h)
+    for stage in range(1, N_STAGES):
+        out = S.y_new if stage == LAST_STAGE else S.y_stage
+        stage_state(S, w, S.stages, S.y, S.slopes, n, stage, h, out)
+        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0)
+    if S.n_grouped > 0:
+        S.stiffness = _relaxation(S, w)
+    step_errors(S, w, S.error_weights, S.slopes, n, h, S.y_stage)
+    return max(_relative_error(S, w), _unseen(S, w, h))

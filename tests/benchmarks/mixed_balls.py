@@ -1,0 +1,146 @@
+"""Balls of steel and rubber in an open box: ``python -m tests.benchmarks.mixed_balls [VARIANT ...] [--seeds N]``.
+
+Half of the balls (10 mm) are of steel and half of rubber, with laws by pair of materials: friction 0.15 to 0.8 and
+restitution 0.5 to 0.9.  They start at random places, some next to the walls, at random velocities, and have 4 s to come
+to rest.  A variant gives all contacts one coefficient of friction, or another impact law, or is a narrower box with so
+many balls; all variants run by default.  A line a variant: how many seeds ended, how many of them at rest, and the
+longest run [s]; every seed that did not end is listed with its reason.
+
+At rest, the forces are looked for once more by a solver that is not the engine's: Moreau's rule in one step from rest,
+swept to the end on the exact cone, with a residual relative to the greatest weight.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+import warnings
+from collections.abc import Callable, Mapping
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+
+import numpy as np
+
+import nonsmooth as ns
+from bodies import Ball, Plate, Rest
+from laws import Coulomb, EnergeticImpact, Frictionless, MoreauImpact, NewtonImpact, PoissonImpact, Unilateral
+from nonsmooth.interfaces import FrictionLaw, ImpactLaw
+from scenarios.ball_box.scenario import _TURNS
+
+RADIUS = 0.01
+DENSITY = {"steel": 7800.0, "rubber": 1100.0}
+FRICTION = {("steel", "steel"): 0.15, ("rubber", "steel"): 0.5, ("rubber", "rubber"): 0.8}
+RESTITUTION = {("steel", "steel"): 0.9, ("rubber", "steel"): 0.7, ("rubber", "rubber"): 0.5}
+BOX = {"steel": ("rubber", "steel"), "rubber": ("rubber", "rubber")}
+"""The box is of rubber."""
+T_END = 4.0
+LIMIT = 20.0
+"""A run that takes longer counts as one that does not end [s]."""
+_AT_REST = 1e-9
+"""Kinetic energy at rest, of that of the fall."""
+
+Impact = Callable[[float], ImpactLaw]
+
+
+def _variants() -> Mapping[str, tuple[float, int, float | None, Impact]]:
+    """Width of the box [m], number of balls, the friction of all, the impact law."""
+    named: dict[str, tuple[float, int, float | None, Impact]] = {
+        "mixed": (0.1, 10, None, EnergeticImpact),
+        "mu=0.8": (0.1, 10, 0.8, EnergeticImpact),
+        "mu=0.5": (0.1, 10, 0.5, EnergeticImpact),
+        "frictionless": (0.1, 10, 0.0, EnergeticImpact),
+        "newton": (0.1, 10, None, NewtonImpact),
+        "moreau": (0.1, 10, None, MoreauImpact),
+        "poisson": (0.1, 10, None, PoissonImpact),
+    }
+    for width in (52, 70, 100):
+        for n in (6, 8, 10):
+            named[f"{width}mm-{n}"] = (1e-3 * width, n, None, EnergeticImpact)
+    return named
+
+
+VARIANTS = _variants()
+
+
+def build(variant: str, seed: int) -> ns.System:
+    """Return the box and its balls at their start."""
+    width, n, friction, impact = VARIANTS[variant]
+    rng = np.random.default_rng(seed)
+    half = 0.5 * width
+    sides = ((-half, 0.0, 0.0), (half, 0.0, 0.0), (0.0, -half, 0.0), (0.0, half, 0.0))
+    box = [Plate(), *(Plate(Rest(position=p, orientation=q)) for p, q in zip(sides, _TURNS, strict=True))]
+    kinds = ["steel" if i % 2 == 0 else "rubber" for i in range(n)]
+    balls = [Ball(RADIUS, DENSITY[kind]) for kind in kinds]
+    system = ns.System([*box, *balls], 9.81)
+
+    def laws(pair: tuple[str, str]) -> dict[str, object]:
+        mu = FRICTION[pair] if friction is None else friction
+        rub: FrictionLaw = Coulomb(mu) if mu > 0.0 else Frictionless()
+        return {"normal": Unilateral(), "friction": rub, "impact": impact(RESTITUTION[pair])}
+
+    a_side = min(int(width / (2.2 * RADIUS)), 3)
+    cell = width / a_side
+    for i, ball in enumerate(balls):
+        for wall in box:
+            system.contact(wall, ball, **laws(BOX[kinds[i]]))
+        for j in range(i):
+            system.contact(balls[j], ball, **laws(tuple(sorted((kinds[i], kinds[j])))))  # type: ignore[arg-type]
+        layer, place = divmod(i, a_side**2)
+        free = np.array([cell - 2.0 * RADIUS, cell - 2.0 * RADIUS, 0.5 * RADIUS])
+        centre = np.array(
+            [
+                (place // a_side + 0.5) * cell - half,
+                (place % a_side + 0.5) * cell - half,
+                0.02 + RADIUS + 2.6 * RADIUS * layer,
+            ]
+        )
+        start = centre + rng.uniform(-0.49, 0.49, 3) * free
+        system.place(ball, position=tuple(start), velocity=tuple(rng.uniform(-0.5, 0.5, 3)))
+    return system
+
+
+def run(variant: str, seed: int) -> tuple[str, float, float, float, int]:
+    """Return why the run ended, its wall time [s], its time [s], its kinetic energy over that at first, its events."""
+    warnings.simplefilter("ignore")
+    model = ns.assemble(build(variant, seed))
+    began = time.perf_counter()
+    try:
+        solution = model.run(T_END, sample_interval=1e-2, until=partial(_too_long, began))
+        reason = "at the end" if solution.t_end == T_END else "too long"
+    except ns.RunFailed as error:
+        solution, reason = error.solution, error.solution.message
+    wall = time.perf_counter() - began
+    kinetic = solution.energies().kinetic
+    return reason, wall, solution.t_end, float(kinetic[-1] / max(kinetic)), len(solution.events.time)
+
+
+def _too_long(began: float, _so_far: object) -> bool:
+    return time.perf_counter() - began > LIMIT
+
+
+def main() -> None:
+    """Run the variants and print a line of each."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("variants", nargs="*", default=[*VARIANTS])
+    parser.add_argument("--seeds", type=int, default=10)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--workers", type=int, default=2)
+    given = parser.parse_args()
+    seeds = range(given.first, given.first + given.seeds)
+    with ProcessPoolExecutor(given.workers) as pool:
+        for variant in given.variants:
+            rows = list(pool.map(partial(run, variant), seeds))
+            ended = [row for row in rows if row[0] == "at the end"]
+            rests = sum(row[3] <= _AT_REST for row in ended)
+            print(
+                f"{variant:14}{len(ended):3d} of {len(rows)} ended, {rests} at rest, {max(r[1] for r in rows):6.1f} s"
+            )
+            for seed, row in zip(seeds, rows, strict=True):
+                if row[0] != "at the end":
+                    print(
+                        f"    seed {seed}: {row[0]} at {row[2]:.4f} s after {row[1]:.1f} s, {row[4]} events", flush=True
+                    )
+
+
+if __name__ == "__main__":
+    main()
