@@ -12,7 +12,7 @@ import numpy as np
 from bodies.motions.rest import Rest
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Motion
-from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import Value
 
 
@@ -37,14 +37,14 @@ class Driven(Body, ABC):
         return self.motion.parameters()
 
     @property
-    def n_q(self) -> int:
+    def q_labels(self) -> NamesAndUnits:
         """0: driven."""
-        return 0
+        return ()
 
     @property
-    def n_u(self) -> int:
+    def u_labels(self) -> NamesAndUnits:
         """0: driven."""
-        return 0
+        return ()
 
     @property
     def quaternion(self) -> int:

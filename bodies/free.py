@@ -14,7 +14,7 @@ from bodies.inertia import check_inertia, tensor_of
 from bodies.values import Word, read_start, unit_quaternion
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
 from nonsmooth.types import Floats
 
 _WORDS: dict[str, Word] = {
@@ -157,14 +157,14 @@ class FreeBody(Body):
         return (self.shapes,)
 
     @property
-    def n_q(self) -> int:
+    def q_labels(self) -> NamesAndUnits:
         """Position and quaternion."""
-        return 7
+        return POSE_LABELS
 
     @property
-    def n_u(self) -> int:
+    def u_labels(self) -> NamesAndUnits:
         """Velocity and angular velocity."""
-        return 6
+        return TWIST_LABELS
 
     @property
     def quaternion(self) -> int:

@@ -15,7 +15,7 @@ from bodies.motions.pose import pose_parameters
 from bodies.values import Word, read_start, unit_quaternion, unit_vector, vector
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, VELOCITY
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
@@ -118,14 +118,14 @@ class LineBody(Body):
         return (self.carried,)
 
     @property
-    def n_q(self) -> int:
+    def q_labels(self) -> NamesAndUnits:
         """The distance along the line."""
-        return 1
+        return (("s", "m"),)
 
     @property
-    def n_u(self) -> int:
+    def u_labels(self) -> NamesAndUnits:
         """Its rate."""
-        return 1
+        return (("v", "m/s"),)
 
     @property
     def quaternion(self) -> int:

@@ -14,7 +14,7 @@ from bodies.carried import check_carried
 from bodies.values import Word, read_start
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
@@ -97,14 +97,14 @@ class PlanarBody(Body):
         return (self.carried,)
 
     @property
-    def n_q(self) -> int:
+    def q_labels(self) -> NamesAndUnits:
         """Two coordinates and an angle."""
-        return 3
+        return ("x", "m"), ("z", "m"), ("angle", "rad")
 
     @property
-    def n_u(self) -> int:
+    def u_labels(self) -> NamesAndUnits:
         """Their rates."""
-        return 3
+        return ("vx", "m/s"), ("vz", "m/s"), ("w", "rad/s")
 
     @property
     def quaternion(self) -> int:

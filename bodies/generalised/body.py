@@ -22,7 +22,7 @@ from bodies.generalised.sample import Sampler, check_signatures
 from bodies.values import Word, read_start
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import Value, parameter
 
 _TAKEN = ("t", "q", "u", "out", "gravity_x", "gravity_y", "gravity_z")
@@ -127,14 +127,15 @@ class GeneralisedBody(Body):
         return tuple(frame.carried for frame in self.moving_frames)
 
     @property
-    def n_q(self) -> int:
+    def q_labels(self) -> NamesAndUnits:
         """The coordinates and, with a power, its work."""
-        return self.n_u + (self.power is not None)
+        known = tuple((one.name, one.unit) for one in self.coordinates)
+        return known if self.power is None else (*known, ("work", "J"))
 
     @property
-    def n_u(self) -> int:
+    def u_labels(self) -> NamesAndUnits:
         """One velocity per coordinate."""
-        return len(self.coordinates)
+        return tuple((f"{one.name} rate", f"{one.unit}/s") for one in self.coordinates)
 
     @property
     def quaternion(self) -> int:
@@ -154,7 +155,7 @@ class GeneralisedBody(Body):
         if self.power is None:
             return q, u
         mass = self._sample(np.array([coordinate.start for coordinate in self.coordinates]), u)["mass"]
-        return np.append(q, 0.5 * u @ mass.reshape(self.n_u, self.n_u) @ u), u
+        return np.append(q, 0.5 * u @ mass.reshape(len(u), len(u)) @ u), u
 
     @property
     def time_scale(self) -> float:

@@ -13,10 +13,11 @@ from nonsmooth.parameters import Component, parameter
 class Coordinate(Component):
     """A generalised coordinate q_i, its velocity u_i = dq_i/dt, where both start, and their sizes.
 
-    The units are those of the body's own functions: metres and radians as a rule.
+    Its unit is that in which the body's own functions take it; that of its velocity is the same per second.
     """
 
     name: str = parameter(doc="name of the coordinate", unit="")
+    unit: str = parameter(doc="unit of the coordinate", unit="", choices=("m", "rad", "1"))
     start: float = parameter(0.0, doc="value at the start", unit="m or rad")
     rate: float = parameter(0.0, doc="velocity at the start", unit="m/s or rad/s")
     scale: float = parameter(1.0, doc="size below which errors of it count as absolute", unit="m or rad", above=0.0)

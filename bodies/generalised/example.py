@@ -54,7 +54,7 @@ def _bias(q: Floats, u: Floats, out: Floats, length: float) -> None:
 def cart_pendulum() -> dict[str, Any]:
     """Return the parts of the body."""
     return {
-        "coordinates": (Coordinate("x"), Coordinate("angle", start=0.4)),
+        "coordinates": (Coordinate("x", "m"), Coordinate("angle", "rad", start=0.4)),
         "mass": _mass,
         "force": _force,
         "potential": _potential,

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from nonsmooth.cli import component
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import CompliantNormalLaw, ImpactLaw, NormalLaw, TangentialLaw
-from nonsmooth.parameters import from_all_words, rules
-from nonsmooth.plugins.file import find
+from nonsmooth.parameters import rules
 
 ROLES: dict[str, type] = {"normal": NormalLaw, "friction": TangentialLaw, "impact": ImpactLaw}
 """The laws of a contact, by the name that the option has for them."""
@@ -34,21 +34,13 @@ def laws(words: Iterable[str]) -> dict[str, Any]:
     made: dict[str, Any] = {}
     for word in words:
         role, _, rest = (part.strip() for part in word.partition("="))
-        name, *settings = (part.strip() for part in rest.split(","))
-        if not (role and name):
+        if not (role and rest):
             raise InvalidInput("--law", _FORM, word, _EXAMPLE)
         if role not in ROLES:
             raise UnknownName("--law role", role, ROLES)
         if role in made:
             raise InvalidInput(f"--law {role}", "must come once", word, "Leave one out.")
-        owner = find(f"--law {role}", "laws", ROLES[role], name)
-        values: dict[str, str] = {}
-        for setting in settings:
-            parameter, _, value = (part.strip() for part in setting.partition("="))
-            if not (parameter and value) or parameter in values:
-                raise InvalidInput(f"--law {role}", f"{_FORM}, each NAME once", word, _EXAMPLE)
-            values[parameter] = value
-        made[role] = from_all_words(owner, values, owner.__name__, f"{{name}}=VALUE to --law {role}={name}")
+        made[role] = component.made(f"--law {role}", "laws", ROLES[role], rest, _FORM, _EXAMPLE)
     return made
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import law
+from nonsmooth.cli import engine, law
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.formats import SUFFIXES
@@ -63,18 +63,21 @@ class Job:
         return with_laws(system, **self.laws) if self.laws else system
 
     def head(self) -> dict[str, Any]:
-        """Return parameters and laws for the report, without the parameters of laws that are replaced."""
+        """Return parameters, laws and engine for the report, without the parameters of laws that are replaced."""
         declared = rules(type(self.scenario))
         resolved = {
             name: value
             for name, value in self.scenario.resolved().items()
             if name not in declared or declared[name][1].law not in law.replacements(self.laws)
         }
-        return {"parameters": resolved, "laws": {role: law.described(made) for role, made in self.laws.items()}}
+        laws = {role: law.described(made) for role, made in self.laws.items()}
+        return {"parameters": resolved, "laws": laws, "engine": engine.described(self.engine)}
 
 
-def job(name: str, words: Iterable[str], laws: Iterable[str] = ()) -> Job:
+def job(name: str, words: Iterable[str], laws: Iterable[str] = (), asked: str | None = None) -> Job:
     """Return what is to be run, with parameters and laws set: a scenario by its name, of a Python file, or a file.
+
+    ``asked`` is the word for another engine than the event-driven one or that of the file.
 
     Raises
     ------
@@ -85,10 +88,11 @@ def job(name: str, words: Iterable[str], laws: Iterable[str] = ()) -> Job:
     """
     values = assignments(words)
     replaced = law.laws(laws)
+    other = None if asked is None else engine.engine(asked)
     if name.endswith(SUFFIXES):
         setup = read(Path(name), values)
-        return Job(FileScenario(setup), setup.engine, replaced)
+        return Job(FileScenario(setup), other or setup.engine, replaced)
     owner = file.load("run", (Scenario,), name) if file.is_file(name) else registry.load("scenarios", name)
     law.check_not_ignored(owner, values, replaced)
     made: Scenario = from_all_words(owner, values, name, "--set {name}=VALUE")
-    return Job(made, EventDriven(), replaced)
+    return Job(made, other or EventDriven(), replaced)

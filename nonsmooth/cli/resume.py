@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from nonsmooth.cli import extras, report, request
-from nonsmooth.cli.messages import say
+from nonsmooth.cli.messages import say, tell
 from nonsmooth.cli.perform import Told, perform
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.plugins import file, registry
@@ -27,6 +27,11 @@ def add_to(commands: Any) -> None:
         "resume", help="go on with a run that was cut off, to the same end", allow_abbrev=False
     )
     command.add_argument("folder", type=Path, metavar="DIR", help="what `run --out` was given")
+    command.add_argument(
+        "--trust",
+        action="store_true",
+        help="load the Python files that the run was asked with, for the scenario's own figures and summary",
+    )
     command.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
     command.set_defaults(execute=execute)
 
@@ -35,15 +40,15 @@ def execute(arguments: argparse.Namespace) -> bool:
     """Go on with the run; tell whether all went well."""
     troubles: list[str] = []
     with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints: standard output is for the result
-        outcome = _perform(Output(arguments.folder), troubles)
+        outcome = _perform(Output(arguments.folder), arguments.trust, troubles)
     say(report.as_json(outcome) if arguments.json else report.as_text(outcome))
     return outcome["status"] == "done" and not troubles
 
 
-def _perform(output: Output, troubles: list[str]) -> report.Report:
+def _perform(output: Output, trust: bool, troubles: list[str]) -> report.Report:
     extras.require(extras.PICTURES)
     folder = SolutionFolder.opened(output)
-    name, job = _job(output, folder)
+    name, job = _job(output, folder, trust)
     system = job.build()
     check_resumable(output)
 
@@ -54,15 +59,18 @@ def _perform(output: Output, troubles: list[str]) -> report.Report:
     return perform(job, {"scenario": name, **job.head()}, compute, output.folder, False, troubles)
 
 
-def _job(output: Output, folder: SolutionFolder) -> tuple[str, request.Job]:
-    """Return what ran: an installed scenario by its name, all else by what the folder says of its system.
+def _job(output: Output, folder: SolutionFolder, trust: bool) -> tuple[str, request.Job]:
+    """Return what ran: a scenario by its name, all else by what the folder says of its system.
 
-    No Python file is executed because the folder names it.
+    No Python file is executed because the folder names it, unless the user trusts it.
     """
     asked = folder.said("request")
     name = str(asked.get("scenario", output.folder))
-    laws = [word.partition("=")[2].partition(",")[0] for word in asked.get("law", ())]
-    if name in registry.names("scenarios") and not any(file.is_file(law) for law in laws):
-        return name, request.job(name, asked["set"], asked["law"])
+    words = [name, *(word.partition("=")[2] for word in asked.get("law", ())), asked.get("engine") or ""]
+    files = [word for one in words if file.is_file(word := one.partition(",")[0])]
+    if (name in registry.names("scenarios") or file.is_file(name)) and (trust or not files):
+        return name, request.job(name, asked["set"], asked["law"], asked.get("engine"))
+    if files:
+        tell(f"without {', '.join(files)}, and so without the scenario's own figures and summary: see --trust")
     setup = stored_setup(output, folder)
     return name, request.Job(FileScenario(setup), setup.engine, {})

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import acceptance, extras, law, report, request, results
+from nonsmooth.cli import acceptance, engine, extras, law, report, request, results
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.perform import Told, perform
 from nonsmooth.results.output import Output
@@ -35,6 +35,7 @@ def add_to(commands: Any) -> None:
         help="a parameter of `nonsmooth show SCENARIO`, in SI units; may come often",
     )
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
+    command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
     command.add_argument("--out", type=Path, metavar="DIR", help="save results and figures there")
     command.add_argument(
         "--accept", action="store_true", help="judge the run by the scenario's own criteria; exit status 1 if one fails"
@@ -54,7 +55,7 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 
 def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Report:
-    job = request.job(arguments.scenario, arguments.set, arguments.law)
+    job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine)
     scenario = job.scenario
     if arguments.accept:
         acceptance.check_request(job)
@@ -62,7 +63,7 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
     system = job.build()
     if arguments.out is not None:
         extras.require(extras.PICTURES)
-        asked = {name: getattr(arguments, name) for name in ("scenario", "set", "law")}
+        asked = {name: getattr(arguments, name) for name in ("scenario", "set", "law", "engine")}
         title = str(scenario.resolved().get("title", type(scenario).title))
         output = Output(arguments.out, title, asked, json.loads(report.as_json(head)))
         check_free(output)

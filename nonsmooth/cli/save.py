@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import law, request
+from nonsmooth.cli import engine, law, request
 from nonsmooth.cli.messages import tell
 from nonsmooth.files.writing import save_system
 
@@ -18,12 +18,13 @@ def add_to(commands: Any) -> None:
     command.add_argument("file", type=Path, metavar="FILE", help="the file to write, .toml or .yaml")
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
+    command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
     command.set_defaults(execute=execute)
 
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Write the file; tell where it is."""
-    job = request.job(arguments.scenario, arguments.set, arguments.law)
+    job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine)
     scenario = job.scenario
     save_system(
         job.build(),

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.arrays import Floats, Integers
-from nonsmooth.histories.contact_history import ContactHistory
+from nonsmooth.histories.contact_history import ContactHistory, contacts_dataset
 from nonsmooth.histories.times import read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
@@ -121,7 +121,7 @@ class ContactForces:
         number = self._number(contact)
         times = np.repeat(np.arange(len(self.first) - 1), np.diff(self.first))
         entries = np.flatnonzero(self.contact == number)
-        return ContactHistory.spread(self, entries, times[entries])
+        return ContactHistory.spread(self, entries, times[entries], self.contacts[number].name)
 
     def _number(self, contact: Contact | int) -> int:
         numbers = dict(zip(map(id, self.contacts), range(len(self.contacts)), strict=True))
@@ -137,9 +137,7 @@ class ContactForces:
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the histories of all contacts that are closed at any of the times, as one dataset with units."""
-        from nonsmooth.histories.contact_history import dataset
-
-        return dataset(self, np.unique(self.contact).tolist())
+        return contacts_dataset([self.history(number) for number in np.unique(self.contact).tolist()], self.time)
 
 
 @final

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, final
 
 import numpy as np
 
+from nonsmooth.datasets import Told, dataset
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.times import of_one, spoken
 
@@ -16,18 +18,19 @@ if TYPE_CHECKING:
 
     from nonsmooth.histories.contact_forces import ContactForces
 
-_BORNE = {
-    "normal_force": ("N", "normal force"),
-    "friction_force": ("N", "friction on the second body"),
-    "friction_moment": ("N m", "moment of traction on the second body"),
+_BORNE: Told = {
+    "normal_force": ((), "N", "normal force"),
+    "friction_force": (("axis",), "N", "friction on the second body"),
+    "friction_moment": (("axis",), "N m", "moment of traction on the second body"),
 }
-_SEEN = {
-    "gap": ("m", "gap"),
-    "points": ("m", "points of contact on the first and the second body"),
-    "normal": ("1", "normal from the first body to the second"),
-    "slip_velocity": ("m/s", "velocity of the second body over the first"),
+_SEEN: Told = {
+    "gap": ((), "m", "gap"),
+    "points": (("body", "axis"), "m", "points of contact on the first and the second body"),
+    "normal": (("axis",), "1", "normal from the first body to the second"),
+    "slip_velocity": (("axis",), "m/s", "velocity of the second body over the first"),
 }
-_AXES = ("time", "contact", "body", "axis")
+_SIZES = {"body": 2, "axis": 3}
+_TOLD: Told = {"mode": ((), "1", "0 open, 1 stick, 2 slide"), **_BORNE, **_SEEN}
 
 
 @final
@@ -47,6 +50,8 @@ class ContactHistory:
         [N], [N] and [N m], zero where it is open; shapes [n], [n, 3] and [n, 3].
     gap, points, normal, slip_velocity : array
         [m], [m], [1] and [m/s], not a number where it is open; shapes [n], [n, 2, 3], [n, 3] and [n, 3].
+    contact : str
+        Name of the contact.
     """
 
     time: Floats
@@ -58,6 +63,7 @@ class ContactHistory:
     points: Floats
     normal: Floats
     slip_velocity: Floats
+    contact: str
 
     def __repr__(self) -> str:
         """Return of which times it is, and how much there is of it."""
@@ -65,8 +71,12 @@ class ContactHistory:
             f"ContactHistory({spoken(self.time)}; largest normal force {np.max(self.normal_force, initial=0.0):.6g} N)"
         )
 
+    def to_xarray(self) -> xarray.Dataset:
+        """Return it as a dataset with units."""
+        return dataset(self, self.time, _TOLD, contact=self.contact)
+
     @classmethod
-    def spread(cls, forces: ContactForces, entries: Integers, times: Integers) -> ContactHistory:
+    def spread(cls, forces: ContactForces, entries: Integers, times: Integers, contact: str) -> ContactHistory:
         """Return the history that has some entries at the numbers of times given, and is open at the others."""
         time = np.atleast_1d(forces.time)
         mode = np.zeros(len(time), dtype=np.int64)
@@ -77,25 +87,17 @@ class ContactHistory:
                 values = getattr(forces, name)
                 arrays[name] = np.full((len(time), *values.shape[1:]), open_)
                 arrays[name][times] = values[entries]
-        found = cls(time, mode, **arrays)
+        found = cls(time, mode, **arrays, contact=contact)
         return found if forces.time.ndim else of_one(found)
 
 
-def dataset(forces: ContactForces, numbers: Sequence[int]) -> xarray.Dataset:
-    """Return the histories of some contacts as one dataset with units."""
-    import xarray
-
-    time, histories = np.atleast_1d(forces.time), [forces.history(number) for number in numbers]
-    mode = np.zeros((len(time), len(numbers)), dtype=np.int64)
-    for i, history in enumerate(histories):
-        mode[:, i] = history.mode
-    variables: dict[str, tuple[tuple[str, ...], Floats | Integers, dict[str, str]]] = {}
-    variables["mode"] = _AXES[:2], mode, {"long_name": "0 open, 1 stick, 2 slide"}
-    for name, (units, words) in (_BORNE | _SEEN).items():
-        values = np.zeros((len(time), len(numbers), *getattr(forces, name).shape[1:]))
-        for i, history in enumerate(histories):
-            values[:, i] = getattr(history, name)
-        axes = _AXES[:2] + _AXES[6 - values.ndim :]
-        variables[name] = axes, values, {"units": units, "long_name": words}
-    coordinates = {"time": ("time", time, {"units": "s"}), "contact": ("contact", numbers)}
-    return xarray.Dataset(variables, coords=coordinates | {"axis": ["x", "y", "z"], "body": ["first", "second"]})
+def contacts_dataset(histories: Sequence[ContactHistory], time: Floats) -> xarray.Dataset:
+    """Return the histories of some contacts at the same times as one dataset with names and units."""
+    told = {name: (("contact", *axes), unit, words) for name, (axes, unit, words) in _TOLD.items()}
+    stacked = {
+        name: np.stack([getattr(one, name) for one in histories], axis=time.ndim)
+        if histories
+        else np.zeros((*time.shape, 0, *(_SIZES[axis] for axis in axes)))
+        for name, (axes, _, _) in _TOLD.items()
+    }
+    return dataset(SimpleNamespace(**stacked), time, told, {"contact": [one.contact for one in histories]})

@@ -39,4 +39,4 @@ def distances(
     one, other = (solution.poses(body, row) for body in (first, second))
     places = zip(one.origin, one.rotation, other.origin, other.rotation, strict=True)
     found = [pair.at([*zip(o, r, strict=True)], [*zip(p, s, strict=True)]) for o, r, p, s in places]
-    return DistanceHistory.of(row, found)
+    return DistanceHistory.of(row, found, (solution.system.name_of(first), solution.system.name_of(second)))

@@ -8,13 +8,31 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from nonsmooth.datasets import Told, dataset
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
 
 if TYPE_CHECKING:
+    import xarray
+
     from nonsmooth.solution.solution import Solution
+
+_TOLD: Told = {
+    name: ((), "J", words)
+    for name, words in {
+        "kinetic": "kinetic energy",
+        "potential": "potential energy",
+        "driven_work": "work of driven bodies since the start",
+        "load_work": "work of loads and compliant contacts since the start",
+        "restitution_loss": "loss to restitution since the start",
+        "friction_loss": "loss to friction since the start",
+        "closing_loss": "loss in closing steps and projections since the start",
+        "loss": "all losses since the start",
+        "unexplained": "what the account does not explain",
+    }.items()
+}
 
 
 @final
@@ -51,6 +69,10 @@ class Energies:
     def __repr__(self) -> str:
         """Return of which times it is, and how much there is of it."""
         return f"Energies({spoken(self.time)}; start {self.start:.6g} J)"
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return them as a dataset with units."""
+        return dataset(self, self.time, _TOLD)
 
     @property
     def loss(self) -> Floats:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from nonsmooth.datasets import Told, dataset
 from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_B
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
@@ -16,7 +17,15 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.linkages import linkages
 
 if TYPE_CHECKING:
+    import xarray
+
     from nonsmooth.solution.solution import Solution
+
+_TOLD: Told = {
+    "point": (("joint", "axis"), "m", "where the joint holds the second body"),
+    "force": (("joint", "axis"), "N", "force on the second body"),
+    "moment": (("joint", "axis"), "N m", "moment on the second body about the point"),
+}
 
 
 @final
@@ -24,6 +33,7 @@ if TYPE_CHECKING:
 class JointForces:
     """What every joint, in the order of ``system.joints``, does to its second body; the first bears the opposite.
 
+    Joints are those of ``System.joint``: what a mechanism of generalised coordinates bears inside is never solved for.
     World axes; of a single time the arrays lack the axis n.  Of rows that say the same twice one bears all.
 
     Attributes
@@ -37,16 +47,23 @@ class JointForces:
         [N], shape [n, n_joints, 3].
     moment : array
         About the point [N m], shape [n, n_joints, 3].
+    joints : tuple of str
+        Names of the joints.
     """
 
     time: Floats
     point: Floats
     force: Floats
     moment: Floats
+    joints: tuple[str, ...]
 
     def __repr__(self) -> str:
         """Return of which times it is, and how much there is of it."""
         return f"JointForces({spoken(self.time)}; {self.force.shape[-2]} joints)"
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return them as a dataset with names and units."""
+        return dataset(self, self.time, _TOLD, {"joint": self.joints})
 
     @classmethod
     def of(cls, solution: Solution, times: ArrayLike | None = None) -> JointForces:
@@ -61,7 +78,8 @@ class JointForces:
                 table[:, i, j] = joint.look()
 
         known.visit(row, keep)
-        found = cls(row, *table)
+        point, force, moment = table
+        found = cls(row, point, force, moment, solution.system.names.joints)
         return found if given.ndim else of_one(found)
 
 

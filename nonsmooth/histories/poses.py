@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from nonsmooth.datasets import Told, dataset
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.states import States
@@ -16,7 +17,14 @@ from nonsmooth.interfaces import Body
 from nonsmooth.queries.places import BodyFrames
 
 if TYPE_CHECKING:
+    import xarray
+
     from nonsmooth.solution.solution import Solution
+
+_TOLD: Told = {
+    "origin": (("frame", "axis"), "m", "origins of the frames"),
+    "rotation": (("frame", "axis", "column"), "1", "axes of the frames as columns"),
+}
 
 
 @final
@@ -33,15 +41,23 @@ class Poses:
     rotation : array
         Their axes as columns, shape [n, n_frames, 3, 3]: ``origin + rotation @ x`` is the place of a point x of the
         frame.
+    body : str
+        Name of the body.
     """
 
     time: Floats
     origin: Floats
     rotation: Floats
+    body: str
 
     def __repr__(self) -> str:
         """Return of which times it is, and how much there is of it."""
         return f"Poses({spoken(self.time)}; {self.origin.shape[-2]} frames)"
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return them as a dataset with names and units."""
+        frames = [f"frame {number}" for number in range(self.origin.shape[-2])]
+        return dataset(self, self.time, _TOLD, {"frame": frames}, body=self.body)
 
     @classmethod
     def of(cls, solution: Solution, body: Body, times: ArrayLike | None = None) -> Poses:
@@ -59,5 +75,5 @@ class Poses:
         for i, t in enumerate(states.time.tolist()):
             for frame, place in enumerate(frames.at(t, q[i], u[i])):
                 origin[i, frame], rotation[i, frame] = place
-        found = cls(states.time, origin, rotation)
+        found = cls(states.time, origin, rotation, solution.system.name_of(body))
         return found if given.ndim else of_one(found)

@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from nonsmooth.datasets import Told, dataset
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
+from nonsmooth.system.labels import labels
+from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
+    import xarray
+
     from nonsmooth.solution.solution import Solution
+
+_TOLD: Told = {
+    "q": (("coordinate",), "SI, see coordinate_units", "coordinates"),
+    "u": (("velocity",), "SI, see velocity_units", "velocities"),
+    "modes": (("contact",), "1", "0 open, 1 stick, 2 slide"),
+    "law_states": (("law_state",), "SI of each law", "inner states of friction and traction laws"),
+}
 
 
 @final
@@ -33,6 +45,8 @@ class States:
     law_states : array
         Inner states of friction and traction laws, contact by contact, shape [n, n_states]; those of open contacts
         are what is left of them.
+    system : System
+        What ran.
     """
 
     time: Floats
@@ -40,10 +54,19 @@ class States:
     u: Floats
     modes: Integers
     law_states: Floats
+    system: System = field(repr=False)
 
     def __repr__(self) -> str:
         """Return of which times it is, and how much there is of it."""
         return f"States({spoken(self.time)}; {self.q.shape[-1]} coordinates, {self.modes.shape[-1]} contacts)"
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return them as a dataset with names and units; those of coordinates and velocities lie along these."""
+        known, contacts = labels(self.system), self.system.names.contacts
+        columns = {"coordinate": known.coordinates, "velocity": known.velocities}
+        names = {axis: [name for _, name, _ in rows] for axis, rows in columns.items()}
+        made = dataset(self, self.time, _TOLD, {**names, "contact": contacts})
+        return made.assign_coords({f"{axis}_units": (axis, [unit for *_, unit in columns[axis]]) for axis in columns})
 
     @classmethod
     def of(cls, solution: Solution, times: ArrayLike | None = None) -> States:
@@ -52,5 +75,5 @@ class States:
         row, known = np.atleast_1d(given), visitor(solution)
         n_q, n_u = solution.q.shape[1], solution.u.shape[1]
         q, u, _, law_states = np.split(known.states(row), np.cumsum([n_q, n_u, N_ACCOUNTS]), axis=1)
-        found = cls(row, q, u, known.modes(row), law_states)
+        found = cls(row, q, u, known.modes(row), law_states, solution.system)
         return found if given.ndim else of_one(found)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,13 @@ from nonsmooth.interfaces.shape import Shape
 from nonsmooth.parameters import Component
 
 Vector = NDArray[np.float64]
+NamesAndUnits: TypeAlias = tuple[tuple[str, str], ...]
+"""Name and unit of each of some numbers, as in (("x", "m"), ("angle", "rad"))."""
+UNITS_OF_Q, UNITS_OF_U = ("m", "rad", "1", "J"), ("m/s", "rad/s", "1/s", "W")
+"""Units that coordinates and velocities may have; a coordinate in [J] is a work that a body integrates."""
+POSE_LABELS: NamesAndUnits = tuple(zip(("x", "y", "z", "q0", "q1", "q2", "q3"), "mmm1111", strict=True))
+TWIST_LABELS: NamesAndUnits = tuple(zip(("vx", "vy", "vz", "wx", "wy", "wz"), 3 * ["m/s"] + 3 * ["rad/s"], strict=True))
+"""Those of a free body: position and unit quaternion, velocity and angular velocity."""
 
 
 class Body(Component, ABC):
@@ -37,13 +44,23 @@ class Body(Component, ABC):
 
     @property
     @abstractmethod
-    def n_q(self) -> int:
-        """Number of coordinates."""
+    def q_labels(self) -> NamesAndUnits:
+        """Name and unit of every coordinate; a quaternion is of pure numbers."""
 
     @property
     @abstractmethod
+    def u_labels(self) -> NamesAndUnits:
+        """Name and unit of every velocity."""
+
+    @property
+    def n_q(self) -> int:
+        """Number of coordinates."""
+        return len(self.q_labels)
+
+    @property
     def n_u(self) -> int:
         """Number of velocities."""
+        return len(self.u_labels)
 
     @property
     @abstractmethod

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
@@ -13,11 +12,13 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.blocks import UNTOUCHED
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.errors import InvalidInput
+from nonsmooth.packing import packed, unpacked
 
 Integers = NDArray[np.int64]
 _WIDTH = len(CATALOGUE)
-_LEVEL = 1
-"""Of compression."""
+_REMEDY = "It is damaged, or of another model: take one that a run left."
 _UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
 
 
@@ -91,7 +92,7 @@ class Difference:
         """Return it as a few bytes; places count from the one before, and next to all of them are 1."""
         sizes = np.array([len(self.places), *map(len, self.places)])
         steps = [np.diff(places, prepend=0) for places in self.places]
-        return zlib.compress(np.concatenate([sizes, *steps, *self.bits]).astype("<i8").tobytes(), _LEVEL)
+        return packed(np.concatenate([sizes, *steps, *self.bits]).astype("<i8"))
 
     @classmethod
     def unpacked(cls, content: bytes) -> Difference:
@@ -99,18 +100,34 @@ class Difference:
 
         Raises
         ------
-        ValueError, IndexError, zlib.error
+        ValueError, IndexError
             If it is none.
         """
-        numbers = np.frombuffer(zlib.decompress(content), "<i8").astype(np.int64)
+        numbers = unpacked(content, "<i8").astype(np.int64)
         n = int(numbers[0])
         sizes = numbers[1 : n + 1]
         parts = np.split(numbers[n + 1 :], np.cumsum([*sizes, *sizes])[:-1])
         return cls(tuple(np.cumsum(steps) for steps in parts[:n]), tuple(parts[n:]))
 
+    def check(self, memory: Memory) -> None:
+        """Look whether it fits a memory.
+
+        Raises
+        ------
+        InvalidInput
+            If it has other parts, or a place that is none.
+        """
+        limits = [len(own) for own in memory.bits]
+        found = [(len(places), len(bits)) for places, bits in zip(self.places, self.bits, strict=False)]
+        fits = len(self.places) == len(self.bits) == len(limits) and all(a == b for a, b in found)
+        if not fits:
+            raise InvalidInput("State.continuation", f"must have {len(limits)} parts", found, _REMEDY)
+        for places, limit in zip(self.places, limits, strict=True):
+            _check("places", places, limit)
+
     def without(self, excepted: tuple[Integers, ...]) -> Difference:
         """Return it without some places."""
-        kept = [~np.isin(places, one) for places, one in zip(self.places, excepted, strict=True)]
+        kept = [~np.isin(places, one, kind="table") for places, one in zip(self.places, excepted, strict=True)]
         return Difference(
             tuple(places[one] for places, one in zip(self.places, kept, strict=True)),
             tuple(bits[one] for bits, one in zip(self.bits, kept, strict=True)),
@@ -123,13 +140,31 @@ class Difference:
         return cls(places, tuple(part[at] for part, at in zip(image.parts, places, strict=True)))
 
     def put(self, memory: Memory) -> None:
-        """Give a memory that holds the blank image what differs from it, which may come from another process."""
+        """Give a memory that holds the blank image what differs from it, which may come from another process.
+
+        Raises
+        ------
+        InvalidInput
+            If something is no contact or no mode that would be one.
+        """
         for own, places, bits in zip(memory.bits, self.places, self.bits, strict=True):
             own[places] = bits
         # functions stand elsewhere in every process: slots take them from the catalogue of this one
         record = memory.scalars[0]
         n, slots, declared = int(record["n_contacts"]), int(record["n_slots"]), int(record["n_declared"])
         catalogue = memory.array("catalogue", _WIDTH * declared).reshape(declared, _WIDTH)
+        _check("n_contacts", np.array([n]), slots + 1)
+        _check("identity", memory.array("identity", n), declared)
+        _check("mode", np.append(memory.array("mode", n), catalogue[:, -1]), SLIDE + 1)
+        units = int(record["n_units"])
+        _check("unit_order", memory.array("unit_order", units), units)
         # the arrays of the catalogue's entries follow one another, and the mode, which is last, is each slot's own
         own = memory.array(CATALOGUE[0], _WIDTH * slots).reshape(_WIDTH, slots)
         own[:-1, :n] = catalogue[memory.array("identity", n), :-1].T
+
+
+def _check(name: str, numbers: Integers, bound: int) -> None:
+    """Raise InvalidInput unless all of some indices, codes or counts are below a bound."""
+    wrong = numbers[(numbers < 0) | (numbers >= bound)]
+    if len(wrong) > 0:
+        raise InvalidInput(f"State.continuation: {name}", f"must be from 0 to {bound - 1}", int(wrong[0]), _REMEDY)

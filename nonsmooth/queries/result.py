@@ -4,12 +4,25 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
-from typing import final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 
+from nonsmooth.datasets import Told, dataset
 from nonsmooth.interfaces.solid import Vector
 
+if TYPE_CHECKING:
+    import xarray
+
+_TOLD: Told = {
+    "gap": ((), "m", "distance, or minus a way that parts them"),
+    "lower": ((), "m", "what the gap is not below"),
+    "upper": ((), "m", "what the gap is not above"),
+    "first": (("axis",), "m", "nearest point of the first body"),
+    "second": (("axis",), "m", "nearest point of the second body"),
+    "normal": (("axis",), "1", "from the first body to the second"),
+    "how": ((), "1", "how it was found"),
+}
 EXACT, PLANES = "exact", "planes"
 """Ways in which a distance is found, beside the names of libraries."""
 
@@ -73,6 +86,8 @@ class DistanceHistory:
         Points [m] and unit vectors, shape [n, 3].
     how : tuple of str
         How each was found.
+    bodies : tuple of str
+        Names of the two bodies.
     """
 
     t: Vector
@@ -83,6 +98,7 @@ class DistanceHistory:
     second: Vector
     normal: Vector
     how: tuple[str, ...]
+    bodies: tuple[str, str]
 
     def __repr__(self) -> str:
         """Return the least gap, when it is, and how often which way told."""
@@ -92,10 +108,14 @@ class DistanceHistory:
         ways = ", ".join(f"{way} {n}" for way, n in Counter(self.how).most_common())
         return f"DistanceHistory(least gap {self.gap[least]:.6g} m at t = {self.t[least]:.6g} s; told by {ways})"
 
+    def to_xarray(self) -> xarray.Dataset:
+        """Return it as a dataset with units."""
+        return dataset(self, self.t, _TOLD, first_body=self.bodies[0], second_body=self.bodies[1])
+
     @classmethod
-    def of(cls, t: Vector, results: list[DistanceResult]) -> DistanceHistory:
-        """Return the history of some results."""
+    def of(cls, t: Vector, results: list[DistanceResult], bodies: tuple[str, str]) -> DistanceHistory:
+        """Return the history of some results for two bodies of these names."""
         gap, lower, upper = np.array([(one.gap, one.lower, one.upper) for one in results]).reshape(-1, 3).T
         points = [(one.first, one.second, one.normal) for one in results]
         first, second, normal = np.moveaxis(np.array(points).reshape(-1, 3, 3), 1, 0)
-        return cls(t, gap, lower, upper, first, second, normal, tuple(one.how for one in results))
+        return cls(t, gap, lower, upper, first, second, normal, tuple(one.how for one in results), bodies)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import platform
 import sys
 from collections.abc import Mapping
@@ -49,7 +50,8 @@ class Output:
         return self.folder / SOLUTION
 
 
-def versions() -> dict[str, str]:
+@functools.cache
+def versions() -> Mapping[str, str]:
     """Return the versions on which the last bits of a run hang."""
     found = {
         "nonsmooth": version("nonsmooth"),

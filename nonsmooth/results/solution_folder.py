@@ -219,7 +219,6 @@ class SolutionFolder:
         """
         self._put_checkpoint(events, rows, state, wall)
         self._commit()
-        self._arrays.spell_out()
 
     def _put_checkpoint(self, events: Events, rows: Floats, state: State, wall: float) -> None:
         lengths = self._write(events, rows)
@@ -253,7 +252,7 @@ class SolutionFolder:
             self.attributes.pop("checkpoint", None)
         self._lengths = lengths
         self._commit()
-        self._arrays.spell_out()
+        self._arrays.spell_out(self._arrays.names)
         if "checkpoint" not in self.attributes:
             for name in _STATES:
                 (self._arrays.path / name).unlink(missing_ok=True)
@@ -281,7 +280,7 @@ class SolutionFolder:
             attributes = {"units": "SI", "long_name": f"coordinate of the scenario: {name}"}
             self._arrays.add(Variable(name, ("time",), values, attributes), grows=True)
         self._arrays.commit()
-        self._arrays.spell_out()
+        self._arrays.spell_out(coordinates)
 
     def close(self) -> None:
         """Let others write there."""
@@ -350,7 +349,7 @@ def _attributes(output: Output, engine: Engine, t_end: float, conditional: bool)
         "t_end_asked": t_end,
         "conditional": int(conditional),
         "engine": json.dumps(_table(engine)),
-        "versions": json.dumps(known),
+        "versions": json.dumps(dict(known)),
         "request": json.dumps(dict(output.request)),
         "parameters": json.dumps(dict(output.parameters)),
     }

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import io
 import zipfile
-import zlib
 from typing import Any
 
 import numpy as np
@@ -48,6 +47,6 @@ def state_from(content: bytes, thing: str) -> State:
         if "model" in arrays:
             difference = Difference.unpacked(arrays["difference"].tobytes())
             state = state.with_continuation(Continuation(str(arrays["model"]), difference, int(arrays["told"])))
-    except (OSError, ValueError, KeyError, IndexError, TypeError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+    except (OSError, ValueError, OverflowError, KeyError, IndexError, TypeError, EOFError, zipfile.BadZipFile) as error:
         raise InvalidInput(thing, "must hold a state", f"{type(error).__name__}: {error}", "It is damaged.") from error
     return state

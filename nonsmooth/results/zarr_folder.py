@@ -2,8 +2,8 @@
 
 A commit is seen as a whole or not at all, by readers and after a power cut: chunks come first, each written beside the
 one that it replaces, then the consolidated metadata, one file with the lengths of all arrays.  What a chunk holds
-beyond the length of its array does not count.  No library for the format promises that order, nor that a file is safe
-on the disk before it takes its name; that is all that is done here.
+beyond the length of its array does not count; a chunk that is new has its name at once.  No library for the format
+promises that order, nor that a file is safe on the disk before it takes its name; that is all that is done here.
 """
 
 from __future__ import annotations
@@ -12,9 +12,8 @@ import json
 import os
 import re
 import shutil
-import zlib
 from collections.abc import Iterable, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
@@ -23,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.packing import CODEC, packed, unpacked
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.variable import Variable
 
@@ -30,8 +30,6 @@ _GROUP = {"zarr_format": 2}
 _CONSOLIDATED = ".zmetadata"
 _ENTRIES = 2**14
 """Entries of a chunk of an array that grows: the last one is written anew with every commit."""
-_LEVEL = 1
-"""Of compression; higher ones take longer and make hardly less of such numbers."""
 _AT_ONCE = 16
 """Files for which the disk is waited for at once."""
 _NAME = re.compile(r"\w+")
@@ -92,7 +90,8 @@ class ZarrFolder:
     def _describe(self, name: str, entry: dict[str, Any], attributes: dict[str, Any]) -> None:
         dimensions, dtype = tuple(map(str, attributes.pop("_ARRAY_DIMENSIONS"))), np.dtype(str(entry["dtype"]))
         shape, chunks = [int(n) for n in entry["shape"]] or [1], [int(n) for n in entry["chunks"]] or [1]
-        if not _NAME.fullmatch(name) or dtype.kind not in _KINDS or min(shape) < 0 or min(chunks) < 1:
+        is_known = dtype.kind in _KINDS and entry["compressor"] == CODEC
+        if not _NAME.fullmatch(name) or not is_known or min(shape) < 0 or min(chunks) < 1:
             raise ValueError(f"the array {name!r} has a form that is not written here")
         self._arrays[name] = _Array(dimensions, dtype.str, tuple(shape[1:]), chunks[0], attributes)
         self._lengths[name] = shape[0]
@@ -134,11 +133,13 @@ class ZarrFolder:
         rows = np.asarray(rows, array.dtype)
         for number in range(start // array.chunk, -(-end // array.chunk) if rows.size else 0):
             first = number * array.chunk
-            content = self._chunk(name, number)
             low, high = max(start, first), min(end, first + array.chunk)
-            content[low - first : high - first] = rows[low - start : high - start]
-            self._tails[name] = number, content
-            self._put(self._place(name, number), zlib.compress(content.tobytes(), _LEVEL))
+            content = rows[low - start : high - start]
+            if len(content) < array.chunk:
+                tail = self._chunk(name, number)
+                tail[low - first : high - first] = content
+                self._tails[name], content = (number, tail), tail
+            self._put(self._place(name, number), packed(content))
         self._lengths[name] = end
 
     def read(self, name: str) -> NDArray[Any]:
@@ -184,11 +185,12 @@ class ZarrFolder:
         FileError
             If that is not possible; then the last commit counts.
         """
-        _to_disk(self._waiting.values())
-        _to_disk(self._rename())
-        self._announce()
-        _to_disk(self._waiting.values())
-        _to_disk(self._rename())
+        with ThreadPoolExecutor(_AT_ONCE) as pool:
+            _to_disk(pool, self._waiting.values())
+            _to_disk(pool, self._rename())
+            self._announce()
+            _to_disk(pool, self._waiting.values())
+            _to_disk(pool, self._rename())
 
     def commit(self) -> None:
         """Let all that was written since the last commit count, at once; how soon it is on the disk the system says.
@@ -209,17 +211,18 @@ class ZarrFolder:
         # zarr takes the group's own attributes from there
         for key in (".zgroup", ".zattrs"):
             self._put(self.path / key, _json(entries[key]))
-        self._put(self.path / _CONSOLIDATED, _json({"metadata": entries, "zarr_consolidated_format": 1}))
+        path = self.path / _CONSOLIDATED
+        self._write_part(path, _beside(path), _json({"metadata": entries, "zarr_consolidated_format": 1}))
 
-    def spell_out(self) -> None:
-        """Write the metadata of every array by themselves as well, for readers that look there.
+    def spell_out(self, names: Iterable[str]) -> None:
+        """Write the metadata of some arrays by themselves as well, for readers that look there.
 
         Raises
         ------
         FileError
             If that is not possible.
         """
-        for name in self._arrays:
+        for name in names:
             for key, entry in self._metadata(name).items():
                 self._put(self.path / name / key, _json(entry))
         self._rename()
@@ -247,7 +250,7 @@ class ZarrFolder:
             "shape": shape if array.dimensions else [],
             "chunks": chunks if array.dimensions else [],
             "dtype": array.dtype,
-            "compressor": {"id": "zlib", "level": _LEVEL},
+            "compressor": CODEC,
             "fill_value": None,
             "order": "C",
             "filters": None,
@@ -266,9 +269,8 @@ class ZarrFolder:
     def _stored(self, name: str, number: int) -> NDArray[Any]:
         array, path = self._arrays[name], self._place(name, number)
         try:
-            content = np.frombuffer(zlib.decompress(path.read_bytes()), array.dtype).copy()
-            return content.reshape((array.chunk, *array.inner))
-        except (OSError, ValueError, zlib.error) as error:
+            return unpacked(path.read_bytes(), array.dtype).reshape((array.chunk, *array.inner))
+        except (OSError, ValueError) as error:
             raise InvalidInput(str(path), "must be a whole chunk", f"{error}", "Results are damaged there.") from error
 
     def _place(self, name: str, number: int) -> Path:
@@ -276,9 +278,13 @@ class ZarrFolder:
         return self.path / name / ".".join(map(str, (number, *(0 for _ in array.inner))))
 
     def _put(self, path: Path, content: bytes) -> None:
-        part = path.with_name(f".{path.name}.part")
+        # to take the place of a file makes the system wait for the disk
+        self._write_part(path, _beside(path) if path.exists() else path, content)
+
+    def _write_part(self, path: Path, part: Path, content: bytes) -> None:
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
+            if not path.parent.exists():
+                path.parent.mkdir(parents=True)
             self._waiting[path] = part
             part.write_bytes(content)
         except OSError as error:
@@ -289,6 +295,8 @@ class ZarrFolder:
         """Let what was written take its names; return the folders in which it did."""
         folders = {path.parent for path in self._waiting}
         for path, part in self._waiting.items():
+            if part == path:
+                continue
             try:
                 os.replace(part, path)
             except OSError as error:
@@ -297,14 +305,18 @@ class ZarrFolder:
         return folders
 
 
+def _beside(path: Path) -> Path:
+    """Return where a file is written before it takes its name."""
+    return path.with_name(f".{path.name}.part")
+
+
 def _json(entry: Mapping[str, Any]) -> bytes:
     return json.dumps(entry, allow_nan=False).encode()
 
 
-def _to_disk(paths: Iterable[Path]) -> None:
+def _to_disk(pool: Executor, paths: Iterable[Path]) -> None:
     """Wait until files or folders are safe on the disk: at once, as it waits for all of them no longer than for one."""
-    with ThreadPoolExecutor(_AT_ONCE) as pool:
-        list(pool.map(_sync, list(paths)))
+    list(pool.map(_sync, list(paths)))
 
 
 def _sync(path: Path) -> None:

@@ -7,11 +7,15 @@ import hashlib
 import numpy as np
 
 from nonsmooth.engine.memory.layout import CATALOGUE
-from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
+from nonsmooth.engine.memory.tables import ARRAYS_OF, CONSTANT_SCALARS, COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
 from nonsmooth.model.image import Image, Integers
 from nonsmooth.model.laid_out import LaidOut
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "rooms")
+_CHANGING = {"facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent", *CATALOGUE}
+"""Integers of the bodies that a run changes; all others say where something stands."""
+_STANDING = (*_FUNCTIONS, *(name for name in ARRAYS_OF["bodies"].integers if name not in _CHANGING))
+_NUMERICS = tuple(ARRAYS_OF["numerics"].floats)
 _COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]
 _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,), CATALOGUE)).encode()).digest()
 
@@ -48,16 +52,18 @@ def constants(model: LaidOut, blank: Image) -> tuple[Integers, ...]:
     record = blank.parts[0].copy().view(SCALARS)
     known = list(SCALARS.names or ())
     scalars = [known.index(name) for name in (*CONSTANT_SCALARS, "impact_map", "watch")]
-    ranges = [range(int(record[name][0]), int(record[name][0]) + _size(record, name)) for name in _FUNCTIONS]
+    ranges, numerics = (
+        [np.arange(_size(record, name)) + int(record[name][0]) for name in names] for names in (_STANDING, _NUMERICS)
+    )
     start, width = int(record["catalogue"][0]), len(CATALOGUE)
     rows = start + np.arange(width * int(record["n_declared"][0])).reshape(-1, width)
     blocks = np.array([place - model.memory.blocks for place, _, _ in model.memory.references], dtype=np.int64)
-    integers = np.concatenate([*map(np.array, ranges), rows[:, :-1].ravel()]).astype(np.int64)
-    return np.array(scalars), np.zeros(0, np.int64), blocks, integers
+    integers = np.concatenate([*ranges, rows[:, :-1].ravel()]).astype(np.int64)
+    return np.array(scalars), np.concatenate(numerics), blocks, integers
 
 
 def _size(record: np.ndarray, name: str) -> int:
-    return int(INTEGER_ARRAYS[name]({count: int(record[count][0]) for count in COUNTS}))
+    return int((FLOAT_ARRAYS | INTEGER_ARRAYS)[name]({count: int(record[count][0]) for count in COUNTS}))
 
 
 def _kinds(model: LaidOut) -> bytes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import math
 import threading
 import time
@@ -17,18 +18,18 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.copying import copied
-from nonsmooth.model.image import Guards, Image
+from nonsmooth.model.image import Guards, Image, Integers
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.runs.identity import digest
+from nonsmooth.runs.identity import constants, digest
 from nonsmooth.runs.keeper import Keeper, KeepsNothing
 from nonsmooth.runs.loop import Ending, Progress, run_engine
 from nonsmooth.runs.outcome import reason, solution_of, state_of
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import Until
-from nonsmooth.runs.start import begin, check_closed, check_state, go_on, restore
+from nonsmooth.runs.start import begin, check_arrays, check_closed, check_start_numbers, go_on, restore
 from nonsmooth.runs.writer import Writer
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.solution import Solution
@@ -118,6 +119,10 @@ class Model:
         check_start(made._laid)
         return made
 
+    @functools.cached_property
+    def _standing(self) -> tuple[Integers, ...]:
+        return constants(self._laid, self._blank)
+
     def _copied(self) -> LaidOut:
         with self._alone("copy"):
             self._blank.put(self._laid.memory)
@@ -181,8 +186,10 @@ class Model:
             If the run cannot go on, or cannot be written any more; its ``solution`` holds what was computed.
         """
         state = self._start if start is None else start
-        if state is not self._start and not self._left(state):
-            check_state(self._laid, state)
+        if state is not self._start:
+            check_arrays(self._laid, state)
+            if not self._left(state):
+                check_start_numbers(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
         with self._alone("run"):
             where = None if output is None else Output.to(output)
@@ -234,11 +241,7 @@ class Model:
         with self._alone("resume"), contextlib.closing(folder):
             laid = self._laid
             self._records = records = Records(laid, (folder.events(), folder.rows()))
-            try:
-                restore(laid, self._blank, state)
-            except (ValueError, IndexError) as error:
-                thing = f"{Output.to(output).solution}: state"
-                raise InvalidInput(thing, "must fit the model", str(error), "It is damaged.") from error
+            restore(laid, self._blank, state, self._standing)
             energy = state.energy.kinetic_start, state.energy.potential_start
             wall = float(folder.said("checkpoint")["wall_seconds"])
             keeper = Writer(folder, records, self._states_from(energy), wall)
@@ -270,7 +273,7 @@ class Model:
             begun.put(laid.memory)
             energy = self._energy
         elif self._left(state):
-            go_on(laid, self._blank, state)
+            go_on(laid, self._blank, state, self._standing)
             records.begin_with(state)
             energy = state.energy.kinetic_start, state.energy.potential_start
         else:

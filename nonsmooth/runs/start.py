@@ -9,32 +9,35 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.identity import constants
-from nonsmooth.solution.state import State
+from nonsmooth.solution.state import Continuation, Integers, State
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 _COUNTERS = ("steps", "rejected", "impacts", "impact_steps", "gap_looks", "listings")
 _OUTPUT = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats", "stopped")
 """What stands in buffers that Python has emptied."""
+_WHOLE = ("modes", "guards_spent")
+_NUMBERS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
+_REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
 _UNIT = 1e-9
 """By how much a quaternion may be off unit length."""
 _NOT_CLOSED = 1e3
 """A contact that is closed may have a gap of so many gap tolerances."""
 
 
-def check_state(model: LaidOut, state: State) -> None:
-    """Look whether a state can be one of the model.
+def check_arrays(model: LaidOut, state: State) -> None:
+    """Look whether a state has the arrays of the model.
 
     Raises
     ------
     InvalidInput
-        If it has other numbers of anything, a number is not finite, a quaternion not unit, or a mode unknown.
+        If it has other numbers of anything, or a mode or a mark that is none.
     """
-    system, n = model.system, len(model.system.contacts)
+    n = len(model.system.contacts)
     shapes = {
         "q": (model.n_q,),
         "u": (model.n_u,),
@@ -43,28 +46,44 @@ def check_state(model: LaidOut, state: State) -> None:
         "closing_rates": (n,),
         "features": (n, CANDIDATE),
         "law_states": (model.n_states,),
-        "guards_spent": (len(system.guards),),
+        "guards_spent": (len(model.system.guards),),
     }
-    remedy = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
+    if not math.isfinite(state.time):
+        raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
     for name, shape in shapes.items():
-        value = np.asarray(getattr(state, name))
+        value, kinds = np.asarray(getattr(state, name)), "biu" if name in _WHOLE else "biuf"
+        if value.dtype.kind not in kinds:
+            rule = f"must be {'whole ' if name in _WHOLE else ''}numbers"
+            raise InvalidInput(f"State.{name}", rule, f"an array of {value.dtype}", _REMEDY)
         if value.shape != shape:
-            raise InvalidInput(f"State.{name}", f"must have the shape {shape} of this model", value.shape, remedy)
+            raise InvalidInput(f"State.{name}", f"must have the shape {shape} of this model", value.shape, _REMEDY)
+    if not np.all(np.isin(state.modes, (OPEN, STICK, SLIDE))):
+        raise InvalidInput("State.modes", "must be 0 (open), 1 (stick) or 2 (slide)", state.modes.tolist(), _REMEDY)
+    if not np.all(np.isin(state.guards_spent, (0, 1))):
+        raise InvalidInput("State.guards_spent", "must be 0 or 1", state.guards_spent.tolist(), _REMEDY)
+
+
+def check_start_numbers(model: LaidOut, state: State) -> None:
+    """Look whether a run may begin with the numbers of a state.
+
+    Raises
+    ------
+    InvalidInput
+        If one is not finite, or a quaternion not unit.
+    """
+    for name in _NUMBERS:
+        value = np.asarray(getattr(state, name))
         if not np.all(np.isfinite(value)):
             number = int(np.flatnonzero(~np.isfinite(value.ravel()))[0])
             remedy = f"Look at entry {number}; a run that failed may leave such a state."
             raise InvalidInput(f"State.{name}", "must be finite numbers", float(value.ravel()[number]), remedy)
-    if not math.isfinite(state.time):
-        raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
-    if not np.all(np.isin(state.modes, (0, 1, 2))):
-        raise InvalidInput("State.modes", "must be 0 (open), 1 (stick) or 2 (slide)", state.modes.tolist(), remedy)
     first = 0
-    for body in system.bodies:
+    for body in model.system.bodies:
         if body.quaternion >= 0:
             start = first + body.quaternion
             length = float(np.linalg.norm(state.q[start : start + 4]))
             if not abs(length - 1.0) <= _UNIT:
-                thing = f"State.q[{start}:{start + 4}], the quaternion of {system.name_of(body)!r},"
+                thing = f"State.q[{start}:{start + 4}], the quaternion of {model.system.name_of(body)!r},"
                 raise InvalidInput(thing, "must have unit length", length, "Divide it by its norm.")
         first += body.n_q
 
@@ -75,8 +94,30 @@ def begin(model: LaidOut, blank: Image, state: State) -> None:
     Raises
     ------
     InvalidInput
-        If these are too many.
+        If these are too many, or a closed contact has features that are not near each other.
     """
+    if model.memory.scalars["n_pools"][0] > 0 and np.any(state.modes):
+        _check_features(model, blank, state)
+    _place(model, blank, state, state.modes)
+
+
+def _check_features(model: LaidOut, blank: Image, state: State) -> None:
+    """Raise InvalidInput if a search does not find the features of a closed contact: nobody else knows them."""
+    _place(model, blank, state, np.full(len(state.modes), OPEN))
+    n = len(state.modes)
+    places = model.memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))[:, _PLACE]
+    for number in np.flatnonzero((places > 0) & (state.modes != OPEN)).tolist():
+        if not np.array_equal(model.memory.floats[places[number] :][:CANDIDATE], state.features[number]):
+            raise InvalidInput(
+                f"State.features[{number}], of the closed {model.system.contacts[number]},",
+                "must be features that are near each other",
+                state.features[number].tolist(),
+                "Where q has been changed, begin with State.at(system, time, q, u).",
+            )
+
+
+def _place(model: LaidOut, blank: Image, state: State, modes: Integers) -> None:
+    """Put a model where a state is, with such modes, and list the contacts that are near each other there."""
     blank.put(model.memory)
     memory, scalars, n = model.memory, model.memory.scalars, len(model.system.contacts)
     scalars["t"] = state.time
@@ -85,7 +126,7 @@ def begin(model: LaidOut, blank: Image, state: State) -> None:
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
     rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
-    rows[:, _MODE], floats[:, CLOSING_RATE] = state.modes, state.closing_rates
+    rows[:, _MODE], floats[:, CLOSING_RATE] = modes, state.closing_rates
     floats[:, DIRECTION : DIRECTION + 2] = state.slip_directions
     places = rows[:, _PLACE]
     for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
@@ -118,12 +159,17 @@ def check_closed(model: LaidOut, state: State) -> None:
             )
 
 
-def go_on(model: LaidOut, blank: Image, state: State) -> None:
-    """Put a model in the midst of the run that left a state, and goes on."""
-    continuation = state.continuation
-    assert continuation is not None
-    blank.put(model.memory)
-    continuation.difference.put(model.memory)
+def go_on(model: LaidOut, blank: Image, state: State, standing: tuple[Integers, ...]) -> None:
+    """Put a model in the midst of the run that left a state, and goes on.
+
+    ``standing`` are the places that no run changes (:func:`nonsmooth.runs.identity.constants`).
+
+    Raises
+    ------
+    InvalidInput
+        If what comes from a file cannot be of such a run.
+    """
+    continuation = _continue(model, blank, state, standing)
     scalars = model.memory.scalars
     for name in (*_COUNTERS, *_OUTPUT):
         scalars[name] = 0
@@ -132,13 +178,24 @@ def go_on(model: LaidOut, blank: Image, state: State) -> None:
     scalars["told"], scalars["resumed"] = continuation.told, 1
 
 
-def restore(model: LaidOut, blank: Image, state: State) -> None:
-    """Put a model where a run was cut off, in the midst of whatever it was told at its start."""
-    continuation = state.continuation
-    assert continuation is not None
-    blank.put(model.memory)
-    continuation.difference.without(constants(model, blank)).put(model.memory)
+def restore(model: LaidOut, blank: Image, state: State, standing: tuple[Integers, ...]) -> None:
+    """Put a model where a run was cut off, in the midst of whatever it was told at its start; as :func:`go_on`."""
+    _continue(model, blank, state, standing)
     scalars = model.memory.scalars
     for name in _OUTPUT:
         scalars[name] = 0
     scalars["resumed"] = scalars["started"]
+
+
+def _continue(model: LaidOut, blank: Image, state: State, standing: tuple[Integers, ...]) -> Continuation:
+    continuation = state.continuation
+    assert continuation is not None
+    blank.put(model.memory)
+    continuation.difference.check(model.memory)
+    continuation.difference.without(standing).put(model.memory)
+    t, told = float(model.memory.scalars["t"][0]), continuation.told
+    if not t <= state.time or told < 0:
+        raise InvalidInput(
+            "State.continuation", f"must begin before {state.time:.9g} s", (t, told), "It is damaged: take another."
+        )
+    return continuation

@@ -219,7 +219,10 @@ class Solution:
         return ContactForces.of(self, times)
 
     def joint_forces(self, times: ArrayLike | None = None) -> JointForces:
-        """Return forces and moments that the joints bear at times, which are those of :meth:`at`."""
+        """Return forces and moments that the joints bear at times, which are those of :meth:`at`.
+
+        Joints are those of ``System.joint``, and not what generalised coordinates of a mechanism stand for.
+        """
         from nonsmooth.histories.joint_forces import JointForces
 
         return JointForces.of(self, times)

@@ -48,7 +48,9 @@ class State:
     """Where a run stands.
 
     A state that a run left goes on as if that run had not stopped, on the same model.  One that was made otherwise,
-    also by :func:`dataclasses.replace`, and any on a model with other numbers, is a start: what touches is found anew.
+    also by :func:`dataclasses.replace`, and any on a model with other numbers, is a start: what touches is found anew,
+    and so is the way of slip that an oriented law takes its contacts to face: from the slip where they slide, from the
+    force that the first instant solves for where they stick.
 
     Attributes
     ----------

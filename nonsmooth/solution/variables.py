@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.labels import labels
 from nonsmooth.solution.variable import Variable
+from nonsmooth.system.labels import labels
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]
@@ -58,8 +58,11 @@ def of_system(system: System) -> list[Variable]:
         between = [known[id(getattr(contact, which))] for contact in contacts]
         found.append(_words(f"contact_{which}_body", "contact", between, f"{which} body of the contact"))
     for role in ("normal", "friction", "impact"):
-        laws = [repr(getattr(contact, role)) for contact in contacts]
-        found.append(_words(f"contact_{role}", "contact", laws, f"law of the contact: {role}"))
+        laws = [getattr(contact, role) for contact in contacts]
+        words = {key: repr(law) for key, law in {id(law): law for law in laws}.items()}
+        found.append(
+            _words(f"contact_{role}", "contact", [words[id(law)] for law in laws], f"law of the contact: {role}")
+        )
     directions = ("normal", "first tangent", "second tangent")
     return [*found, _words("direction", "direction", directions, "direction at a contact")]
 

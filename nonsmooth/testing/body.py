@@ -9,6 +9,7 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
+from nonsmooth.interfaces.body import UNITS_OF_Q, UNITS_OF_U
 from nonsmooth.testing import block
 from nonsmooth.testing.block import state, state_space, written
 from nonsmooth.testing.body_frames import frame_rows
@@ -35,7 +36,7 @@ def check_body(body: Body) -> list[Property]:
     rows = [
         (
             "start",
-            "the start has the sizes that the body names, and unknown words are refused",
+            "the start has the sizes that the body names, each number a unit, and unknown words are refused",
             lambda: _check_start(body),
         ),
         (
@@ -75,6 +76,10 @@ def _check_start(body: Body) -> None:
     for name, scale, size in zip(("q", "u"), body.scales, (body.n_q, body.n_u), strict=True):
         if np.shape(scale) != (size,) or not np.all(np.isfinite(scale)) or not np.all(np.asarray(scale) > 0.0):
             raise Broken(f"`scales` must give {size} positive numbers", name, scale)
+    for name, labels, units in (("q_labels", body.q_labels, UNITS_OF_Q), ("u_labels", body.u_labels, UNITS_OF_U)):
+        wrong = [label for label in labels if not label[0] or label[1] not in units]
+        if wrong or len(dict(labels)) < len(labels):
+            raise Broken(f"`{name}` must give each number a name of its own and a unit of {units}", name, labels)
     if body.quaternion >= 0 and abs(float(np.linalg.norm(q[body.quaternion : body.quaternion + 4])) - 1.0) > 1e-12:
         raise Broken("the quaternion has no unit length", "quaternion", q.tolist())
     if not body.time_scale > 0.0:

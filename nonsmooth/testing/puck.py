@@ -28,6 +28,7 @@ from nonsmooth.engine.memory.blocks import (
 )
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, CompliantNormalLaw, ContactKinematics, ImpactLaw, NormalLaw, Shape, TangentialLaw
+from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.contact import Contact
@@ -146,12 +147,12 @@ class _Slab(Body):
         return ((_Spot(),),)
 
     @property
-    def n_q(self) -> int:
-        return 0
+    def q_labels(self) -> NamesAndUnits:
+        return ()
 
     @property
-    def n_u(self) -> int:
-        return 0
+    def u_labels(self) -> NamesAndUnits:
+        return ()
 
     @property
     def quaternion(self) -> int:
@@ -210,14 +211,14 @@ class Puck(Body):
         return ((_Spot(),),)
 
     @property
-    def n_q(self) -> int:
+    def q_labels(self) -> NamesAndUnits:
         """Its position."""
-        return 3
+        return POSE_LABELS[:3]
 
     @property
-    def n_u(self) -> int:
+    def u_labels(self) -> NamesAndUnits:
         """Velocity and angular velocity."""
-        return 6
+        return TWIST_LABELS
 
     @property
     def quaternion(self) -> int:

@@ -14,6 +14,7 @@ from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, PAIR, ROTATION, SPIN
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
+from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
@@ -52,12 +53,12 @@ class _Carrier(Body):
         return ((self.shape,),)
 
     @property
-    def n_q(self) -> int:
-        return 7
+    def q_labels(self) -> NamesAndUnits:
+        return POSE_LABELS
 
     @property
-    def n_u(self) -> int:
-        return 6
+    def u_labels(self) -> NamesAndUnits:
+        return TWIST_LABELS
 
     @property
     def quaternion(self) -> int:

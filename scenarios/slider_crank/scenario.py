@@ -77,9 +77,9 @@ class SliderCrank(Scenario):
         corners = tuple(Point(i * x, 0.0, j * z) for j in (-1.0, 1.0) for i in (-1.0, 1.0))
         body = GeneralisedBody(
             coordinates=(
-                Coordinate("theta_1", 0.0, self.crank_rate, scale=0.1, rate_scale=10.0),
-                Coordinate("theta_2", 0.0, self.rod_rate, scale=0.1, rate_scale=10.0),
-                Coordinate("theta_3", 0.0, 0.0, scale=0.1, rate_scale=10.0),
+                Coordinate("theta_1", "rad", 0.0, self.crank_rate, scale=0.1, rate_scale=10.0),
+                Coordinate("theta_2", "rad", 0.0, self.rod_rate, scale=0.1, rate_scale=10.0),
+                Coordinate("theta_3", "rad", 0.0, 0.0, scale=0.1, rate_scale=10.0),
             ),
             mass=mechanism.mass,
             force=mechanism.force,

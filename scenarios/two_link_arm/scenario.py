@@ -100,7 +100,7 @@ class TwoLinkArm(Scenario):
         """Return arm and belt at their start."""
         first, second = self.angle, self.second_angle
         body = GeneralisedBody(
-            coordinates=(Coordinate("theta_1", first), Coordinate("theta_2", second)),
+            coordinates=(Coordinate("theta_1", "rad", first), Coordinate("theta_2", "rad", second)),
             mass=arm.mass,
             force=arm.force,
             potential=arm.potential,

@@ -88,9 +88,9 @@ class Woodpecker(Scenario):
         point = (Point(),)
         body = GeneralisedBody(
             coordinates=(
-                Coordinate("y", 0.0, -0.3411, scale=0.01, rate_scale=0.1),
-                Coordinate("phi_m", jammed, 0.0, scale=0.1),
-                Coordinate("phi_s", -0.2788, -7.4583, scale=0.1),
+                Coordinate("y", "m", 0.0, -0.3411, scale=0.01, rate_scale=0.1),
+                Coordinate("phi_m", "rad", jammed, 0.0, scale=0.1),
+                Coordinate("phi_s", "rad", -0.2788, -7.4583, scale=0.1),
             ),
             mass=toy.mass,
             force=toy.force,

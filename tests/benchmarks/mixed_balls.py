@@ -6,8 +6,6 @@ to rest.  A variant gives all contacts one coefficient of friction, or another i
 many balls; all variants run by default.  A line a variant: how many seeds ended, how many of them at rest, and the
 longest run [s]; every seed that did not end is listed with its reason.
 
-At rest, the forces are looked for once more by a solver that is not the engine's: Moreau's rule in one step from rest,
-swept to the end on the exact cone, with a residual relative to the greatest weight.
 """
 
 from __future__ import annotations
@@ -36,8 +34,8 @@ BOX = {"steel": ("rubber", "steel"), "rubber": ("rubber", "rubber")}
 T_END = 4.0
 LIMIT = 20.0
 """A run that takes longer counts as one that does not end [s]."""
-_AT_REST = 1e-9
-"""Kinetic energy at rest, of that of the fall."""
+_AT_REST = 1e-6
+"""Speed of centres that counts as rest [m/s]; balls may spin about the vertical for ever."""
 
 Impact = Callable[[float], ImpactLaw]
 
@@ -100,7 +98,7 @@ def build(variant: str, seed: int) -> ns.System:
 
 
 def run(variant: str, seed: int) -> tuple[str, float, float, float, int]:
-    """Return why the run ended, its wall time [s], its time [s], its kinetic energy over that at first, its events."""
+    """Return why the run ended, its wall time [s], its time [s], the greatest speed of a centre [m/s], its events."""
     warnings.simplefilter("ignore")
     model = ns.assemble(build(variant, seed))
     began = time.perf_counter()
@@ -110,8 +108,8 @@ def run(variant: str, seed: int) -> tuple[str, float, float, float, int]:
     except ns.RunFailed as error:
         solution, reason = error.solution, error.solution.message
     wall = time.perf_counter() - began
-    kinetic = solution.energies().kinetic
-    return reason, wall, solution.t_end, float(kinetic[-1] / max(kinetic)), len(solution.events.time)
+    speed = max(np.linalg.norm(solution.of(ball)[1][-1, :3]) for ball in model.system.bodies if isinstance(ball, Ball))
+    return reason, wall, solution.t_end, float(speed), len(solution.events.time)
 
 
 def _too_long(began: float, _so_far: object) -> bool:

@@ -15,6 +15,7 @@ from nonsmooth.engine.memory.blocks import GEOMETRY
 from nonsmooth.engine.native.kernel import call_room
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, Shape
+from nonsmooth.interfaces.body import NamesAndUnits
 from nonsmooth.model.assembly import assemble
 from nonsmooth.parameters import Value
 
@@ -68,14 +69,14 @@ class Stand(Body):
         return (self.carried,)
 
     @property
-    def n_q(self) -> int:
+    def q_labels(self) -> NamesAndUnits:
         """0: at rest."""
-        return 0
+        return ()
 
     @property
-    def n_u(self) -> int:
+    def u_labels(self) -> NamesAndUnits:
         """0: at rest."""
-        return 0
+        return ()
 
     @property
     def quaternion(self) -> int:

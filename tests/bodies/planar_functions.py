@@ -50,10 +50,14 @@ def no_bias(q: Floats, u: Floats, out: Floats) -> None:
     pass
 
 
+def _coordinate(name: str, start: float, rate: float) -> Coordinate:
+    return Coordinate(name, "rad" if name == "a" else "m", start, rate)
+
+
 def planar(
     frames: Any, weight: float, inertia: float, q: Any = (0, 0, 0), u: Any = (0, 0, 0), **more: Any
 ) -> GeneralisedBody:
-    coordinates = tuple(Coordinate(n, float(a), float(b)) for n, a, b in zip("xza", q, u, strict=True))
+    coordinates = tuple(_coordinate(n, float(a), float(b)) for n, a, b in zip("xza", q, u, strict=True))
     constants = {"weight": weight, "inertia": inertia, **more}
     return GeneralisedBody(coordinates, rigid_mass, weight_force, weight_potential, tuple(frames), constants)
 

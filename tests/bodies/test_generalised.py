@@ -104,7 +104,7 @@ def test_the_work_of_a_damper() -> None:
     """It is the last coordinate, comes off the potential energy and closes the account; the motion is known."""
     weight, spring, damper = 2.0, 50.0, 3.0
     body = GeneralisedBody(
-        (Coordinate("x", 0.1),),
+        (Coordinate("x", "m", 0.1),),
         _unit,
         _damped,
         _spring_energy,
@@ -139,7 +139,7 @@ def _level(q: Floats) -> float:
 
 
 def _any(entries: Any) -> GeneralisedBody:
-    coordinates = tuple(Coordinate(f"q_{i}", rate=1.0) for i in range(4))
+    coordinates = tuple(Coordinate(f"q_{i}", "m", rate=1.0) for i in range(4))
     return GeneralisedBody(coordinates, _given_mass, _no_force, _level, constants={"entries": tuple(entries)})
 
 
@@ -187,7 +187,7 @@ def test_a_mass_that_degenerates_on_the_way_stops_the_run() -> None:
     def potential(q: Floats) -> float:
         return -q[0]
 
-    body = GeneralisedBody((Coordinate("x", 0.0, 0.5),), mass, force, potential)
+    body = GeneralisedBody((Coordinate("x", "m", 0.0, 0.5),), mass, force, potential)
     with pytest.raises(ns.RunFailed):
         ns.simulate(ns.System([body]), 10.0)
 
@@ -207,7 +207,7 @@ def test_starts() -> None:
 
 def test_forces_that_do_no_work_need_a_power_that_says_so() -> None:
     """A gyroscopic force is no mistake where the power is given as zero: the path is a circle."""
-    coordinates = Coordinate("x", rate=1.0), Coordinate("z"), Coordinate("a")
+    coordinates = Coordinate("x", "m", rate=1.0), Coordinate("z", "m"), Coordinate("a", "rad")
     body = GeneralisedBody(
         coordinates, rigid_mass, gyroscopic, weight_potential, power=no_power, constants={"weight": 1.0, "inertia": 1.0}
     )
@@ -232,7 +232,7 @@ def _cubic(t: float, q: Floats, u: Floats, out: Floats, stiffness: float) -> Non
 def test_functions_may_share_a_compiled_helper() -> None:
     """And keep the energy of an anharmonic oscillator."""
     constants = {"weight": 1.0, "stiffness": 4.0}
-    body = GeneralisedBody((Coordinate("x", 1.0),), _unit, _cubic, _quartic, constants=constants)
+    body = GeneralisedBody((Coordinate("x", "m", 1.0),), _unit, _cubic, _quartic, constants=constants)
     solution = ns.simulate(ns.System([body]), 5.0)
     energy = solution.q[:, 0] ** 4 + 0.5 * solution.u[:, 0] ** 2
     np.testing.assert_allclose(energy, 1.0, rtol=0, atol=1e-7)

@@ -74,7 +74,10 @@ MISTAKES: list[tuple[dict[str, Any], tuple[str, ...]]] = [
     ({"mass": weight_force}, ("mass: weight_force", "must begin with ('q', 'out')")),
     ({"potential": 3.0}, ("potential", "plain function", "3.0")),
     ({"coordinates": ()}, ("coordinates", "at least one")),
-    ({"coordinates": (Coordinate("x"), Coordinate("x"), Coordinate("z"))}, ("coordinates", "another name")),
+    (
+        {"coordinates": (Coordinate("x", "m"), Coordinate("x", "m"), Coordinate("z", "m"))},
+        ("coordinates", "another name"),
+    ),
     ({"coordinates": "xza"}, ("coordinates", "tuple of Coordinate")),
     ({"moving_frames": Point()}, ("moving_frames", "tuple of MovingFrame")),
     ({"constants": {"gravity_z": 1.0}}, ("constants['gravity_z']", "variable of its own")),
@@ -88,7 +91,7 @@ def test_mistakes_are_named(mistake: dict[str, Any], words: tuple[str, ...]) -> 
     mistake = dict(mistake)
     frames = PointFrame(**(END | mistake.pop("end", {}))), TurningFrame(**(PART | mistake.pop("part", {})))
     good: dict[str, Any] = {
-        "coordinates": tuple(Coordinate(name) for name in "xza"),
+        "coordinates": tuple(Coordinate(name, "m") for name in "xza"),
         "mass": rigid_mass,
         "force": weight_force,
         "potential": weight_potential,

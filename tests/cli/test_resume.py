@@ -33,18 +33,29 @@ def _same(report: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-@pytest.mark.parametrize("kind", ["name", "file"])
+@pytest.mark.parametrize("kind", ["name", "file", "class"])
 def test_an_interrupted_run_ends_as_the_whole_one(
     call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
 ) -> None:
     import xarray
 
     asked = {
-        "name": ("dumbbell", "--set", "t_end=20", "--law", "impact=newton,restitution=0.4"),
+        "name": (
+            "dumbbell",
+            "--set",
+            "t_end=20",
+            "--law",
+            "impact=newton,restitution=0.4",
+            "--engine",
+            "event_driven,tolerance=1e-8",
+        ),
         "file": (str(tmp_path / "dumbbell.toml"), "--set", "t_end=20"),
+        "class": (f"{tmp_path / 'mine.py'}:Mine", "--set", "t_end=20"),
     }[kind]
     if kind == "file":
         assert call("save", "dumbbell", asked[0])[0] == 0
+    (tmp_path / "mine.py").write_text("from scenarios.dumbbell.scenario import DumbbellScenario as Mine  # noqa\n")
+    trust = ["--trust"] if kind == "class" else []
     folder = tmp_path / "results"
     with monkeypatch.context() as patch:
         patch.setattr(perform, "on_standard_error", _Impatient)
@@ -53,7 +64,7 @@ def test_an_interrupted_run_ends_as_the_whole_one(
         assert (status, json.loads(output)["status"]) == (1, "interrupted")
     with monkeypatch.context() as patch:
         patch.setattr(perform, "_save_figures", lambda *_: None)
-        status, output, errors = call("resume", str(folder), "--json")
+        status, output, errors = call("resume", str(folder), "--json", *trust)
     assert status == 0, errors
     status, whole, _ = call("run", *asked, "--json")
     assert _same(json.loads(output)) == _same(json.loads(whole))

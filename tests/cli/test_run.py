@@ -15,6 +15,7 @@ KEYS = {
     "scenario",
     "parameters",
     "laws",
+    "engine",
     "status",
     "message",
     "t_end",

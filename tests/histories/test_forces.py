@@ -135,7 +135,9 @@ def test_contact_histories_make_a_dataset() -> None:
     data = forces.to_xarray()
     for number, contact in itertools.product(np.unique(forces.contact), ("normal_force", "friction_force", "normal")):
         history = forces.history(int(number))
-        np.testing.assert_array_equal(data[contact].sel(contact=number), getattr(history, contact))
+        np.testing.assert_array_equal(
+            data[contact].sel(contact=solution.system.contacts[number].name), getattr(history, contact)
+        )
         closed = history.mode > 0
         np.testing.assert_array_equal(closed, solution.at().modes[:, number] > 0)
         assert np.all(history.normal_force[~closed] == 0.0)

@@ -176,7 +176,7 @@ def _tip_bias(q: Any, u: Any, out: Any, length: float) -> None:
 
 def _pendulum(tip: Callable[..., None]) -> ns.Solution:
     pendulum = GeneralisedBody(
-        coordinates=(Coordinate("angle", start=1.2),),
+        coordinates=(Coordinate("angle", "rad", start=1.2),),
         mass=_mass,
         force=_force,
         potential=_potential,

@@ -122,7 +122,7 @@ def test_a_full_disk_ends_the_run_and_it_goes_on_when_there_is_room(
     write, states = Path.write_bytes, []
 
     def full(path: Path, content: bytes) -> int:
-        states.append(path.suffixes[-2:] == [".npz", ".part"])
+        states.append(".npz" in path.suffixes)
         if sum(states) > 2:  # where it begins and one more are written
             raise OSError(errno.ENOSPC, "No space left on device")
         return write(path, content)
@@ -198,7 +198,7 @@ def test_a_state_from_a_file_leaves_functions_and_offsets_alone(tmp_path: Path) 
     arrays = SolutionFolder.opened(Output(folder))
     checkpoint = arrays.said("checkpoint")["state"]
     (folder / "solution.zarr" / checkpoint).write_bytes(state_bytes(model.start.with_continuation(foreign)))
-    with pytest.raises(ns.InvalidInput, match="must fit the model"):
+    with pytest.raises(ns.InvalidInput, match=r"State\.continuation: n_contacts must be from 0"):
         model.resume(folder)
     kept = constants(laid, blank)
     for part, before, at in zip(laid.memory.bits, blank.parts, kept, strict=True):

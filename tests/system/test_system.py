@@ -135,7 +135,7 @@ def _zero(q: Any) -> float:
 def test_shapes_are_counted_through_frames(build: Any) -> None:
     """The frame of a contact is the one that carries its shape."""
     frames = (PointFrame(_height, _unit, _nothing, (Sphere(r), Sphere(2.0 * r))) for r in (0.01, 0.03))
-    plate, body = Plate(), GeneralisedBody((Coordinate("z", 1.0),), _unit_mass, _no_force, _zero, tuple(frames))
+    plate, body = Plate(), GeneralisedBody((Coordinate("z", "m", 1.0),), _unit_mass, _no_force, _zero, tuple(frames))
     system = ns.System([plate, body])
     (contact,) = system.contact(plate, body, shapes=(None, (2,)), **build.laws())
     assert contact.frames == (0, 1)

@@ -12,7 +12,7 @@ import numpy as np
 from bodies import Sphere
 from nonsmooth import InvalidInput
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
 from nonsmooth.types import Floats
 
 FAULTS = {
@@ -114,12 +114,12 @@ class Ball(Body):
         return ((Sphere(0.5),),)
 
     @property
-    def n_q(self) -> int:
-        return 7
+    def q_labels(self) -> NamesAndUnits:
+        return POSE_LABELS
 
     @property
-    def n_u(self) -> int:
-        return 6
+    def u_labels(self) -> NamesAndUnits:
+        return TWIST_LABELS
 
     @property
     def quaternion(self) -> int:
@@ -165,12 +165,12 @@ class Swing(Ball):
     """A driven body."""
 
     @property
-    def n_q(self) -> int:
-        return 0
+    def q_labels(self) -> NamesAndUnits:
+        return ()
 
     @property
-    def n_u(self) -> int:
-        return 0
+    def u_labels(self) -> NamesAndUnits:
+        return ()
 
     @property
     def quaternion(self) -> int:

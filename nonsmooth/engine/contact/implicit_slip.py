@@ -14,7 +14,7 @@ from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, own_block
+from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 
@@ -69,7 +69,7 @@ def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
 
 @kernel()
 def _note(S: Scalars, w: Floats, k: Integers) -> None:
-    """Add what the forces do to ``du``, and note power, relaxation and what is held."""
+    """Add what the forces do to ``du``, and note power and what is held."""
     add_response(S, w, k, S.f, S.du)
     for a in range(S.n_active):
         c = k[S.active + a]
@@ -80,11 +80,6 @@ def _note(S: Scalars, w: Floats, k: Integers) -> None:
         k[S.tangent_held + a] = 0 if slides else 1
         for r in range(3):
             S.driven_power += w[S.f + 3 * a + r] * (row(S, w, k, c, r, S.own) - contact.rate[r])
-        if slides:
-            g = own_block(S, k, a)
-            v1, v2 = contact.rate[1], contact.rate[2]
-            speed = max(math.sqrt(v1 * v1 + v2 * v2), S.velocity_tolerance)
-            S.stiffness = max(S.stiffness, w[S.mu + a] * abs(w[S.f + 3 * a]) * max(w[g + 4], w[g + 8]) / speed)
 
 
 @kernel()

@@ -5,10 +5,12 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.compliance import begin_contact
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
-from nonsmooth.engine.delassus.islands import activate_group, group_members
+from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
+from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
+from nonsmooth.engine.impact.instant import plastic_impulses
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 
@@ -137,6 +139,36 @@ def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
         if k[S.closes + c] == 1:
             contact = c
     record_event(S, w, k, cause, contact, 0)
+
+
+@kernel("f8(S, F, I)")
+def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
+    """Stop the open contacts that touch and approach, if no faster than what counts as zero; return the energy [J].
+
+    Nothing collides so slowly, but in time the bodies would overlap.
+    """
+    creeping = 0
+    touch(S, w, k)
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.touching == 1 and contact.normal_function == 0 and contact.mode == OPEN and contact.rate[0] < 0.0:
+            creeping += 1
+    if creeping == 0:
+        return 0.0
+    loss = 0.0
+    group_touching(S, w, k)
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        assemble_delassus(S, w, k)
+        plastic_impulses(S, w, k, 0.0)
+        add_response(S, w, k, S.f, S.y + S.n_q)
+        for a in range(S.n_active):
+            contact = contact_at(S, w, k, k[S.active + a])
+            for r in range(3):
+                impulse = w[S.f + 3 * a + r]
+                loss -= 0.5 * impulse * add_product(S, w, k, 2.0 * contact.rate[r], a, r, S.f)
+                S.driven_work -= impulse * contact.prescribed_rate[r]
+    return loss
 
 
 @kernel("i8(S, F, I)")

@@ -11,10 +11,10 @@ from nonsmooth.engine.bodies.compliance import (
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_up, solve_contact
-from nonsmooth.engine.contact.trial import small_force
+from nonsmooth.engine.contact.trial import slope_of_slip, small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
-from nonsmooth.engine.events.accumulation import close_contacts, hand_over
+from nonsmooth.engine.events.accumulation import close_contacts, hand_over, stop_creeping
 from nonsmooth.engine.events.record import (
     DRIVEN_WORK,
     FRICTION_LOSS,
@@ -264,6 +264,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
             c = k[S.active + a]
             contact = contact_at(S, w, k, c)
             contact.small_force_of = small_force(S, w, k, a)
+            contact.mobility = slope_of_slip(S, w, k, a)
             contact.mode_agreed = k[S.mode_tried + a]
             for i in range(2):
                 contact.direction_agreed[i] = w[S.d + 2 * a + i]
@@ -383,7 +384,7 @@ def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("void(S, F, I, i8, i8)")
 def _finish(S: Scalars, w: Floats, k: Integers, cause: int, contact: int) -> None:
     """Put the closed contacts exactly on their constraints and write the event."""
-    S.closing_loss += project_closed(S, w, k, 1)
+    S.closing_loss += project_closed(S, w, k, 1) + stop_creeping(S, w, k)
     if S.recorded > 0:
         amend_last(S, w, k)
         return

@@ -8,7 +8,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.flow.clearance import foresee
 from nonsmooth.engine.flow.guard_numbers import normal_guard
-from nonsmooth.engine.flow.step import try_step
+from nonsmooth.engine.flow.step import relaxation, try_step
 from nonsmooth.engine.memory.limits import (
     BY_END,
     BY_ERROR,
@@ -114,6 +114,7 @@ def _remember_step(S: Scalars, k: Integers, h: float, error: float, wanted: floa
 def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
     wanted = wanted_step(S, k)
+    S.relaxation = relaxation(S, w, k)
     h = _first_attempt(S, w, k, wanted)
     S.limit = _limit(S, wanted, h)
     for _attempt in range(_ATTEMPTS):

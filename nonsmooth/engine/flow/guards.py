@@ -151,6 +151,14 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
         w[S.guard_end + i] = w[S.guard + i]
 
 
+@kernel("f8(S, F, I, i8)")
+def _least(S: Scalars, w: Floats, k: Integers, i: int) -> float:
+    """Return above what guard ``i`` of a contact is armed: a force that counts as none is neither positive nor not."""
+    contact = contact_at(S, w, k, contact_of(i))
+    rests = contact.mode != OPEN and contact.normal_function == 0
+    return float(contact.small_force_of) if rests and (is_friction_guard(i) == 0 or contact.mode == STICK) else 0.0
+
+
 @kernel()
 def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the kept guards as those of the start: arm the positive ones, deflate those that start from zero."""
@@ -177,7 +185,7 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
             w[S.guard_start + friction] = min(0.0, w[S.guard_start + friction]) - _ROUND_OFF * S.velocity_tolerance
             w[S.guard_first + friction] = 0.0
         for i in range(normal, friction + 1):
-            k[S.guard_armed + i] = 1 if w[S.guard_first + i] > 0.0 else 0
+            k[S.guard_armed + i] = 1 if w[S.guard_first + i] > _least(S, w, k, i) else 0
     for g in range(S.n_own_guards):
         i = first_own_guard(S) + g
         w[S.guard_start + i] = w[S.guard_first + i] = w[S.guard_end + i]
@@ -197,7 +205,7 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
 def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
     """Arm the guards that have become positive within the step."""
     for i in range(first_own_guard(S)):
-        if w[S.guard + i] > 0.0 and (forces == 1 or k[S.mode + contact_of(i)] == OPEN):
+        if w[S.guard + i] > _least(S, w, k, i) and (forces == 1 or k[S.mode + contact_of(i)] == OPEN):
             k[S.guard_armed + i] = 1
     for i in range(first_own_guard(S), number_of_guards(S)):
         if w[S.guard + i] > 0.0:

@@ -22,6 +22,8 @@ _ITERATIONS = 12
 """Of a stage: what is not stiff is iterated on,"""
 _SETTLED = 0.01
 """up to this part of the tolerance."""
+_SLOWEST = 1e-3
+"""Slips below this part of what counts as zero relax no faster."""
 _UNUSABLE = 1e300
 _SHARE = tableau.NODES[1] / tableau.NODES[2]
 """Where the second stage lies between the first and the third."""
@@ -67,29 +69,23 @@ def _unseen(S: Scalars, w: Floats, h: float) -> float:
     return worst if worst > 1.0 else 0.0
 
 
-@kernel("f8(S, F)")
-def _relaxation(S: Scalars, w: Floats) -> float:
-    """Return how fast accelerations relax [1/s]: from the last two stages, both of one time (Hairer, Wanner, IV.2)."""
-    first, last = S.slopes + (LAST_STAGE - 1) * S.n_y + S.n_q, S.slopes + LAST_STAGE * S.n_y + S.n_q
-    accelerations = velocities = 0.0
-    for i in range(S.n_u):
-        accelerations += (w[last + i] - w[first + i]) ** 2
-        velocities += (w[S.y_new + S.n_q + i] - w[S.y_stage + S.n_q + i]) ** 2
-    return math.sqrt(accelerations / velocities) if velocities > 0.0 else 0.0
+@kernel("f8(S, F, I)")
+def relaxation(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return how fast slip directions relax where the step starts [1/s]; 0 where an implicit step is none.
 
-
-@kernel("i8(S, F, I)")
-def _slips_only(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if some closed contact slides, and all are rigid and rub alike in all directions."""
-    slides = 0
+    For that some closed contact must slide, and all must be rigid and rub alike in all directions.
+    """
+    fastest = 0.0
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
         if contact.normal_function != 0 or k[S.oriented + c] == 1:
-            return 0
+            return 0.0
         if contact.mode == SLIDE:
-            slides = 1
-    return slides
+            friction = math.hypot(contact.force[1], contact.force[2])
+            speed = math.hypot(contact.rate_end[1], contact.rate_end[2])
+            fastest = max(fastest, contact.mobility * friction / max(speed, _SLOWEST * S.velocity_tolerance))
+    return fastest
 
 
 @kernel("i8(S, F, I, f8, i8)")
@@ -109,7 +105,7 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
         for i in range(n):
             w[out + i] += S.stage_time * w[here + i]
             w[S.y_guess + i] = w[here + i]
-        S.ahead, S.guess, S.stiffness = S.stage_time, S.y_guess + S.n_q, 0.0
+        S.ahead, S.guess = S.stage_time, S.y_guess + S.n_q
         slope(S, w, k, S.t + implicit_tableau.NODES[stage] * h, out, here, 0)
         S.ahead = 0.0
         if S.unsettled == 1:
@@ -153,6 +149,19 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return error
 
 
+@kernel("f8(S, F, I, f8)")
+def _try_explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Take one explicit step of ``h``; return its relative error."""
+    n = S.n_y
+    S.stage_time = 0.0
+    for stage in range(1, N_STAGES):
+        out = S.y_new if stage == LAST_STAGE else S.y_stage
+        stage_state(S, w, S.stages, S.y, S.slopes, n, stage, h, out)
+        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0)
+    step_errors(S, w, S.error_weights, S.slopes, n, h, S.y_stage)
+    return max(_relative_error(S, w), _unseen(S, w, h))
+
+
 @room("f8(S, F, I, f8)")
 def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
@@ -160,19 +169,16 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip
     that violates its mode at some stage raises ``suspect``.
     """
-    n = S.n_y
     S.suspect = 0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         contact.least_force = 1e300
-    S.stage_time = 0.0
-    if h * S.stiffness > _STIFF and _slips_only(S, w, k) == 1:
-        return _try_implicit_step(S, w, k, h)
-    for stage in range(1, N_STAGES):
-        out = S.y_new if stage == LAST_STAGE else S.y_stage
-        stage_state(S, w, S.stages, S.y, S.slopes, n, stage, h, out)
-        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0)
-    if S.n_grouped > 0:
-        S.stiffness = _relaxation(S, w)
-    step_errors(S, w, S.error_weights, S.slopes, n, h, S.y_stage)
-    return max(_relative_error(S, w), _unseen(S, w, h))
+    stiff = h * S.relaxation > _STIFF
+    if stiff and S.stage_time > 0.0:
+        error = _try_implicit_step(S, w, k, h)
+        return error if error < _UNUSABLE else _try_explicit_step(S, w, k, h)
+    error = _try_explicit_step(S, w, k, h)
+    if error > 1.0 and stiff:
+        implicit = _try_implicit_step(S, w, k, h)
+        return implicit if implicit < _UNUSABLE else _try_explicit_step(S, w, k, h)
+    return error

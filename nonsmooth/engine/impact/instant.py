@@ -6,6 +6,7 @@ import math
 
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
+from nonsmooth.engine.contact.newton import STAGES, search_by_newton
 from nonsmooth.engine.contact.problem import friction_coefficient, lay_friction
 from nonsmooth.engine.delassus.delassus import add_product, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
@@ -29,18 +30,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         for r in range(3):
             w[S.b + 3 * a + r] = w[S.bias + 3 * c + r] + row(S, w, k, c, r, S.du)
             scale = max(scale, abs(w[S.bias + 3 * c + r]), abs(w[S.b + 3 * a + r]))
-    moment = _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0
-    for a in range(S.n_active):
-        c = k[S.active + a]
-        lay_friction(S, w, k, a)
-        k[S.at_rest + a] = k[S.normal_held + a] = 1
-        for r in range(3):
-            rate = w[S.rate + 3 * c + r]
-            if r == 0 and abs(rate) <= S.velocity_tolerance:
-                rate = 0.0
-            w[S.b + 3 * a + r] = rate + moment * w[S.b + 3 * a + r]
-            w[S.f + 3 * a + r] = 0.0
-    gauss_seidel(S, w, k, SWEEPS)
+    plastic_impulses(S, w, k, _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0)
     moved = 0
     for a in range(S.n_active):
         for r in range(3):
@@ -49,6 +39,29 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
                 moved = 1
     _split_loss(S, w, k)
     return moved
+
+
+@kernel("void(S, F, I, f8)")
+def plastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
+    """Write to ``f`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
+
+    The rates are those at hand and what the accelerations, which stand in ``b``, make of them in a ``moment`` [s].
+    """
+    for a in range(S.n_active):
+        c = k[S.active + a]
+        lay_friction(S, w, k, a)
+        w[S.mu_static + a] = w[S.mu + a] = w[S.mu_static + a] if k[S.at_rest + a] == 1 else w[S.mu + a]
+        k[S.at_rest + a] = k[S.normal_held + a] = 1
+        for r in range(3):
+            rate = w[S.rate + 3 * c + r]
+            if r == 0 and moment > 0.0 and abs(rate) <= S.velocity_tolerance:
+                rate = 0.0
+            w[S.b + 3 * a + r] = rate + moment * w[S.b + 3 * a + r]
+            w[S.f + 3 * a + r] = 0.0
+    for stage in range(STAGES):
+        if search_by_newton(S, w, k, stage) == 1:
+            break
+    gauss_seidel(S, w, k, SWEEPS)
 
 
 @kernel()

@@ -41,6 +41,7 @@ _NAMES = (
     "holds",
     "static_margin",
     "small_force_of",
+    "mobility",
     "least_force",
     # its gap at both ends of a step, and how it can change
     "gap_rate",

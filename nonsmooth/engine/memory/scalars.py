@@ -93,7 +93,7 @@ FLOAT_SCALARS = (
     "driven_t",
     "h",
     "step_error",
-    "stiffness",
+    "relaxation",
     "stage_time",
     "ahead",
     "h_max",

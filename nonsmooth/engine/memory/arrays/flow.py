@@ -30,6 +30,7 @@ ARRAYS = Arrays(
         "arm_end": per(3, "n_slots"),
         "arm_first": per(3, "n_slots"),
         "small_force_of": per(1, "n_slots"),
+        "mobility": per(1, "n_slots"),
         "relative": fixed(24),
         "sectors": fixed(SECTOR * (SECTORS + 1)),
         "guard_end": guards,

@@ -1,0 +1,36 @@
+"""Numbers packed into few bytes by Blosc with LZ4: many times as fast as zlib, and read wherever Zarr is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+CODEC = {"id": "blosc", "cname": "lz4", "clevel": 5, "shuffle": 1, "blocksize": 0}
+"""What packs them, in the words of Zarr."""
+
+
+def packed(values: NDArray[Any]) -> bytes:
+    """Return the bytes of an array, packed."""
+    # imported where used: not every run has an output
+    from numcodecs import Blosc
+
+    codec = Blosc(CODEC["cname"], CODEC["clevel"], CODEC["shuffle"], CODEC["blocksize"])
+    return bytes(codec.encode(np.ascontiguousarray(values)))
+
+
+def unpacked(content: bytes, dtype: DTypeLike) -> NDArray[Any]:
+    """Return what was packed, as a row of numbers.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or damaged.
+    """
+    from numcodecs import Blosc
+
+    try:
+        return np.frombuffer(Blosc().decode(content), dtype).copy()
+    except RuntimeError as error:
+        raise ValueError(str(error)) from error

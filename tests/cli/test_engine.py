@@ -1,0 +1,33 @@
+"""``--engine``: what integrates a scenario, with its options."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+
+import pytest
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+def test_an_option_of_the_engine_is_that_of_the_run(call: Call) -> None:
+    words = ("run", "tiny", "--set", "t_end=0.2", "--json")
+    plain, fine = (json.loads(call(*words, *more)[1]) for more in ((), ("--engine", "event_driven,largest_step=1e-3")))
+    assert (plain["engine"]["largest_step"], fine["engine"]["largest_step"]) == (0.1, 1e-3)
+    assert fine["n_steps"] >= 200 > plain["n_steps"]
+
+
+@pytest.mark.parametrize(
+    ("word", "told"),
+    [
+        ("event_drivn", "--engine name must be a known one, but it is 'event_drivn'. Did you mean 'event_driven'?"),
+        ("event_driven,tolerence=1e-8", "Did you mean 'tolerance'"),
+        ("event_driven,tolerance=2", "EventDriven.tolerance must be"),
+        ("event_driven,tolerance", "must have the form ENGINE or ENGINE,NAME=VALUE"),
+        ("", "must have the form ENGINE"),
+    ],
+)
+def test_a_wrong_engine_is_told(call: Call, word: str, told: str) -> None:
+    status, output, errors = call("run", "tiny", "--engine", word)
+    assert (status, output) == (2, "")
+    assert told in errors

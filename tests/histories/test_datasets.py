@@ -1,0 +1,51 @@
+"""Histories as datasets: every array has its unit, and every axis its names."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from bodies import Ball, BallJoint, Plate
+from nonsmooth.plugins import registry
+
+
+@pytest.mark.parametrize("times", [0.05, [0.0, 0.05, 0.1]])
+def test_every_history_makes_a_dataset_of_its_own_arrays(times: float | list[float]) -> None:
+    ball, base = Ball(0.01), Plate()
+    system = ns.System([ball, base])
+    system.name(ball, "bob")
+    system.place(ball, position=(0.1, 0.0, 0.3))
+    system.joint(BallJoint(first=(0.0, 0.0, 0.3), second=(-0.1, 0.0, 0.0)), base, ball, name="pivot")
+    solution = ns.simulate(system, 0.1)
+    histories = (
+        solution.at(times),
+        solution.poses(ball, times),
+        solution.joint_forces(times),
+        solution.energies(times),
+        solution.distances(ball, base, [*np.atleast_1d(times)]),
+    )
+    for history in histories:
+        data = history.to_xarray()
+        np.testing.assert_array_equal(np.atleast_1d(data["time"]), np.atleast_1d(times))
+        for name, variable in data.data_vars.items():
+            np.testing.assert_array_equal(variable, getattr(history, str(name)))
+            assert variable.attrs["units"]
+            assert variable.attrs["long_name"]
+            assert {*variable.dims} <= {*data.coords, "law_state"}
+    states, forces = histories[0].to_xarray(), histories[2].to_xarray()
+    assert states["q"].sel(coordinate="bob z").dims == ("time",)[: np.ndim(times)]
+    assert states["coordinate_units"].sel(coordinate="bob q0") == "1"
+    assert forces["joint"].values.tolist() == ["pivot"]
+    np.testing.assert_allclose(forces["force"].sel(joint="pivot", axis="y"), 0.0, atol=1e-12)
+
+
+def test_where_no_contact_is_closed_the_dataset_is_empty() -> None:
+    solution = ns.simulate(registry.load("scenarios", "bouncing_ball")().build(), 1e-3)
+    assert dict(solution.contact_forces(0.0).to_xarray().sizes)["contact"] == 0
+
+
+def test_a_mechanism_says_its_units() -> None:
+    data = ns.simulate(registry.load("scenarios", "woodpecker")().build(), 1e-3).at().to_xarray()
+    assert data["coordinate_units"].values.tolist() == ["m", "rad", "rad"]
+    assert data["velocity_units"].values.tolist() == ["m/s", "rad/s", "rad/s"]
