@@ -74,7 +74,7 @@ def build(variant: str, seed: int) -> ns.System:
         pair = min(materials), max(materials)
         mu = FRICTION[pair] if friction is None else friction
         rub: FrictionLaw = Coulomb(mu) if mu > 0.0 else Frictionless()
-        system.contact(first, second, Unilateral(), rub, impact(RESTITUTION[pair]))
+        system.contact(first, second, normal=Unilateral(), friction=rub, impact=impact(RESTITUTION[pair]))
 
     a_side = min(int(width / (2.2 * RADIUS)), 3)
     cell = width / a_side

@@ -34,6 +34,7 @@ NAMES: tuple[tuple[Any, str, str], ...] = (
     (codegen.JITCodeLibrary, "codegen", "raw code is told of its environment, at an address that it has not"),
     (codegen.JITCPUCodegen, "set_env", "the same"),
     (codegen.JITCPUCodegen, "magic_tuple", "code of another processor is loaded"),
+    (Dispatcher, "disable_compile", "a kernel is compiled again for each literal that it is called with"),
     (compiler.CompilerBase, "define_pipelines", "numba's own passes run, for twice the time"),
     (compiler.PassManager, "add_pass_after", "functions are not numbered"),
     (compiler.DefaultPassBuilder, "define_nopython_pipeline", "laws are not compiled"),

@@ -43,7 +43,7 @@ def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int)
             evaluate_body(S, w, k, t, y, number)
 
 
-@kernel("void(S, F, I, f8, i8)")
+@entry_point("void(S, F, I, f8, i8)")
 def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let the bodies that have coordinates write their output blocks, then loads and joints act on them."""
     interrupted(S, S.n_contacts + S.n_bodies)

@@ -108,7 +108,7 @@ def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> int:
     return 0
 
 
-@kernel("void(S, F, I, i8)")
+@entry_point("void(S, F, I, i8)")
 def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     """Solve ``reduced . x = right`` for least norm if singular.
 

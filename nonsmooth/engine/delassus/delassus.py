@@ -15,6 +15,7 @@ from nonsmooth.engine.native.kernel import (
     articulation_at,
     contact_at,
     delassus_block,
+    entry_point,
     kernel,
 )
 
@@ -29,7 +30,7 @@ def _add_block(w: Floats, jacobian: int, response: int, n_u: int, out: int) -> N
             w[out + 3 * r + s] += total
 
 
-@kernel()
+@entry_point()
 def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the blocks of G = [W N]^T K [W N] of the active contacts, rows and columns (n, t1, t2) each."""
     for a in range(S.n_active):

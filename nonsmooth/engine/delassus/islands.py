@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    articulation_at,
+    contact_at,
+    entry_point,
+    kernel,
+)
 
 
 @kernel("i8(S, F, I, i8)")
@@ -38,7 +47,7 @@ def activate_group(S: Scalars, w: Floats, k: Integers, group: int) -> None:
         active_at(S, w, k, a).slot = k[S.grouped + first + a]
 
 
-@kernel("void(S, F, I)")
+@entry_point()
 def group_members(S: Scalars, w: Floats, k: Integers) -> None:
     """Sort the contacts marked as ``member`` into islands, in the order of their first contacts, and link each."""
     for c in range(S.n_contacts):

@@ -36,6 +36,7 @@ from nonsmooth.engine.native.kernel import (
     at,
     call_guard,
     contact_at,
+    entry_point,
     guard_at,
     kernel,
     own_guard_at,
@@ -75,7 +76,7 @@ def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
         contact.feature = int(contact.feature_now) if looks and contact.mode != OPEN else -1
 
 
-@kernel("void(S, F, I, f8, i8, i8)")
+@entry_point("void(S, F, I, f8, i8, i8)")
 def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: int) -> None:
     """Write the guards after the right-hand side at ``t`` and ``y``; of closed contacts if ``forces`` are known (1)."""
     if S.n_grouped == 0:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-# the halves, which are compiled side by side, take the same time: forces and impacts first, then motion and events
+# the halves, which are compiled side by side, take the same time: forces and impacts first, then motion and events;
+# a large function that several of them call is one itself, as each would compile it again
 ENTRY_POINTS = (
     "resolve",
     "energetic_impact",
@@ -21,10 +22,12 @@ ENTRY_POINTS = (
     "search_by_newton",
     "right_hand_side",
     "evaluate_contact",
-    "collide",
     "locate_switch",
     "gauss_seidel",
+    "solve_doubtful",
+    "choose_friction",
     "slope",
+    "collide",
     "evaluate_at",
     "guards_within",
     "update_at_event",
@@ -40,8 +43,11 @@ ENTRY_POINTS = (
     "first_closing",
     "first_crossing",
     "locate",
-    "choose_friction",
     "follow",
     "evaluate_forces",
+    "evaluate_free_bodies",
+    "group_members",
+    "assemble_delassus",
+    "write_guards",
 )
 """Functions of the engine that are called by address (:func:`nonsmooth.engine.native.kernel.entry_point`)."""

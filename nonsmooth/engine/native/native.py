@@ -155,22 +155,26 @@ def compile_entries(names: tuple[str, ...]) -> None:
     with uncollected():
         for inner, typed in _kernels_of(names):
             inner.compile(typed)
+            inner.disable_compile()  # a call with other types converts: none makes a further copy
         for name in names:
             _compiled(name)
 
 
 def _kernels_of(names: tuple[str, ...]) -> list[tuple[Any, Any]]:
-    """Return the kernels that entry points call, and those that these call, in order of definition, with signatures."""
-    kernels = {id(inner): inner for inner, _ in _pending}
-    called: set[int] = set()
-    waiting = [_entries[name][0] for name in names]
-    while waiting:
-        function = waiting.pop()
-        named = {id(function.__globals__.get(name)) for name in function.__code__.co_names}
-        new = (named & kernels.keys()) - called
-        called |= new
-        waiting += [kernels[one].py_func for one in new]
-    return [(inner, typed) for inner, typed in _pending if id(inner) in called]
+    """Return the kernels that entry points call, and those that these call, with their signatures, each before its callers."""
+    kernels = {id(inner): (inner, typed) for inner, typed in _pending}
+    ordered: list[tuple[Any, Any]] = []
+
+    def visit(function: Callable[..., Any]) -> None:
+        for name in function.__code__.co_names:
+            called = kernels.pop(id(function.__globals__.get(name)), None)
+            if called is not None:
+                visit(called[0].py_func)
+                ordered.append(called)
+
+    for name in names:
+        visit(_entries[name][0])
+    return ordered
 
 
 @functools.cache
