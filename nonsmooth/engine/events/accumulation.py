@@ -155,7 +155,6 @@ def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
     Nothing collides so slowly, but in time the bodies would overlap.
     """
     creeping = 0
-    touch(S, w, k)
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.touching == 1 and contact.normal_function == 0 and contact.mode == OPEN and contact.rate[0] < 0.0:
@@ -163,6 +162,7 @@ def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
     if creeping == 0:
         return 0.0
     loss = 0.0
+    touch(S, w, k)
     group_touching(S, w, k)
     for group in range(S.n_groups):
         activate_group(S, w, k, group)

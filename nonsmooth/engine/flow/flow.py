@@ -139,10 +139,15 @@ def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 
 @kernel("f8(S, F, I, i8)")
 def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
-    """Return the slip along its direction at the start of the step, or 1 where nothing depends on its sign."""
+    """Return the slip along its direction at the start of the step, or 1 where nothing depends on its sign.
+
+    In an implicit step, which stops and turns slips itself, it is the slip.
+    """
     contact = contact_at(S, w, k, c)
     if contact.traction_function != 0:
         return 1.0
+    if S.stage_time > 0.0:
+        return length(contact.slip)
     return float(contact.slip[0] * contact.direction[0] + contact.slip[1] * contact.direction[1])
 
 

@@ -7,16 +7,28 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
+from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
-from nonsmooth.engine.delassus.islands import group_closed
+from nonsmooth.engine.bodies.kinematics import evaluate_contact
+from nonsmooth.engine.contact.trial import slope_of_slip
+from nonsmooth.engine.delassus.delassus import assemble_delassus
+from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.self_check import energy_of_bodies
-from nonsmooth.engine.flow.step import try_step
+from nonsmooth.engine.flow.step import relaxation, try_step
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    guard_at,
+    kernel,
+)
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 
 _ATTEMPTS = 200
@@ -100,18 +112,36 @@ def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return -1.0
 
 
+@kernel("void(S, F, I)")
+def _measure_mobilities(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write how fast each closed contact slips under a unit of friction, as an event does."""
+    evaluate_bodies(S, w, k, S.t, S.y)
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        for a in range(S.n_active):
+            evaluate_contact(S, w, k, active_at(S, w, k, a).slot, 1)
+        assemble_delassus(S, w, k)
+        for a in range(S.n_active):
+            contact_at(S, w, k, active_at(S, w, k, a).slot).mobility = slope_of_slip(S, w, k, a)
+
+
 @entry_point("i8(S, F, I, f8)")
 def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
     """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
     group_closed(S, w, k)
+    _measure_mobilities(S, w, k)
     wanted = S.h_max
     while S.t < t:
+        S.stage_time, S.follows, S.replaced = 0.0, 0, 0
         slope(S, w, k, S.t, S.y, S.slopes, 0)
         if _turned_round(S, w, k) == 1:
             slope(S, w, k, S.t, S.y, S.slopes, 0)
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
             guard_at(S, w, k, friction_guard(c)).first = slip_guard(S, w, k, c)
+            for r in range(3):
+                contact_at(S, w, k, c).rate_end[r] = contact_at(S, w, k, c).rate[r]
+        S.relaxation = relaxation(S, w, k)
         left = t - S.t
         h = _found_step(S, w, k, min(wanted, left))
         if h < 0.0:
@@ -153,6 +183,7 @@ def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
     with that at hand a bound is passed.
     """
     group_closed(S, w, k)
+    S.stage_time = 0.0
     evaluate_driven_bodies(S, w, k, S.t, S.y)
     right_hand_side(S, w, k, S.t, S.y, choosing)
     turned = _turned_round(S, w, k)

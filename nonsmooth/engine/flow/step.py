@@ -125,17 +125,21 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
 def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` whose stages end with friction against their own slip; return its relative error.
 
-    Leaves slopes from which the dense output of the explicit step makes the cubic through both ends.
+    Leaves slopes from which the dense output of the explicit step makes the cubic through both ends.  Where no implicit
+    step went before the slip may not have settled, and the slope on which it will takes the place of that at the start.
     """
     n = S.n_y
     S.stage_time = implicit_tableau.DIAGONAL * h
     for i in range(n):
         w[S.slopes + n + i] = w[S.slopes + i]
-    for stage in range(2, N_STAGES):
+    for stage in range(1 + S.follows, N_STAGES):
         if _solve_stage(S, w, k, h, stage) == 0:
             return _UNUSABLE
     step_errors(S, w, S.implicit_errors, S.slopes, n, h, S.y_stage)
     error = _relative_error(S, w)
+    S.replaced = 1
+    for i in range(n):
+        w[S.slope_kept + i], w[S.slopes + i] = w[S.slopes + i], w[S.slopes + n + i]
     last = S.slopes + LAST_STAGE * n
     for stage in range(1, LAST_STAGE):
         c = tableau.NODES[stage]
@@ -170,6 +174,10 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     that violates its mode at some stage raises ``suspect``.
     """
     S.suspect = 0
+    if S.replaced == 1:
+        S.replaced = 0
+        for i in range(S.n_y):
+            w[S.slopes + i] = w[S.slope_kept + i]
     for c in range(S.n_contacts):
         contact_at(S, w, k, c).least_force = 1e300
     stiff = h * S.relaxation > _STIFF

@@ -74,6 +74,8 @@ INTEGER_SCALARS = (
     "fresh",
     "suspect",
     "guess",
+    "follows",
+    "replaced",
     "unsettled",
     "repeated",
     "recorded",

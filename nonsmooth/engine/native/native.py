@@ -161,7 +161,7 @@ def compile_entries(names: tuple[str, ...]) -> None:
 
 
 def _kernels_of(names: tuple[str, ...]) -> list[tuple[Any, Any]]:
-    """Return the kernels that entry points call, and what these call, with their signatures, each before its callers."""
+    """Return the kernels that entry points call, and those that these call, each before its callers."""
     kernels = {id(inner): (inner, typed) for inner, typed in _pending}
     ordered: list[tuple[Any, Any]] = []
 
