@@ -52,13 +52,13 @@ def plastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
         lay_friction(S, w, k, a)
-        active.mu_static = active.mu = active.mu_static if active.at_rest == 1 else active.mu
+        rests, slips = abs(contact.rate[0]) <= S.velocity_tolerance, active.at_rest == 0
+        active.mu_static = active.mu = active.mu if slips else active.mu_static
         active.at_rest = active.normal_held = 1
         for r in range(3):
-            rate = contact.rate[r]
-            if r == 0 and moment > 0.0 and abs(rate) <= S.velocity_tolerance:
-                rate = 0.0
-            active.free[r] = rate + moment * active.free[r]
+            # what counts as zero must not hide what the accelerations do
+            still = moment > 0.0 and (rests if r == 0 else not slips)
+            active.free[r] = moment * active.free[r] + (0.0 if still else contact.rate[r])
             active.force[r] = 0.0
     for stage in range(STAGES):
         if search_by_newton(S, w, k, stage) == 1:
