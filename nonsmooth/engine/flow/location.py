@@ -32,7 +32,7 @@ from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.roots import weakened
-from nonsmooth.engine.numerics.runge_kutta import dense_slope, dense_state
+from nonsmooth.engine.numerics.runge_kutta import dense_state
 
 _MIDDLE = 0.5
 _NEAR = 0.2
@@ -72,11 +72,11 @@ _SHORT = 1e-7
 
 
 @kernel("i8(S, F, I)")
-def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
+def _asks_forces(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if forces are looked at within a step: an implicit one has forces where its stages end only."""
     for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.mode != OPEN:
-            return 1
+        if contact_at(S, w, k, c).mode != OPEN:
+            return 1 if S.stage_time == 0.0 else 0
     return 0
 
 
@@ -84,11 +84,7 @@ def _any_closed(S: Scalars, w: Floats, k: Integers) -> int:
 def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
-    if forces == 1 and S.stage_time > 0.0:
-        dense_slope(S, w, S.slopes, S.n_y, theta, S.y_guess)
-        S.ahead, S.guess = S.stage_time, S.y_guess + S.n_q
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
-    S.ahead = 0.0
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
@@ -183,7 +179,7 @@ def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float
         guards_within(S, w, k, h, max(theta, _FAINT), 0)
         if theta > 0.0:
             if first_fired(S, w, k, 0, -1) >= 0:
-                guards_within(S, w, k, h, theta, _any_closed(S, w, k))
+                guards_within(S, w, k, h, theta, _asks_forces(S, w, k))
                 return theta
             arm_further(S, w, k, 0)
         way, soonest = _advance(S, w, k, h), (1.0 + _BEHIND) * _soonest(S, w, k)
@@ -205,7 +201,7 @@ def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, a
     if S.n_doubtful > 0:
         found = first_closing(S, w, k, h, theta, asked)
         if found > 0.0:
-            guards_within(S, w, k, h, found, _any_closed(S, w, k))
+            guards_within(S, w, k, h, found, _asks_forces(S, w, k))
             return found
     return 0.0
 
@@ -216,7 +212,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 
     Called right after the step, when bodies and forces stand at its end.
     """
-    closed = _any_closed(S, w, k)
+    closed = _asks_forces(S, w, k)
     write_guards(S, w, k, S.t + h, S.y_new, 1)
     keep_end(S, w, k)
     bound_speeds(S, w, k)
@@ -407,8 +403,11 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     Where the tolerance limits the step, the root on the interpolant is corrected on the step itself, whose order is
     higher.
     """
-    closed = _any_closed(S, w, k)
+    closed = _asks_forces(S, w, k)
     first = first_fired(S, w, k, 1, -1)
+    if S.stage_time > 0.0 and 0 <= first < first_own_guard(S) and contact_at(S, w, k, contact_of(first)).mode != OPEN:
+        # explicit steps, which are short enough then, find out when
+        return -1.0
     theta = high
     fired = max(0, first)
     roots = 0

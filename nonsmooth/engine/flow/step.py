@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.flow.flow import slope
+from nonsmooth.engine.flow.flow import hold_guard, slope
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import SLIDE
@@ -88,6 +88,20 @@ def relaxation(S: Scalars, w: Floats, k: Integers) -> float:
     return fastest
 
 
+@kernel("i8(S, F, I)")
+def _holds(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if no force of a closed contact violates its mode: when it begins to is for explicit steps to find."""
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        contact = contact_at(S, w, k, c)
+        least = hold_guard(S, w, k, c)
+        if contact.holds == 1:
+            least = min(least, contact.static_margin)
+        if least < -contact.small_force_of:
+            return 0
+    return 1
+
+
 @kernel("i8(S, F, I, f8, i8)")
 def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> int:
     """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
@@ -117,7 +131,7 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
         if worst <= _SETTLED:
             for i in range(n):
                 w[out + i] += S.stage_time * (w[here + i] - w[S.y_guess + i])
-            return 1
+            return _holds(S, w, k)
     return 0
 
 

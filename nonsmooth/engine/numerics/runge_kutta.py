@@ -47,18 +47,6 @@ def dense_part(
                 w[out + i] += weight * w[slope + i]
 
 
-@kernel("void(S, F, i8, i8, f8, i8)")
-def dense_slope(S: Scalars, w: Floats, slopes: int, n: int, theta: float, out: int) -> None:
-    """Write the derivative of the interpolated state at the fraction ``theta`` of the step."""
-    for i in range(n):
-        w[out + i] = 0.0
-    for j in range(N_STAGES):
-        d = S.dense + 4 * j
-        weight = w[d] + theta * (2.0 * w[d + 1] + theta * (3.0 * w[d + 2] + theta * 4.0 * w[d + 3]))
-        for i in range(n):
-            w[out + i] += weight * w[slopes + j * n + i]
-
-
 @kernel("void(S, F, i8, i8, i8, f8, i8)")
 def step_errors(S: Scalars, w: Floats, weights: int, slopes: int, n: int, h: float, out: int) -> None:
     """Write the estimated errors of the components of the step."""
