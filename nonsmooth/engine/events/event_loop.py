@@ -268,7 +268,7 @@ def _keep_start(S: Scalars, w: Floats, k: Integers) -> None:
     """Take what is known of the gaps at the end of the step before as what they start from."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        contact.gap_rate_first = contact.gap_rate_end
+        contact.gap_first, contact.gap_rate_first = contact.gap_end, contact.gap_rate_end
         contact.past_first, contact.speed_first = contact.past_end, contact.speed_end
         for r in range(FALL):
             contact.fall_first[r] = contact.fall_end[r] if S.fresh == 1 else -1.0

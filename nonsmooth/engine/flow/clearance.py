@@ -331,7 +331,8 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     contact = contact_at(S, w, k, c)
     left, n = S.sectors, 1
     deflated = guard_at(S, w, k, normal_guard(c)).deflated == 1
-    w[left + _THETA], w[left + _GAP] = 0.0, 0.0 if deflated else guard_at(S, w, k, normal_guard(c)).first
+    w[left + _THETA] = 0.0
+    w[left + _GAP] = contact.gap_first - (guard_at(S, w, k, normal_guard(c)).start if deflated else 0.0)
     w[left + _RATE], w[left + _PAST] = contact.gap_rate_first, contact.past_first
     right = left + SECTOR
     for r in range(3):

@@ -44,10 +44,12 @@ from nonsmooth.engine.native.kernel import (
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
+_ADRIFT = 0.1
+"""A gap that starts at rest may drift by this part of the tolerance: in time to close before it counts as a collision."""
 _WRONG_GAP = -1e3
 """A gap that is not armed fires below so many gap tolerances all the same,"""
 _WRONG_SLIP = -0.05
-"""a slip, or the growth of a gap, below so many velocity tolerances,"""
+"""a slip below so many velocity tolerances,"""
 _WRONG_FORCE = -2.0
 """and a force below so many times what its contact problem took for zero."""
 _LATE = 2.0
@@ -205,7 +207,7 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
                 normal.deflated = 1
                 normal.start = min(0.0, normal.start)
                 if contact.gap_rate_end <= S.velocity_tolerance:
-                    normal.start -= _ROUND_OFF * S.gap_tolerance
+                    normal.start = min(-_ADRIFT * S.gap_tolerance, normal.start) - _ROUND_OFF * S.gap_tolerance
                 normal.first = contact.gap_rate_end
         elif contact.normal_function != 0 and normal.first <= S.gap_tolerance:
             # it has just touched down, and lets go when it comes back to here
@@ -216,7 +218,8 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
             friction.deflated = 1
             friction.start = min(0.0, friction.start) - _ROUND_OFF * S.velocity_tolerance
             friction.first = 0.0
-        normal.armed = 1 if normal.first > _least(S, w, k, normal_guard(c)) else 0
+        rests = contact.mode == OPEN and normal.deflated == 1
+        normal.armed = 1 if rests or normal.first > _least(S, w, k, normal_guard(c)) else 0
         friction.armed = 1 if friction.first > _least(S, w, k, friction_guard(c)) else 0
     for g in range(S.n_own_guards):
         guard, own = guard_at(S, w, k, first_own_guard(S) + g), own_guard_at(S, w, k, g)
@@ -244,15 +247,17 @@ def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
 
 @kernel("i8(S, F, I, i8)")
 def _rests(S: Scalars, w: Floats, k: Integers, i: int) -> int:
-    """Return 1 if guard ``i`` is a gap at rest that started closed, or came over the end of a feature: it does not close.
+    """Return 1 if guard ``i`` is a gap at rest, closed from the start or come over the end of a feature: it stays open.
 
-    Beside contacts that hold the bodies such a gap drifts as far as theirs do.
+    Beside contacts that hold the bodies a gap drifts with theirs.
     """
     guard, contact = guard_at(S, w, k, i), contact_at(S, w, k, contact_of(i))
-    if contact.mode != OPEN or is_friction_guard(i) == 1 or (guard.deflated == 0 and contact.beyond == 0.0):
+    if contact.mode != OPEN or is_friction_guard(i) == 1:
         return 0
-    start = guard.start if guard.deflated == 1 else 0.0
-    return 1 if contact.gap > start - S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance else 0
+    if guard.deflated == 1:
+        return 1 if contact.gap_rate > -_ROUND_OFF * S.velocity_tolerance else 0
+    rests = guard.value > -S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance
+    return 1 if contact.beyond != 0.0 and rests else 0
 
 
 @kernel("f8(S, F, I, i8)")

@@ -89,6 +89,7 @@ CONTACT: Fields = {
         "gap_rate",
         "gap_rate_first",
         "gap_rate_end",
+        "gap_first",
         "gap_end",
         "rate_end",
         "past_first",

@@ -21,6 +21,7 @@ ARRAYS = Arrays(
         "gap_rate": per(1, "n_slots"),
         "gap_rate_first": per(1, "n_slots"),
         "gap_rate_end": per(1, "n_slots"),
+        "gap_first": per(1, "n_slots"),
         "gap_end": per(1, "n_slots"),
         "past_end": per(1, "n_slots"),
         "past_first": per(1, "n_slots"),
