@@ -44,8 +44,6 @@ from nonsmooth.engine.native.kernel import (
 
 _ROUND_OFF = 1e-3
 """Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
-_ADRIFT = 0.1
-"""A gap that starts at rest may drift by this part of the tolerance: in time to close before it counts as a collision."""
 _WRONG_GAP = -1e3
 """A gap that is not armed fires below so many gap tolerances all the same,"""
 _WRONG_SLIP = -0.05
@@ -207,7 +205,7 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
                 normal.deflated = 1
                 normal.start = min(0.0, normal.start)
                 if contact.gap_rate_end <= S.velocity_tolerance:
-                    normal.start = min(-_ADRIFT * S.gap_tolerance, normal.start) - _ROUND_OFF * S.gap_tolerance
+                    normal.start -= _ROUND_OFF * S.gap_tolerance
                 normal.first = contact.gap_rate_end
         elif contact.normal_function != 0 and normal.first <= S.gap_tolerance:
             # it has just touched down, and lets go when it comes back to here
