@@ -22,8 +22,8 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
 
     They are those of the inelastic impact on Coulomb's cone, its slip being the one that it leaves, under what the
     accelerations do in so short a time that they change no velocity beyond its tolerance.  Where there are forces that
-    is all; where there are none the impulses are finite in the limit, and bring slips to rest.  Forces without bound may
-    also vanish: closed contacts without an impulse are ``released``.
+    is all; where there are none the impulses are finite in the limit, and bring slips to rest.  Forces without bound
+    may also vanish: closed contacts without an impulse are ``released``.
     """
     scale = 0.0
     for a in range(S.n_active):
