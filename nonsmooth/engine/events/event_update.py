@@ -141,6 +141,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
         contact = contact_at(S, w, k, c)
         if contact.code_during != contact.code_before or contact.mode != OPEN:
             _provisional_mode(S, w, k, c)
+        contact.released = 0
     record_event(S, w, k, cause, which, S.phases)
     return RUNNING
 
@@ -192,7 +193,7 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
 def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     contact = contact_at(S, w, k, c)
     rigid = contact.normal_function == 0
-    if contact.touching == 0 or (rigid and contact.rate[0] > S.velocity_tolerance):
+    if contact.touching == 0 or contact.released == 1 or (rigid and contact.rate[0] > S.velocity_tolerance):
         contact.mode = OPEN
         return
     if contact.mode == OPEN:
@@ -236,7 +237,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
             # a slip about to start from rest is found anew, not remembered
             mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
             # one that touches without having closed parts again
-            if contact.mode == OPEN and c != which and cause != START:
+            if contact.mode == OPEN and (c != which or cause == JAM) and cause != START:
                 mode = OPEN
             if cause == LIFT_OFF and (c == which or _force_gone(S, w, k, c) == 1):
                 mode = OPEN

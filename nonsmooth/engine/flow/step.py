@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.flow.flow import hold_guard, slope
+from nonsmooth.engine.flow.flow import is_violated, slope
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import SLIDE
@@ -93,11 +93,7 @@ def _holds(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if no force of a closed contact violates its mode: when it begins to is for explicit steps to find."""
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
-        contact = contact_at(S, w, k, c)
-        least = hold_guard(S, w, k, c)
-        if contact.holds == 1:
-            least = min(least, contact.static_margin)
-        if least < -contact.small_force_of:
+        if is_violated(S, w, k, c) == 1:
             return 0
     return 1
 

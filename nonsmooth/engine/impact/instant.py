@@ -8,6 +8,7 @@ from nonsmooth.engine.contact.newton import STAGES, search_by_newton
 from nonsmooth.engine.contact.problem import friction_coefficient, lay_friction
 from nonsmooth.engine.delassus.delassus import add_product, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
+from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -17,11 +18,12 @@ _MOMENT = 0.1
 
 @kernel("i8(S, F, I)")
 def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
-    """Find the impulses of a moment in which the forces have no bound; return 1 if they change a velocity.
+    """Find the impulses of a moment in which the forces have no bound; return 1 if they change a velocity or a mode.
 
     They are those of the inelastic impact on Coulomb's cone, its slip being the one that it leaves, under what the
     accelerations do in so short a time that they change no velocity beyond its tolerance.  Where there are forces that
-    is all; where there are none the impulses are finite in the limit, and bring slips to rest.
+    is all; where there are none the impulses are finite in the limit, and bring slips to rest.  Forces without bound
+    may also vanish: closed contacts without an impulse are ``released``.
     """
     scale = 0.0
     for a in range(S.n_active):
@@ -34,6 +36,9 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
     moved = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        contact.released = 1 if contact.mode != OPEN and active.force[0] == 0.0 else 0
+        moved = max(moved, contact.released)
         for r in range(3):
             active.impulse[r] = active.force[r]
             if abs(add_product(S, w, k, 0.0, a, r, S.f)) > S.velocity_tolerance:
@@ -52,13 +57,13 @@ def plastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
         lay_friction(S, w, k, a)
-        active.mu_static = active.mu = active.mu_static if active.at_rest == 1 else active.mu
+        rests, slips = abs(contact.rate[0]) <= S.velocity_tolerance, active.at_rest == 0
+        active.mu_static = active.mu = active.mu if slips else active.mu_static
         active.at_rest = active.normal_held = 1
         for r in range(3):
-            rate = contact.rate[r]
-            if r == 0 and moment > 0.0 and abs(rate) <= S.velocity_tolerance:
-                rate = 0.0
-            active.free[r] = rate + moment * active.free[r]
+            # what counts as zero must not hide what the accelerations do
+            still = moment > 0.0 and (rests if r == 0 else not slips)
+            active.free[r] = moment * active.free[r] + (0.0 if still else contact.rate[r])
             active.force[r] = 0.0
     for stage in range(STAGES):
         if search_by_newton(S, w, k, stage) == 1:

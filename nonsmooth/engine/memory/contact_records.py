@@ -109,6 +109,7 @@ CONTACT: Fields = {
         "member",
         "group_of",
         "impacting",
+        "released",
         # what it takes from one window of a large impact to the next
         "phase_kept",
         "held_kept",

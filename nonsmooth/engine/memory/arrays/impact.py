@@ -37,6 +37,7 @@ ARRAYS = Arrays(
     },
     integers={
         "impacting": per(1, "n_slots"),
+        "released": per(1, "n_slots"),
         "phase": per(1, "n_slots"),
         "stiff": fixed(STIFF),
         "phase_kept": per(1, "n_slots"),
