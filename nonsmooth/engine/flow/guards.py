@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
-from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard
+from nonsmooth.engine.flow.flow import WRONG_FORCE, hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_end_guard,
@@ -47,9 +47,7 @@ _ROUND_OFF = 1e-3
 _WRONG_GAP = -1e3
 """A gap that is not armed fires below so many gap tolerances all the same,"""
 _WRONG_SLIP = -0.05
-"""a slip below so many velocity tolerances,"""
-_WRONG_FORCE = -2.0
-"""and a force below so many times what its contact problem took for zero."""
+"""and a slip below so many velocity tolerances."""
 _LATE = 2.0
 """A closed contact ends so many gap tolerances past the end of its features; up to one it may close."""
 
@@ -268,7 +266,7 @@ def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
     if normal and (contact.mode == OPEN or contact.normal_function != 0):
         return float(_WRONG_GAP * S.gap_tolerance)
     if normal or (contact.mode == STICK and contact.holds == 1):
-        return float(_WRONG_FORCE * contact.small_force_of)
+        return float(WRONG_FORCE * contact.small_force_of)
     return float(_WRONG_SLIP * S.velocity_tolerance)
 
 
