@@ -99,7 +99,7 @@ def build(variant: str, seed: int) -> ns.System:
 
 
 def run(variant: str, seed: int) -> tuple[str, float, float, float, int]:
-    """Return why the run ended, its processor time [s], its time [s], the greatest speed of a centre [m/s], its events."""
+    """Return why the run ended, processor time [s], its time [s], greatest speed of a centre [m/s], number of events."""
     warnings.simplefilter("ignore")
     model = ns.assemble(build(variant, seed))
     began = time.process_time()
