@@ -58,7 +58,7 @@ def _residual(S: Scalars, w: Floats, k: Integers) -> float:
             cut = radius / size if size > radius else 1.0
             right[1], right[2] = t1 - cut * y1, t2 - cut * y2
         for r in range(3):
-            square += right[r] ** 2
+            square += right[r] * right[r]
     return square
 
 
@@ -145,7 +145,7 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
             return 0
         size = 0.0
         for i in range(width):
-            size += w[S.f + i] ** 2
+            size += w[S.f + i] * w[S.f + i]
         if square <= _SETTLED * _SETTLED * size:
             return 1
         if _lay_jacobian(S, w, k) == 0:

@@ -18,7 +18,7 @@ from nonsmooth.engine.events.record import (
 )
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
 from nonsmooth.engine.flow.clearance import bound_speeds
-from nonsmooth.engine.flow.flow import right_hand_side, slope
+from nonsmooth.engine.flow.flow import is_violated, right_hand_side, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -227,8 +227,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     _keep_start(S, w, k)
     which = _due_at_start(S, w, k)
     if which >= 0:
-        cause = _closing_cause(S, w, k, which) if contact_at(S, w, k, which).mode == OPEN else FEATURE_END
-        return _carry_out(S, w, k, cause, which)
+        return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
     orient_slips(S, w, k, S.rate_end)
     arm_guards(S, w, k)
     status = accepted_step(S, w, k)
@@ -289,7 +288,22 @@ def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
         # what put the contacts on their constraints may have put one past its end
         if contact.mode != OPEN and guard_at(S, w, k, first_end_guard(S) + c).end < 0.0:
             return c
+        # and may have turned a slip so that its force is another one
+        unique = contact.mode != OPEN and contact.normal_function == 0 and contact.redundant == 0
+        if S.fresh == 0 and unique and is_violated(S, w, k, c) == 1:
+            return c
     return -1
+
+
+@kernel("i8(S, F, I, i8)")
+def _cause_at_start(S: Scalars, w: Floats, k: Integers, which: int) -> int:
+    """Return the cause of the event that is due of contact ``which`` before any step."""
+    if contact_at(S, w, k, which).mode == OPEN:
+        return _closing_cause(S, w, k, which)
+    if guard_at(S, w, k, first_end_guard(S) + which).end < 0.0:
+        return FEATURE_END
+    pulls = guard_at(S, w, k, normal_guard(which)).end < 0.0
+    return LIFT_OFF if pulls else STICK_TO_SLIP
 
 
 @kernel("i8(S, F, I, i8)")
@@ -325,7 +339,8 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     S.fresh, S.limit = 0, BY_EVENT
     h = locate(S, w, k, S.h, high)
     if h < 0.0:
-        return _shorten(S)
+        status = _shorten(S)
+        return _without_step(S, w, k, status) if status == STEP_TOO_SMALL else status
     if h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)

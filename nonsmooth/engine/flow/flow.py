@@ -30,6 +30,9 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.vectors import length
 
+WRONG_FORCE = -2.0
+"""A force below so many times what its contact problem took for zero violates its mode."""
+
 
 @entry_point("i8(S, F, I, f8, i8, i8)")
 def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosing: int) -> int:
@@ -135,6 +138,16 @@ def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     if contact.normal_function != 0:
         return float(contact.reach - contact.gap)
     return float(contact.force[0])
+
+
+@kernel("i8(S, F, I, i8)")
+def is_violated(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if the force of closed contact ``c`` violates its mode by more than what it takes for zero."""
+    contact = contact_at(S, w, k, c)
+    least = hold_guard(S, w, k, c)
+    if contact.holds == 1:
+        least = min(least, contact.static_margin)
+    return 1 if least < WRONG_FORCE * contact.small_force_of else 0
 
 
 @kernel("f8(S, F, I, i8)")

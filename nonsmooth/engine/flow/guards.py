@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
-from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard
+from nonsmooth.engine.flow.flow import WRONG_FORCE, hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_end_guard,
@@ -47,9 +47,7 @@ _ROUND_OFF = 1e-3
 _WRONG_GAP = -1e3
 """A gap that is not armed fires below so many gap tolerances all the same,"""
 _WRONG_SLIP = -0.05
-"""a slip, or the growth of a gap, below so many velocity tolerances,"""
-_WRONG_FORCE = -2.0
-"""and a force below so many times what its contact problem took for zero."""
+"""and a slip, or the growth of a gap, below so many velocity tolerances."""
 _LATE = 2.0
 """A closed contact ends so many gap tolerances past the end of its features; up to one it may close."""
 
@@ -243,13 +241,16 @@ def arm_further(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
 
 
 @kernel("i8(S, F, I, i8)")
-def _slides_on(S: Scalars, w: Floats, k: Integers, i: int) -> int:
-    """Return 1 if guard ``i`` is a gap that came over the end of a feature to where it rests; it does not close."""
+def _rests(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is a gap at rest that started closed, or came over the end of a feature: it does not close.
+
+    Beside contacts that hold the bodies such a gap drifts as far as theirs do.
+    """
     guard, contact = guard_at(S, w, k, i), contact_at(S, w, k, contact_of(i))
-    if contact.mode != OPEN or is_friction_guard(i) == 1 or guard.deflated == 1:
+    if contact.mode != OPEN or is_friction_guard(i) == 1 or (guard.deflated == 0 and contact.beyond == 0.0):
         return 0
-    rests = guard.value > -S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance
-    return 1 if contact.beyond != 0.0 and rests else 0
+    start = guard.start if guard.deflated == 1 else 0.0
+    return 1 if contact.gap > start - S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance else 0
 
 
 @kernel("f8(S, F, I, i8)")
@@ -262,7 +263,7 @@ def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
     if normal and (contact.mode == OPEN or contact.normal_function != 0):
         return float(_WRONG_GAP * S.gap_tolerance)
     if normal or (contact.mode == STICK and contact.holds == 1):
-        return float(_WRONG_FORCE * contact.small_force_of)
+        return float(WRONG_FORCE * contact.small_force_of)
     return float(_WRONG_SLIP * S.velocity_tolerance)
 
 
@@ -271,7 +272,7 @@ def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` of a contact has fired."""
     guard = guard_at(S, w, k, i)
     if guard.value < 0.0 and (guard.armed == 1 or guard.value < _wrong(S, w, k, i)):
-        return 1 - _slides_on(S, w, k, i)
+        return 1 - _rests(S, w, k, i)
     return 0
 
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.flow.flow import hold_guard, slope
+from nonsmooth.engine.flow.flow import is_violated, slope
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
-from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
+from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes
 
 _STIFF = 2.0
 """Relaxations within a step that an explicit one bears."""
@@ -93,11 +93,7 @@ def _holds(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if no force of a closed contact violates its mode: when it begins to is for explicit steps to find."""
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
-        contact = contact_at(S, w, k, c)
-        least = hold_guard(S, w, k, c)
-        if contact.holds == 1:
-            least = min(least, contact.static_margin)
-        if least < -contact.small_force_of:
+        if is_violated(S, w, k, c) == 1:
             return 0
     return 1
 
@@ -135,22 +131,37 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
     return 0
 
 
+@kernel("i8(S, F, I)")
+def _settle(S: Scalars, w: Floats, k: Integers) -> int:
+    """Write the slope at the start with friction against the slip that a stage makes of it; return 1 if it is found."""
+    for i in range(S.n_y):
+        w[S.y_guess + i] = 0.0
+    S.unsettled = 0
+    S.ahead, S.guess = S.stage_time, S.y_guess + S.n_q
+    slope(S, w, k, S.t, S.y, S.slopes + S.n_y, 0)
+    S.ahead = 0.0
+    return 0 if S.unsettled == 1 else _holds(S, w, k)
+
+
 @kernel("f8(S, F, I, f8)")
 def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` whose stages end with friction against their own slip; return its relative error.
 
-    Leaves slopes from which the dense output of the explicit step makes the cubic through both ends.  Where no implicit
+    Leaves slopes from which the dense output of the explicit step makes the interpolant of this one.  Where no implicit
     step went before the slip may not have settled, and the slope on which it will takes the place of that at the start.
     """
     n = S.n_y
     S.stage_time = implicit_tableau.DIAGONAL * h
     for i in range(n):
         w[S.slopes + n + i] = w[S.slopes + i]
-    for stage in range(1 + S.follows, N_STAGES):
+    if S.follows == 0 and _settle(S, w, k) == 0:
+        return _UNUSABLE
+    for stage in range(2, N_STAGES):
         if _solve_stage(S, w, k, h, stage) == 0:
             return _UNUSABLE
-    step_errors(S, w, S.implicit_errors, S.slopes, n, h, S.y_stage)
+    weigh_slopes(S, w, S.implicit_errors, S.slopes, n, h, S.y_stage)
     error = _relative_error(S, w)
+    weigh_slopes(S, w, S.implicit_bend, S.slopes, n, 2.0, S.y_stage)
     S.replaced = 1
     for i in range(n):
         w[S.slope_kept + i], w[S.slopes + i] = w[S.slopes + i], w[S.slopes + n + i]
@@ -163,6 +174,7 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
                 6.0 * c * (1.0 - c) * rise
                 + (1.0 - c) * (1.0 - 3.0 * c) * w[S.slopes + i]
                 + c * (3.0 * c - 2.0) * w[last + i]
+                + c * (1.0 - c) * (1.0 - 2.0 * c) * w[S.y_stage + i]
             )
     return error
 
@@ -176,7 +188,7 @@ def _try_explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         out = S.y_new if stage == LAST_STAGE else S.y_stage
         stage_state(S, w, S.stages, S.y, S.slopes, n, stage, h, out)
         slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0)
-    step_errors(S, w, S.error_weights, S.slopes, n, h, S.y_stage)
+    weigh_slopes(S, w, S.error_weights, S.slopes, n, h, S.y_stage)
     return max(_relative_error(S, w), _unseen(S, w, h))
 
 

@@ -12,8 +12,10 @@ from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_MOMENT = 0.1
-"""In a moment accelerations change velocities by this part of their tolerance."""
+_MOMENT = 1e-3
+"""In a moment accelerations change velocities by this part of their tolerance;"""
+_MOVED = 0.1
+"""what impulses change by this part of it is more than that."""
 
 
 @kernel("i8(S, F, I)")
@@ -22,8 +24,8 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
 
     They are those of the inelastic impact on Coulomb's cone, its slip being the one that it leaves, under what the
     accelerations do in so short a time that they change no velocity beyond its tolerance.  Where there are forces that
-    is all; where there are none the impulses are finite in the limit, and bring slips to rest.  Forces without bound may
-    also vanish: closed contacts without an impulse are ``released``.
+    is all; where there are none the impulses are finite in the limit, and bring slips to rest.  Forces without bound
+    may also vanish: closed contacts without an impulse are ``released``.
     """
     scale = 0.0
     for a in range(S.n_active):
@@ -41,7 +43,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         moved = max(moved, contact.released)
         for r in range(3):
             active.impulse[r] = active.force[r]
-            if abs(add_product(S, w, k, 0.0, a, r, S.f)) > S.velocity_tolerance:
+            if abs(add_product(S, w, k, 0.0, a, r, S.f)) > _MOVED * S.velocity_tolerance:
                 moved = 1
     _split_loss(S, w, k)
     return moved

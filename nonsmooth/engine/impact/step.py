@@ -14,7 +14,7 @@ from nonsmooth.engine.memory import tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES, STIFF
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, impact_state, kernel
 from nonsmooth.engine.numerics.linear import eliminate
-from nonsmooth.engine.numerics.runge_kutta import stage_state, step_errors
+from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes
 from nonsmooth.engine.numerics.vectors import length
 
 _SLIPS = 2
@@ -38,7 +38,7 @@ def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         out = S.impact_new if stage == LAST_STAGE else S.impact_stage
         stage_state(S, w, S.stages, S.impact_y, S.impact_slopes, n, stage, h, out)
         impact_slope(S, w, k, out, S.impact_slopes + stage * n)
-    step_errors(S, w, S.error_weights, S.impact_slopes, n, h, S.impact_stage)
+    weigh_slopes(S, w, S.error_weights, S.impact_slopes, n, h, S.impact_stage)
     error = _relative_error(S, w, k)
     if not error <= 1.0:
         stiff = _find_stiff(S, w, k, h)

@@ -27,3 +27,14 @@ ERROR = (
     -2260 / 8211 + 3700637 / 11593932,
     1 / 4 - 61727 / 225920,
 )
+BEND = (
+    0.0,
+    -189857 / 172391,
+    3253 / 1407,
+    55156250 / 19502427,
+    -10625 / 2077,
+    0.0,
+    12047 / 11189,
+)
+"""Weights of the slopes in what the interpolant of fourth order adds to the cubic through both ends, whose values and
+slopes there it keeps: h theta^2 (1 - theta)^2 times their sum."""

@@ -159,5 +159,6 @@ def allocate(counts: Mapping[str, int], rooms: Collection[str]) -> Memory:
     memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
     memory.array("implicit_stages", 6 * N_STAGES)[:] = np.ravel(implicit_tableau.STAGES)
     memory.array("implicit_errors", N_STAGES)[:] = implicit_tableau.ERROR
+    memory.array("implicit_bend", N_STAGES)[:] = implicit_tableau.BEND
     memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
     return memory

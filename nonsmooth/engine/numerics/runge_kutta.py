@@ -48,8 +48,8 @@ def dense_part(
 
 
 @kernel("void(S, F, i8, i8, i8, f8, i8)")
-def step_errors(S: Scalars, w: Floats, weights: int, slopes: int, n: int, h: float, out: int) -> None:
-    """Write the estimated errors of the components of the step."""
+def weigh_slopes(S: Scalars, w: Floats, weights: int, slopes: int, n: int, h: float, out: int) -> None:
+    """Write ``h`` times the weighted sum of the slopes, by which errors of a step are estimated."""
     weight = h * w[weights]
     for i in range(n):
         w[out + i] = weight * w[slopes + i]

@@ -11,6 +11,7 @@ ARRAYS = Arrays(
         "error_weights": fixed(N_STAGES),
         "implicit_stages": fixed(6 * N_STAGES),
         "implicit_errors": fixed(N_STAGES),
+        "implicit_bend": fixed(N_STAGES),
         "dense": fixed(4 * N_STAGES),
     },
     integers={},
