@@ -1,4 +1,4 @@
-"""Balls in a box that slip slowly against walls and each other and together have no forces: their slips stop at once."""
+"""Balls in a box that slip slowly against walls and each other, together without forces: their slips stop at once."""
 
 from __future__ import annotations
 
