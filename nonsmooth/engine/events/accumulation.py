@@ -5,14 +5,17 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.compliance import begin_contact
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
+from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
-from nonsmooth.engine.impact.instant import plastic_impulses
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+
+_CREEPING = 1e-3
+"""An approach below this part of what counts as zero is none."""
 
 
 @kernel("i8(S, F, I)")
@@ -152,12 +155,14 @@ def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
 def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
     """Stop the open contacts that touch and approach, if no faster than what counts as zero; return the energy [J].
 
-    Nothing collides so slowly, but in time the bodies would overlap.
+    Nothing collides so slowly, but in time the bodies would overlap.  The impulses press and do not rub: so little is
+    no friction.
     """
     creeping = 0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        if contact.touching == 1 and contact.normal_function == 0 and contact.mode == OPEN and contact.rate[0] < 0.0:
+        rests = contact.touching == 1 and contact.normal_function == 0 and contact.mode == OPEN
+        if rests and contact.rate[0] < -_CREEPING * S.velocity_tolerance:
             creeping += 1
     if creeping == 0:
         return 0.0
@@ -167,15 +172,20 @@ def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         assemble_delassus(S, w, k)
-        plastic_impulses(S, w, k, 0.0)
+        for a in range(S.n_active):
+            active = active_at(S, w, k, a)
+            contact = contact_at(S, w, k, active.slot)
+            active.at_rest, active.normal_held = 0, 1
+            active.mu = active.normal_force = 0.0
+            for r in range(3):
+                active.free[r] = contact.rate[r]
+        gauss_seidel(S, w, k, SWEEPS)
         add_response(S, w, k, S.f, S.y + S.n_q)
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
             contact = contact_at(S, w, k, active.slot)
-            for r in range(3):
-                impulse = active.force[r]
-                loss -= 0.5 * impulse * add_product(S, w, k, 2.0 * contact.rate[r], a, r, S.f)
-                S.driven_work -= impulse * contact.prescribed_rate[r]
+            loss -= 0.5 * active.normal_force * add_product(S, w, k, 2.0 * contact.rate[0], a, 0, S.f)
+            S.driven_work -= active.normal_force * contact.prescribed_rate[0]
     return loss
 
 

@@ -74,7 +74,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         for r in range(3):
             active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
             scale = max(scale, abs(contact.bias[r]), abs(active.free[r]))
-    plastic_impulses(S, w, k, _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0)
+    _find_impulses(S, w, k, _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0)
     moved = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -90,7 +90,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("void(S, F, I, f8)")
-def plastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
+def _find_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
     """Write to ``f`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
 
     The rates are those at hand and what the accelerations, which stand in ``b``, make of them in a ``moment`` [s].
@@ -104,7 +104,7 @@ def plastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
         active.at_rest = active.normal_held = 1
         for r in range(3):
             # what counts as zero must not hide what the accelerations do
-            still = moment > 0.0 and (rests if r == 0 else not slips)
+            still = rests if r == 0 else not slips
             active.free[r] = moment * active.free[r] + (0.0 if still else contact.rate[r])
             active.force[r] = 0.0
     for stage in range(STAGES):
