@@ -6,26 +6,26 @@ import math
 
 import numpy as np
 
+from laws.impact.natural_map import find_zero, sweep
+from laws.impact.pyramid import solve_on_pyramids
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Array, Floats
 
-_SWEEPS = 100000
-_EXACT = 1e-15
-_SOLVED = 1e-9
-_ENDLESS = 1e100
-_PATIENCE = 500
-_PROGRESS = 0.999
-_LEAST_RELAXATION = 0.03
+_SWEEPS = 100
+_NARROW = (0.0, 0.25, 0.06, 0.015, 0.004, 0.001, 3e-4, 1e-4)
+"""Angles between facets [rad], one after the other: a pyramid comes near the cone where the friction is."""
+_COMPLIANCES = (1e-9, 1e-7, 1e-5, 1e-3)
 
 
 @compiled
 def solve_cone(
     n: int, delassus: Floats, rates: Floats, shift: Floats, base: Floats, least: Floats, out: Floats, friction: Floats
-) -> None:
-    """Solve for the impulses P by projection, contact by contact, from what ``out`` holds.
+) -> int:
+    """Solve for the impulses P from what ``out`` holds, or from the answer on pyramids; return 1 if there is one.
 
     With z = rates + G P and xi = z + shift: P_N >= least complementary to xi_N >= 0; P_T - base_T in the disc of
-    radius mu (P_N - base_N), on its edge against xi_T unless that vanishes.
+    radius mu (P_N - base_N), on its edge against xi_T unless that vanishes.  Without a shift, as in an inelastic
+    impact, there always is an answer.
 
     Parameters
     ----------
@@ -40,49 +40,76 @@ def solve_cone(
     least : array
         Least normal impulses [N s], length n.
     out : array
-        Impulses: a start, then the solution [N s], length 3 n.  Not a number where the sweeps do not converge.
+        Impulses: a start, then the solution [N s], length 3 n.  Not a number where there is none.
     friction : array
         Coefficients mu, length n.
     """
     width = 3 * n
-    change = size = relaxation = 1.0
-    before = math.inf
-    for sweep in range(1, _SWEEPS):
-        if sweep % _PATIENCE == 0:
-            # strong coupling of normal and slip, as in Painlevé's paradox, makes full steps go round in circles
-            if change > _PROGRESS * before:
-                relaxation = max(0.5 * relaxation, _LEAST_RELAXATION)
-            before = change
-        change = size = 0.0
-        for a in range(n):
-            line = 3 * a
-            after = rates[line] + shift[line]
-            for j in range(width):
-                after += delassus[line * width + j] * out[j]
-            old = out[line]
-            out[line] = max(least[a], old - relaxation * after / delassus[line * width + line])
-            change = max(change, abs(out[line] - old))
-            # a step of the projected gradient on the disc, short enough for any 2 x 2 block
-            step = relaxation / (delassus[(line + 1) * width + line + 1] + delassus[(line + 2) * width + line + 2])
-            v1, v2 = rates[line + 1] + shift[line + 1], rates[line + 2] + shift[line + 2]
-            for j in range(width):
-                v1 += delassus[(line + 1) * width + j] * out[j]
-                v2 += delassus[(line + 2) * width + j] * out[j]
-            p1, p2 = out[line + 1] - base[line + 1] - step * v1, out[line + 2] - base[line + 2] - step * v2
-            bound = friction[a] * (out[line] - base[line])
-            norm = math.sqrt(p1 * p1 + p2 * p2)
-            if norm > bound:
-                p1, p2 = p1 * bound / norm, p2 * bound / norm
-            p1, p2 = p1 + base[line + 1], p2 + base[line + 2]
-            change = max(change, abs(p1 - out[line + 1]), abs(p2 - out[line + 2]))
-            out[line + 1], out[line + 2] = p1, p2
-            size = max(size, out[line])
-        if change <= _EXACT * relaxation * size:
-            return
-        if not size < _ENDLESS:
-            break
-    if not change <= _SOLVED * relaxation * size:
-        out[0] = math.nan
+    matrix, free, p, mu = np.zeros((width, width)), np.zeros(width), np.zeros(width), np.zeros(n)
+    tried, kept, lower = np.zeros(width), np.zeros(width), np.zeros(n)
+    for i in range(width):
+        free[i], p[i], kept[i] = rates[i] + shift[i], out[i], base[i]
+        mu[i // 3], lower[i // 3] = friction[i // 3], least[i // 3]
+        for j in range(width):
+            matrix[i, j] = delassus[i * width + j]
+    answered = 0
+    for trial in range(-1, len(_NARROW)):
+        if trial >= 0:
+            answered += solve_on_pyramids(n, matrix, free, kept, lower, mu, _NARROW[trial], p)
+            if answered == 0:
+                break
+        for sweeps in (0, _SWEEPS):
+            for i in range(width):
+                tried[i] = p[i]
+            for _sweep in range(sweeps):
+                sweep(n, matrix, free, kept, lower, mu, tried)
+            if _settle(n, matrix, free, kept, lower, mu, tried, out) == 1:
+                return 1
+    # the narrowest pyramids are next to the cones
+    for i in range(width):
+        out[i] = p[i] if answered > 0 else math.nan
+    return 1 if answered > 0 else 0
+
+
+@compiled
+def _settle(
+    n: int,
+    matrix: Floats,
+    free: Floats,
+    base: Floats,
+    least: Floats,
+    friction: Floats,
+    start: Floats,
+    out: Floats,
+) -> int:
+    """Find the impulses by Newton's method from a start; write them, inside the cones to the last bit, and return 1."""
+    for compliance in _COMPLIANCES:
+        p = start.copy()
+        if find_zero(n, matrix, free, base, least, friction, compliance, p) == 1:
+            for a in range(n):
+                i = 3 * a
+                out[i] = max(least[a], p[i])
+                p1, p2 = p[i + 1] - base[i + 1], p[i + 2] - base[i + 2]
+                size, radius = math.sqrt(p1 * p1 + p2 * p2), friction[a] * (out[i] - base[i])
+                cut = radius / size if size > radius else 1.0
+                out[i + 1], out[i + 2] = base[i + 1] + cut * p1, base[i + 2] + cut * p2
+            return 1
+    return 0
+
+
+@compiled
+def solve_rebound(n: int, delassus: Floats, rates: Floats, shift: Floats, out: Floats, friction: Floats) -> None:
+    """Solve for the impulses with a rebound, the ``shift``; where that has no answer, as inelastic impact.
+
+    Bodies wedged between others leave no room for it: what takes one contact apart presses another one together.
+    """
+    none, least = np.zeros(3 * n), np.zeros(n)
+    for i in range(3 * n):
+        out[i] = 0.0
+    if solve_cone(n, delassus, rates, shift, none, least, out, friction) == 0:
+        for i in range(3 * n):
+            out[i] = 0.0
+        solve_cone(n, delassus, rates, none, none, least, out, friction)
 
 
 def cone_deviation(

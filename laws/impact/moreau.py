@@ -9,7 +9,7 @@ from typing import ClassVar, final
 
 import numpy as np
 
-from laws.impact.cone import follows_cone, solve_cone
+from laws.impact.cone import follows_cone, solve_rebound
 from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
@@ -26,14 +26,12 @@ def _impulses(
     tangential_restitution: Floats,
 ) -> None:
     """G'+ >= -e_N g'- complementary to P_N >= 0; P_T in the disc against v+ + e_T v-."""
-    shift, none = np.zeros(3 * n), np.zeros(3 * n)
-    for i in range(3 * n):
-        out[i] = 0.0
+    shift = np.zeros(3 * n)
     for a in range(n):
         shift[3 * a] = restitution[a] * min(rates[3 * a], 0.0)
         for r in range(1, 3):
             shift[3 * a + r] = tangential_restitution[a] * rates[3 * a + r]
-    solve_cone(n, delassus, rates, shift, none, none, out, friction)
+    solve_rebound(n, delassus, rates, shift, out, friction)
 
 
 @final
@@ -48,6 +46,8 @@ class MoreauImpact(ImpactMap):
     P^T (z+ + z-) / 2 is P^T (z+ + e z-) / (1 + e), which is not positive, less (1 - e) / (1 + e) P^T G P / 2.
     With e_N different from e_T it may gain energy where normal and slip are coupled (Kane's example, e_T = 0).  So may
     contacts with different e_N, even without friction.
+
+    Where no velocities rebound at all contacts, as of a ball wedged between two walls, the impact is inelastic.
 
     References
     ----------

@@ -9,7 +9,7 @@ from typing import ClassVar, final
 
 import numpy as np
 
-from laws.impact.cone import follows_cone, solve_cone
+from laws.impact.cone import follows_cone, solve_rebound
 from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
@@ -25,12 +25,10 @@ def _impulses(
     restitution: Floats,
 ) -> None:
     """G'+ >= -e g'- complementary to P_N >= 0; P_T in the disc against v+."""
-    shift, none = np.zeros(3 * n), np.zeros(3 * n)
-    for i in range(3 * n):
-        out[i] = 0.0
+    shift = np.zeros(3 * n)
     for a in range(n):
         shift[3 * a] = restitution[a] * min(rates[3 * a], 0.0)
-    solve_cone(n, delassus, rates, shift, none, none, out, friction)
+    solve_rebound(n, delassus, rates, shift, out, friction)
 
 
 @final
@@ -44,6 +42,8 @@ class NewtonImpact(ImpactMap):
     It always loses energy without friction, if all contacts approach or rest and have the same e.  It may gain energy
     with friction, even at one contact (Kane's example); and without, where contacts have different e or
     one separates while another strikes, because a separating contact counts with e = 0.
+
+    Where no velocities rebound at all contacts, as of a ball wedged between two walls, the impact is inelastic.
 
     References
     ----------

@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from laws.impact.cone import follows_cone, solve_cone
+from laws.impact.cone import follows_cone, solve_rebound
 from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.types import Array, Floats
@@ -16,10 +16,7 @@ from nonsmooth.types import Array, Floats
 
 def _impulses(n: int, delassus: Floats, rates: Floats, out: Floats, friction: Floats) -> None:
     """G'+ >= 0 complementary to P_N >= 0; P_T in the disc against v+."""
-    none = np.zeros(3 * n)
-    for i in range(3 * n):
-        out[i] = 0.0
-    solve_cone(n, delassus, rates, none, none, none, out, friction)
+    solve_rebound(n, delassus, rates, np.zeros(3 * n), out, friction)
 
 
 @final

@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from laws.impact.cone import cone_deviation, solve_cone
+from laws.impact.cone import cone_deviation, solve_cone, solve_rebound
 from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
@@ -25,9 +25,7 @@ def _impulses(
 ) -> None:
     """Compression as a plastic impact; then P_N - P_Nc >= e P_Nc complementary to g'+ >= 0, friction against v+."""
     none, compression, least = np.zeros(3 * n), np.zeros(3 * n), np.zeros(n)
-    for i in range(3 * n):
-        out[i] = 0.0
-    solve_cone(n, delassus, rates, none, none, none, out, friction)
+    solve_rebound(n, delassus, rates, none, out, friction)
     for i in range(3 * n):
         compression[i] = out[i]
     for a in range(n):

@@ -151,12 +151,12 @@ class Solution:
     @property
     def q_end(self) -> NDArray[np.float64]:
         """Coordinates at that time, shape [n_q]."""
-        return self.state.q
+        return self.state.q.copy()
 
     @property
     def u_end(self) -> NDArray[np.float64]:
         """Velocities at that time, shape [n_u]."""
-        return self.state.u
+        return self.state.u.copy()
 
     @property
     def energy(self) -> EnergyAccount:

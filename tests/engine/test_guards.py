@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
+from bodies import Ball, BoxBody, Dumbbell, Harmonic, Plate, Rest
 from nonsmooth.engine.memory.modes import IMPACT, word
 
 G = 9.81
@@ -54,6 +54,18 @@ def test_a_zero_at_the_start_does_not_fire(build: Any) -> None:
     assert solution.events.causes() == ["start", "impact"]
     assert solution.events.words("after")[0] == "{0,0,0}"
     assert solution.events.time[1] == pytest.approx(1.0 / G, abs=1e-12)
+
+
+def test_a_gap_at_rest_beside_contacts_that_hold_does_not_fire(build: Any) -> None:
+    """A tall block slides and turns on three of its feet: the gap under the fourth is zero, and drifts as theirs do."""
+    block = BoxBody(0.01, 0.01, 0.017, density=1200.0, rounding=1e-3)
+    system = build.over(block, friction=0.5, restitution=0.5)
+    speed = 0.5 * math.sqrt(0.5)
+    system.place(block, position=(0, 0, 0.017), velocity=(speed, speed, 0), angular_velocity=(0, 0, 2.0))
+    solution = ns.simulate(system, 0.1)
+    closed = solution.events.after[-1] > 0
+    assert np.count_nonzero(closed) < 4
+    assert "event" not in solution.counters.limits
 
 
 def test_a_zero_at_the_end_fires(build: Any) -> None:

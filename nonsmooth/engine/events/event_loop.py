@@ -339,7 +339,8 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     S.fresh, S.limit = 0, BY_EVENT
     h = locate(S, w, k, S.h, high)
     if h < 0.0:
-        return _shorten(S)
+        status = _shorten(S)
+        return _without_step(S, w, k, status) if status == STEP_TOO_SMALL else status
     if h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)

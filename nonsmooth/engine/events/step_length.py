@@ -8,7 +8,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.flow.clearance import foresee
 from nonsmooth.engine.flow.guard_numbers import normal_guard
-from nonsmooth.engine.flow.step import relaxation, try_step
+from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
     BY_END,
     BY_ERROR,
@@ -120,7 +120,7 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     for _attempt in range(_ATTEMPTS):
         if S.stopped == 1:
             return NOT_FINITE
-        error = try_step(S, w, k, h)
+        error = try_length(S, w, k, h)
         if error <= 1.0 and S.singular >= 0:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
             h *= 0.5

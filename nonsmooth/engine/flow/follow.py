@@ -17,7 +17,7 @@ from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, 
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.self_check import energy_of_bodies
-from nonsmooth.engine.flow.step import relaxation, try_step
+from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -93,7 +93,7 @@ def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
 def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Try steps of ``h`` and less until one meets the tolerance and no slip turns within it; return it, or -1."""
     for _attempt in range(_ATTEMPTS):
-        error = try_step(S, w, k, h)
+        error = try_length(S, w, k, h)
         if S.stopped == 1:
             return -1.0
         part = 1.0

@@ -253,7 +253,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             guard_at(S, w, k, i).value = guard_at(S, w, k, i).end
         for c in range(S.n_contacts):
             contact = contact_at(S, w, k, c)
-            contact.gap_rate = contact.gap_rate_end
+            contact.gap, contact.gap_rate = contact.gap_end, contact.gap_rate_end
             contact.beyond = contact.past_end
         deflate(S, w, k, h)
     elif fired >= 0 or S.n_doubtful == 0:

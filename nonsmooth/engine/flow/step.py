@@ -196,8 +196,9 @@ def _try_explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
 
-    ``slopes`` must hold the slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip
-    that violates its mode at some stage raises ``suspect``.
+    It is implicit where the one tried before was, as is then a part of it, however short.  ``slopes`` must hold the
+    slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip that violates its mode at some
+    stage raises ``suspect``.
     """
     S.suspect = 0
     if S.replaced == 1:
@@ -206,12 +207,19 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             w[S.slopes + i] = w[S.slope_kept + i]
     for c in range(S.n_contacts):
         contact_at(S, w, k, c).least_force = 1e300
-    stiff = h * S.relaxation > _STIFF
-    if stiff and S.stage_time > 0.0:
+    if S.stage_time > 0.0:
         error = _try_implicit_step(S, w, k, h)
         return error if error < _UNUSABLE else _try_explicit_step(S, w, k, h)
     error = _try_explicit_step(S, w, k, h)
-    if error > 1.0 and stiff:
+    if error > 1.0 and h * S.relaxation > _STIFF:
         implicit = _try_implicit_step(S, w, k, h)
         return implicit if implicit < _UNUSABLE else _try_explicit_step(S, w, k, h)
     return error
+
+
+@kernel("f8(S, F, I, f8)")
+def try_length(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Take one step of ``h``, implicit where an explicit one does not do; return its error relative to the tolerance."""
+    if h * S.relaxation <= _STIFF:
+        S.stage_time = 0.0
+    return float(try_step(S, w, k, h))

@@ -12,8 +12,10 @@ from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_MOMENT = 0.1
-"""In a moment accelerations change velocities by this part of their tolerance."""
+_MOMENT = 1e-3
+"""In a moment accelerations change velocities by this part of their tolerance;"""
+_MOVED = 0.1
+"""what impulses change by this part of it is more than that."""
 
 
 @kernel("i8(S, F, I)")
@@ -41,7 +43,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         moved = max(moved, contact.released)
         for r in range(3):
             active.impulse[r] = active.force[r]
-            if abs(add_product(S, w, k, 0.0, a, r, S.f)) > S.velocity_tolerance:
+            if abs(add_product(S, w, k, 0.0, a, r, S.f)) > _MOVED * S.velocity_tolerance:
                 moved = 1
     _split_loss(S, w, k)
     return moved

@@ -1,0 +1,198 @@
+"""Coulomb's cone at velocity level by Newton's method on the natural map, of which a solution is a zero.
+
+With xi = G P + c, the impulses P of a solution are where a step against xi leads, projected:
+
+    P_N = max(least, P_N - xi_N / g_N),
+    P_T = projection of P_T - xi_T / g_T on the disc of radius mu (P_N - base_N) about base_T,
+
+g_N being the own entry of the normal and g_T the trace of the own tangential block.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+_EXACT = 1e-11
+"""Residual that counts as zero, relative to the largest velocity."""
+_STEPS = 30
+_HALVINGS = 10
+_ROUNDS = 20
+_UNBOUNDED = 1e9
+
+
+@compiled
+def sweep(n: int, matrix: Floats, free: Floats, base: Floats, least: Floats, friction: Floats, p: Floats) -> None:
+    """Project the impulses ``p`` [N s], contact by contact; the arguments are those of :func:`find_zero`."""
+    width = 3 * n
+    for a in range(n):
+        i = 3 * a
+        x0 = free[i]
+        for j in range(width):
+            x0 += matrix[i, j] * p[j]
+        p[i] = max(least[a], p[i] - x0 / matrix[i, i])
+        x1, x2 = free[i + 1], free[i + 2]
+        for j in range(width):
+            x1 += matrix[i + 1, j] * p[j]
+            x2 += matrix[i + 2, j] * p[j]
+        across = matrix[i + 1, i + 1] + matrix[i + 2, i + 2]
+        q1, q2 = p[i + 1] - base[i + 1] - x1 / across, p[i + 2] - base[i + 2] - x2 / across
+        size, radius = math.sqrt(q1 * q1 + q2 * q2), friction[a] * (p[i] - base[i])
+        cut = radius / size if size > radius else 1.0
+        p[i + 1], p[i + 2] = base[i + 1] + cut * q1, base[i + 2] + cut * q2
+
+
+@compiled
+def _miss(
+    n: int,
+    matrix: Floats,
+    free: Floats,
+    base: Floats,
+    least: Floats,
+    friction: Floats,
+    p: Floats,
+    missed: Floats,
+    slope: Floats,
+) -> float:
+    """Write by how much ``p`` misses the map [m/s] and the derivative of that; return its square."""
+    width = 3 * n
+    square = 0.0
+    for a in range(n):
+        i = 3 * a
+        own, across = matrix[i, i], matrix[i + 1, i + 1] + matrix[i + 2, i + 2]
+        x0, x1, x2 = free[i], free[i + 1], free[i + 2]
+        for j in range(width):
+            x0 += matrix[i, j] * p[j]
+            x1 += matrix[i + 1, j] * p[j]
+            x2 += matrix[i + 2, j] * p[j]
+        normal = max(least[a], p[i] - x0 / own)
+        pushed = normal > least[a]
+        q1, q2 = p[i + 1] - base[i + 1] - x1 / across, p[i + 2] - base[i + 2] - x2 / across
+        size, radius = math.sqrt(q1 * q1 + q2 * q2), friction[a] * max(0.0, normal - base[i])
+        cut = radius / size if size > radius else 1.0
+        missed[i] = own * (p[i] - normal)
+        missed[i + 1] = across * (p[i + 1] - base[i + 1] - cut * q1)
+        missed[i + 2] = across * (p[i + 2] - base[i + 2] - cut * q2)
+        for r in range(i, i + 3):
+            square += missed[r] ** 2
+        c1, c2 = (q1 / size, q2 / size) if cut < 1.0 else (0.0, 0.0)
+        turned = cut if cut < 1.0 else 0.0
+        grown = friction[a] / own * across if pushed and cut < 1.0 else 0.0
+        for j in range(width):
+            g0, g1, g2 = matrix[i, j], matrix[i + 1, j], matrix[i + 2, j]
+            z0 = (own if j == i else 0.0) - g0
+            z1, z2 = (across if j == i + 1 else 0.0) - g1, (across if j == i + 2 else 0.0) - g2
+            slope[i, j] = g0 if pushed else 0.0
+            if cut < 1.0:
+                round_ = turned * (c2 * z1 - c1 * z2)
+                slope[i + 1, j] = -c2 * round_ - c1 * grown * z0
+                slope[i + 2, j] = c1 * round_ - c2 * grown * z0
+            else:
+                slope[i + 1, j], slope[i + 2, j] = g1, g2
+        if not pushed:
+            slope[i, i] = own
+        if cut < 1.0:
+            slope[i + 1, i + 1] += across
+            slope[i + 2, i + 2] += across
+    return square
+
+
+@compiled
+def find_zero(
+    n: int, matrix: Floats, free: Floats, base: Floats, least: Floats, friction: Floats, compliance: float, p: Floats
+) -> int:
+    """Improve the impulses until they solve the problem; return 1 if they do.
+
+    Impulses need not be unique: a small compliance of every contact makes them so, and rounds in which it is taken
+    to start from the impulses that are there take its effect out.
+
+    Parameters
+    ----------
+    n : int
+        Number of contacts.
+    matrix : array
+        G [1/kg], shape [3 n, 3 n].
+    free, base : array
+        c [m/s], and the impulses that friction does not count [N s], shape [3 n].
+    least, friction : array
+        Least normal impulses [N s], and coefficients mu, shape [n].
+    compliance : float
+        The compliance, relative to the own entries of G.
+    p : array
+        Impulses P: a start, then the answer [N s], shape [3 n].
+    """
+    width = 3 * n
+    missed, slope, step, old = np.zeros(width), np.zeros((width, width)), np.zeros(width), np.zeros(width)
+    soft, shifted, own = matrix.copy(), free.copy(), np.zeros(width)
+    largest = 0.0
+    for i in range(width):
+        largest = max(largest, abs(free[i]))
+        r = i - i % 3
+        own[i] = matrix[i, i] if i == r else matrix[r + 1, r + 1] + matrix[r + 2, r + 2]
+        soft[i, i] += compliance * own[i]
+    for _round in range(_ROUNDS):
+        square = _miss(n, matrix, free, base, least, friction, p, missed, slope)
+        size = largest
+        for i in range(width):
+            size = max(size, matrix[i, i] * abs(p[i]))
+            shifted[i] = free[i] - compliance * own[i] * p[i]
+        exact = (_EXACT * size) ** 2
+        if square <= exact:
+            return 1
+        if not size < _UNBOUNDED * largest:
+            return 0
+        square = _miss(n, soft, shifted, base, least, friction, p, missed, slope)
+        for _step in range(_STEPS):
+            if square <= 1e-4 * exact:
+                break
+            for i in range(width):
+                step[i], old[i] = -missed[i], p[i]
+            if _eliminate(width, slope, step) == 0:
+                return 0
+            share, new = 1.0, square
+            for _halving in range(_HALVINGS):
+                for i in range(width):
+                    p[i] = old[i] + share * step[i]
+                new = _miss(n, soft, shifted, base, least, friction, p, missed, slope)
+                if new < (1.0 - 1e-4 * share) * square:
+                    break
+                share *= 0.5
+            if not new < square:
+                for i in range(width):
+                    p[i] = old[i]
+                if square > 1e4 * exact:
+                    return 0
+                break
+            square = new
+    return 0
+
+
+@compiled
+def _eliminate(n: int, a: Floats, b: Floats) -> int:
+    """Solve a x = b into ``b`` by elimination with pivots; return 0 if ``a`` is singular."""
+    for c in range(n):
+        pivot = c
+        for i in range(c + 1, n):
+            if abs(a[i, c]) > abs(a[pivot, c]):
+                pivot = i
+        if a[pivot, c] == 0.0:
+            return 0
+        if pivot != c:
+            for j in range(c, n):
+                a[c, j], a[pivot, j] = a[pivot, j], a[c, j]
+            b[c], b[pivot] = b[pivot], b[c]
+        for i in range(c + 1, n):
+            factor = a[i, c] / a[c, c]
+            if factor != 0.0:
+                for j in range(c, n):
+                    a[i, j] -= factor * a[c, j]
+                b[i] -= factor * b[c]
+    for c in range(n - 1, -1, -1):
+        for j in range(c + 1, n):
+            b[c] -= a[c, j] * b[j]
+        b[c] /= a[c, c]
+    return 1
