@@ -14,7 +14,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import nonsmooth as ns
-from bodies import Ball, CapsuleBody, DrivenBody, Plate, Sphere
+from bodies import Ball, Box, BoxBody, CapsuleBody, DrivenBody, Plate, Rest, Sphere
 from laws import (
     Cohesive,
     Coulomb,
@@ -269,3 +269,22 @@ def test_a_start_in_contact_and_overlap() -> None:
     system.place(ball, position=(0.0, 0.0, RADIUS - depth))
     with pytest.raises(ns.InvalidInput, match="must not overlap"):
         ns.simulate(system, 1e-3)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_soft_boxes_press_their_edges_through_faces(seed: int) -> None:
+    """Edges of one box run through faces of the other: no contact of theirs, and no sign of one that was passed."""
+    random = np.random.default_rng(seed)
+    held, box = DrivenBody(Rest(), (Box(0.01, 0.01, 0.01),)), BoxBody(0.008, 0.006, 0.01)
+    system = ns.System([held, box], G)
+    system.contact(held, box, normal=LinearCompliant(3e3), friction=Frictionless())
+    turn = random.normal(size=4)
+    system.place(
+        box,
+        position=(0.009, 0.008, 0.03),
+        orientation=tuple(turn / np.linalg.norm(turn)),
+        velocity=(0.0, 0.0, -1.0),
+        angular_velocity=tuple(30.0 * random.normal(size=3)),
+    )
+    solution = ns.simulate(system, 0.03)
+    assert TOUCH in solution.events.cause and solution.energy.residual < 1e-8

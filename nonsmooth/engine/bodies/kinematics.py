@@ -18,7 +18,7 @@ from nonsmooth.engine.native.kernel import (
     frame_at,
     kernel,
 )
-from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, opposite
+from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus, opposite
 
 
 @kernel("void(S, F, I, i8)")
@@ -34,6 +34,9 @@ def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     )
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
+    if contact.normal_function != 0 and contact.gap < 0.0 < contact.beyond:
+        # bodies that press into each other are no sign that a contact was passed
+        contact.gap = length((contact.gap, contact.beyond))
 
 
 @kernel("void(S, F, I, i8)")
