@@ -4,7 +4,8 @@ Half of the balls (10 mm) are of steel and half of rubber, with laws by pair of 
 restitution 0.5 to 0.9.  They start at random places, some next to the walls, at random velocities, and have 4 s to come
 to rest.  A variant gives all contacts one coefficient of friction, or another impact law, or is a narrower box with so
 many balls; all variants run by default.  A line a variant: how many seeds ended, how many of them at rest, and the
-longest run [s]; every seed that did not end is listed with its reason.
+longest run [s], and what weight the forces of those at rest leave unbalanced, relative to a ball's, by a solver that is
+not the engine's; every seed that did not end is listed with its reason.
 
 """
 
@@ -19,12 +20,14 @@ from functools import partial
 from typing import cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 import nonsmooth as ns
 from bodies import Ball, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, MoreauImpact, NewtonImpact, PoissonImpact, Unilateral
 from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw
 from scenarios.ball_box.scenario import _TURNS
+from tests.benchmarks import pile
 
 RADIUS = 0.01
 DENSITY = {"steel": 7800.0, "rubber": 1100.0}
@@ -98,8 +101,30 @@ def build(variant: str, seed: int) -> ns.System:
     return system
 
 
-def run(variant: str, seed: int) -> tuple[str, float, float, float, int]:
-    """Return why the run ended, its processor time [s], its time [s], the greatest speed of a centre [m/s], its events."""
+def planes(variant: str) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Return a point and the normal of the floor and the walls."""
+    width = VARIANTS[variant][0]
+    inwards = np.array([(1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)])
+    return [(np.zeros(3), np.array([0.0, 0.0, 1.0])), *((-0.5 * width * i, i) for i in inwards)]
+
+
+def unbalanced(variant: str, centres: NDArray[np.float64]) -> float:
+    """Return what forces inside the cones leave of the balls' weights, relative to the largest."""
+    _, n, friction, _ = VARIANTS[variant]
+    kinds = [*("steel" if i % 2 == 0 else "rubber" for i in range(n)), "rubber"]
+
+    def rub(i: int, j: int) -> float:
+        return FRICTION[min(kinds[i], kinds[j]), max(kinds[i], kinds[j])] if friction is None else friction
+
+    masses = np.array([DENSITY[kind] * 4.0 / 3.0 * np.pi * RADIUS**3 for kind in kinds[:n]])
+    return pile.unbalanced(pile.touches(centres, RADIUS, planes(variant), rub), RADIUS, masses, 9.81)
+
+
+def run(variant: str, seed: int) -> tuple[str, float, float, float, int, float]:
+    """Return why the run ended, processor time, time [s], greatest speed of a centre [m/s], events, what is unbalanced.
+
+    The last is 0 where the balls are not at rest.
+    """
     warnings.simplefilter("ignore")
     model = ns.assemble(build(variant, seed))
     began = time.process_time()
@@ -110,8 +135,10 @@ def run(variant: str, seed: int) -> tuple[str, float, float, float, int]:
         solution = cast(ns.Solution, error.solution)
         reason = solution.message
     wall = time.process_time() - began
-    speed = max(np.linalg.norm(solution.of(ball)[1][-1, :3]) for ball in model.system.bodies if isinstance(ball, Ball))
-    return reason, wall, solution.t_end, float(speed), len(solution.events.time)
+    states = [solution.of(ball) for ball in model.system.bodies if isinstance(ball, Ball)]
+    speed = max(float(np.linalg.norm(u[-1, :3])) for _, u in states)
+    left = unbalanced(variant, np.array([q[-1, :3] for q, _ in states])) if speed <= _AT_REST else 0.0
+    return reason, wall, solution.t_end, speed, len(solution.events.time), left
 
 
 def _too_long(began: float, _so_far: object) -> bool:
@@ -133,7 +160,8 @@ def main() -> None:
             ended = [row for row in rows if row[0] == "at the end"]
             rests = sum(row[3] <= _AT_REST for row in ended)
             print(
-                f"{variant:14}{len(ended):3d} of {len(rows)} ended, {rests} at rest, {max(r[1] for r in rows):6.1f} s"
+                f"{variant:14}{len(ended):3d} of {len(rows)} ended, {rests} at rest, {max(r[1] for r in rows):6.1f} s, "
+                f"{max(row[5] for row in rows):.0e} of a weight unbalanced"
             )
             for seed, row in zip(seeds, rows, strict=True):
                 if row[0] != "at the end":

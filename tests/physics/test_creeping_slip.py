@@ -1,6 +1,6 @@
-"""A ball that a slowly turning force drags along at the bound of friction: slip that creeps where its direction is stiff.
+"""A ball that a slowly turning force drags along at the bound of friction: slip that creeps, its direction stiff.
 
-Its slip s obeys s' = F / m - 7/2 mu g s / |s|, whose direction relaxes at 7/2 mu g / |s|, 1e5 to 1e9 times a second here.
+Its slip s obeys s' = F / m - 7/2 mu g s / |s|, whose direction relaxes at 7/2 mu g / |s|, up to 1e9 times a second.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ def test_the_order_of_implicit_steps() -> None:
 
 
 def test_a_creeping_run_is_cut_looked_into_and_turned() -> None:
-    """Cut within implicit steps it goes on to the last bit; between samples and turned by 1 rad it is the same motion."""
+    """Cut within implicit steps it goes on to the last bit; between samples and turned by 1 rad it is the same."""
     model, ball = _model(1e-8, PART, SLIP)
     whole = model.run(0.8, sample_interval=0.05)
     for t in (0.123, 0.471, 0.6):

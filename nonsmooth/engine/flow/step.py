@@ -219,7 +219,7 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 
 @kernel("f8(S, F, I, f8)")
 def try_length(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Take one step of ``h``, implicit where an explicit one does not do; return its error relative to the tolerance."""
+    """Take one step of ``h``, implicit where an explicit one does not do; return its relative error."""
     if h * S.relaxation <= _STIFF:
         S.stage_time = 0.0
     return float(try_step(S, w, k, h))

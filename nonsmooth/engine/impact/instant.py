@@ -4,18 +4,55 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
+from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
 from nonsmooth.engine.contact.newton import STAGES, search_by_newton
 from nonsmooth.engine.contact.problem import friction_coefficient, lay_friction
-from nonsmooth.engine.delassus.delassus import add_product, write_dense
+from nonsmooth.engine.delassus.delassus import add_product, own_block, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
+_NEXT_TO_ZERO = 1e-3
+"""A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
 _MOMENT = 1e-3
 """In a moment accelerations change velocities by this part of their tolerance;"""
 _MOVED = 0.1
 """what impulses change by this part of it is more than that."""
+
+
+@kernel("i8(S, F, I)")
+def _stop_singular(S: Scalars, w: Floats, k: Integers) -> int:
+    """Stop the slips that are at the Painleve singularity; return 1 if pushing impulses do that, -1 if there are none.
+
+    In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
+    impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
+    """
+    jammed = 0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        speed = length(contact.slip)
+        active.mu = 0.0
+        active.normal_held, active.tangent_held = 1, 1 if contact.mode == STICK else 0
+        if contact.mode == SLIDE and contact.normal_function == 0 and speed > 0.0:
+            active.mu = friction_coefficient(S, w, k, active.slot, speed)
+            active.direction = contact.slip[0] / speed, contact.slip[1] / speed
+            if reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * own_block(S, w, k, a).nn:
+                active.tangent_held = jammed = 1
+        for r in range(3):
+            active.free[r] = contact.rate[r]
+    if jammed == 0:
+        return -1
+    resolve(S, w, k)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        if not active.force[0] >= 0.0:
+            return 0
+        for r in range(3):
+            active.impulse[r] = active.force[r]
+    _split_loss(S, w, k)
+    return 1
 
 
 @kernel("i8(S, F, I)")
@@ -27,6 +64,9 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
     is all; where there are none the impulses are finite in the limit, and bring slips to rest.  Forces without bound
     may also vanish: closed contacts without an impulse are ``released``.
     """
+    stopped = _stop_singular(S, w, k)
+    if stopped >= 0:
+        return stopped
     scale = 0.0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
