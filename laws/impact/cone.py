@@ -21,7 +21,7 @@ _COMPLIANCES = (1e-9, 1e-7, 1e-5, 1e-3)
 def solve_cone(
     n: int, delassus: Floats, rates: Floats, shift: Floats, base: Floats, least: Floats, out: Floats, friction: Floats
 ) -> int:
-    """Solve for the impulses P from what ``out`` holds, or from the answer on pyramids; return 1 if there is one.
+    """Solve for the impulses P from what ``out`` holds, or from the answer on pyramids; return 1 if that is exact.
 
     With z = rates + G P and xi = z + shift: P_N >= least complementary to xi_N >= 0; P_T - base_T in the disc of
     radius mu (P_N - base_N), on its edge against xi_T unless that vanishes.  Without a shift, as in an inelastic
@@ -40,13 +40,14 @@ def solve_cone(
     least : array
         Least normal impulses [N s], length n.
     out : array
-        Impulses: a start, then the solution [N s], length 3 n.  Not a number where there is none.
+        Impulses: a start, then the solution [N s], length 3 n.  Where none is found they are those on narrow
+        pyramids inside the cones, and not a number if these have none either.
     friction : array
         Coefficients mu, length n.
     """
     width = 3 * n
     matrix, free, p, mu = np.zeros((width, width)), np.zeros(width), np.zeros(width), np.zeros(n)
-    tried, kept, lower = np.zeros(width), np.zeros(width), np.zeros(n)
+    kept, lower = np.zeros(width), np.zeros(n)
     for i in range(width):
         free[i], p[i], kept[i] = rates[i] + shift[i], out[i], base[i]
         mu[i // 3], lower[i // 3] = friction[i // 3], least[i // 3]
@@ -59,42 +60,29 @@ def solve_cone(
             if answered == 0:
                 break
         for sweeps in (0, _SWEEPS):
-            for i in range(width):
-                tried[i] = p[i]
             for _sweep in range(sweeps):
-                sweep(n, matrix, free, kept, lower, mu, tried)
-            if _settle(n, matrix, free, kept, lower, mu, tried, out) == 1:
-                return 1
-    # the narrowest pyramids are next to the cones
-    for i in range(width):
-        out[i] = p[i] if answered > 0 else math.nan
-    return 1 if answered > 0 else 0
+                sweep(n, matrix, free, kept, lower, mu, p)
+            for compliance in _COMPLIANCES:
+                tried = p.copy()
+                if find_zero(n, matrix, free, kept, lower, mu, compliance, tried) == 1:
+                    _write_inside(n, kept, lower, mu, tried, out)
+                    return 1
+    _write_inside(n, kept, lower, mu, p, out)
+    if answered == 0:
+        out[0] = math.nan
+    return 0
 
 
 @compiled
-def _settle(
-    n: int,
-    matrix: Floats,
-    free: Floats,
-    base: Floats,
-    least: Floats,
-    friction: Floats,
-    start: Floats,
-    out: Floats,
-) -> int:
-    """Find the impulses by Newton's method from a start; write them, inside the cones to the last bit, and return 1."""
-    for compliance in _COMPLIANCES:
-        p = start.copy()
-        if find_zero(n, matrix, free, base, least, friction, compliance, p) == 1:
-            for a in range(n):
-                i = 3 * a
-                out[i] = max(least[a], p[i])
-                p1, p2 = p[i + 1] - base[i + 1], p[i + 2] - base[i + 2]
-                size, radius = math.sqrt(p1 * p1 + p2 * p2), friction[a] * (out[i] - base[i])
-                cut = radius / size if size > radius else 1.0
-                out[i + 1], out[i + 2] = base[i + 1] + cut * p1, base[i + 2] + cut * p2
-            return 1
-    return 0
+def _write_inside(n: int, base: Array, least: Array, friction: Array, p: Array, out: Floats) -> None:
+    """Write impulses that are in their cones but for round-off, in them."""
+    for a in range(n):
+        i = 3 * a
+        out[i] = max(least[a], p[i])
+        p1, p2 = p[i + 1] - base[i + 1], p[i + 2] - base[i + 2]
+        size, radius = math.sqrt(p1 * p1 + p2 * p2), friction[a] * (out[i] - base[i])
+        cut = radius / size if size > radius else 1.0
+        out[i + 1], out[i + 2] = base[i + 1] + cut * p1, base[i + 2] + cut * p2
 
 
 @compiled

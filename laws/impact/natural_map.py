@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
+from nonsmooth.types import Array
 
 _EXACT = 1e-11
 """Residual that counts as zero, relative to the largest velocity."""
@@ -26,7 +26,7 @@ _UNBOUNDED = 1e9
 
 
 @compiled
-def sweep(n: int, matrix: Floats, free: Floats, base: Floats, least: Floats, friction: Floats, p: Floats) -> None:
+def sweep(n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, p: Array) -> None:
     """Project the impulses ``p`` [N s], contact by contact; the arguments are those of :func:`find_zero`."""
     width = 3 * n
     for a in range(n):
@@ -49,14 +49,14 @@ def sweep(n: int, matrix: Floats, free: Floats, base: Floats, least: Floats, fri
 @compiled
 def _miss(
     n: int,
-    matrix: Floats,
-    free: Floats,
-    base: Floats,
-    least: Floats,
-    friction: Floats,
-    p: Floats,
-    missed: Floats,
-    slope: Floats,
+    matrix: Array,
+    free: Array,
+    base: Array,
+    least: Array,
+    friction: Array,
+    p: Array,
+    missed: Array,
+    slope: Array,
 ) -> float:
     """Write by how much ``p`` misses the map [m/s] and the derivative of that; return its square."""
     width = 3 * n
@@ -103,7 +103,7 @@ def _miss(
 
 @compiled
 def find_zero(
-    n: int, matrix: Floats, free: Floats, base: Floats, least: Floats, friction: Floats, compliance: float, p: Floats
+    n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, compliance: float, p: Array
 ) -> int:
     """Improve the impulses until they solve the problem; return 1 if they do.
 
@@ -172,7 +172,7 @@ def find_zero(
 
 
 @compiled
-def _eliminate(n: int, a: Floats, b: Floats) -> int:
+def _eliminate(n: int, a: Array, b: Array) -> int:
     """Solve a x = b into ``b`` by elimination with pivots; return 0 if ``a`` is singular."""
     for c in range(n):
         pivot = c

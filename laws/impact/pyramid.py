@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
+from nonsmooth.types import Array
 
 _FACETS = 8
 _PARTS = _FACETS + 2
@@ -37,7 +37,7 @@ def _angle(facet: int, a: int, narrow: float, p1: float, p2: float) -> float:
 
 @compiled
 def solve_on_pyramids(
-    n: int, matrix: Floats, free: Floats, base: Floats, least: Floats, friction: Floats, narrow: float, p: Floats
+    n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, narrow: float, p: Array
 ) -> int:
     """Solve on pyramids inside the cones; return 0 if Lemke's method ends on a ray, which says that there is no answer.
 
@@ -54,9 +54,10 @@ def solve_on_pyramids(
         ways[i, first] = unit
         for facet in range(_FACETS):
             angle = _angle(facet, a, narrow, p[i + 1] - base[i + 1], p[i + 2] - base[i + 2])
-            ways[i + 1, first + 1 + facet], ways[i + 2, first + 1 + facet] = unit * math.cos(angle), unit * math.sin(angle)
+            ways[i + 1, first + 1 + facet] = unit * math.cos(angle)
+            ways[i + 2, first + 1 + facet] = unit * math.sin(angle)
         start[i] = least[a]
-    rates, made = free + np.zeros(width), np.zeros((width, m))
+    rates, made = free.copy(), np.zeros((width, m))
     for i in range(width):
         for j in range(width):
             rates[i] += matrix[i, j] * start[j]
@@ -90,7 +91,7 @@ def solve_on_pyramids(
 
 
 @compiled
-def _lemke(m: int, weights: Floats, offsets: Floats, z: Floats) -> int:
+def _lemke(m: int, weights: Array, offsets: Array, z: Array) -> int:
     """Find z >= 0 with w = weights z + offsets >= 0 and z w = 0 by pivots; return 1 if there is one.
 
     The columns of the tableau are w, z, the artificial unknown and the right-hand side.
