@@ -13,7 +13,7 @@ from nonsmooth.engine.memory import implicit_tableau as pair
 
 
 def test_the_interpolant_is_of_fourth_order() -> None:
-    """On every tree of four nodes the bend is that of the quartic; on smaller ones the cubic is exact, and it is none."""
+    """On every tree of four nodes the bend is that of the quartic; on smaller ones, where the cubic is exact, none."""
     nodes, bend = np.array(pair.NODES), np.array(pair.BEND)
     stages = np.zeros((7, 7))
     stages[:, :6] = pair.STAGES
