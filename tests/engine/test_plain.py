@@ -23,12 +23,13 @@ from tests.engine.plain_cases import CASES
 NOT_ENTERED = {
     "contact/search": {"_accept_raw", "_rubs"},
     "contact/distribution": {"_add_disc_curve", "_disc_excess"},
-    "events/event_loop": {"_up_to_end"},
+    "events/event_loop": {"_up_to_end", "_cause_at_start"},
     "impact/clock": {"_restore_phases"},
+    "impact/instant": {"_find_impulses"},
     "impact/end": {"cut_short", "faded"},
     "flow/location": {"_advance", "_behind_jump", "_sampled", "_soonest"},
     "flow/self_check": {"blame"},
-    "events/event_update": {"_force_gone"},
+    "events/event_update": {"_force_gone", "_share_a_bound"},
     "contact/enumeration": {"_sweep_slips"},
 }
 """By module, what no case enters: ways out of rare difficulties and of faults, run compiled by other tests."""

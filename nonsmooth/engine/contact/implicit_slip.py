@@ -27,8 +27,8 @@ def _lay(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     c = active.slot
     contact = contact_at(S, w, k, c)
     contact.turned = 0.0
-    active.mu_static = friction_coefficient(S, w, k, c, 0.0)
-    active.mu = friction_coefficient(S, w, k, c, max(length(contact.slip), _INCIPIENT))
+    speed = max(length(contact.slip), _INCIPIENT) if contact.mode == SLIDE else 0.0
+    active.mu = active.mu_static = friction_coefficient(S, w, k, c, speed)
     active.mode_tried = contact.mode
     active.at_rest = 1 if active.mu > 0.0 else 0
     active.direction = contact.direction

@@ -136,7 +136,7 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             S.rejected += 1
             S.limit = BY_ERROR
             wanted = 0.0
-            if not error < 1e300 and h < S.time_tolerance:
+            if not error < 1e300 and 0.1 * h < S.time_tolerance:
                 return NOT_FINITE
             h *= step_factor(error) if error < 1e300 else 0.1
         if h < S.time_tolerance:

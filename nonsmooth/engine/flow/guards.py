@@ -186,8 +186,11 @@ def _arm(S: Scalars, w: Floats, k: Integers, i: int) -> None:
 def _least(S: Scalars, w: Floats, k: Integers, i: int) -> float:
     """Return above what guard ``i`` of a contact is armed: a force that counts as none is neither positive nor not."""
     contact = contact_at(S, w, k, contact_of(i))
-    rests = contact.mode != OPEN and contact.normal_function == 0
-    return float(contact.small_force_of) if rests and (is_friction_guard(i) == 0 or contact.mode == STICK) else 0.0
+    if contact.mode == OPEN or contact.normal_function != 0:
+        return 0.0
+    # the bound of friction is none where nothing presses
+    presses = guard_at(S, w, k, normal_guard(contact_of(i))).first > contact.small_force_of
+    return 0.0 if is_friction_guard(i) == 1 and (presses or contact.mode != STICK) else float(contact.small_force_of)
 
 
 @kernel()

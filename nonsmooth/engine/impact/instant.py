@@ -23,7 +23,7 @@ _MOVED = 0.1
 
 @kernel("i8(S, F, I)")
 def _stop_singular(S: Scalars, w: Floats, k: Integers) -> int:
-    """Stop the slips that are at the Painleve singularity; return 1 if pushing impulses do that, -1 if there are none.
+    """Stop the slips that are at the Painleve singularity; return 1 if there are any and pushing impulses do that.
 
     In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
     impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
@@ -43,7 +43,7 @@ def _stop_singular(S: Scalars, w: Floats, k: Integers) -> int:
         for r in range(3):
             active.free[r] = contact.rate[r]
     if jammed == 0:
-        return -1
+        return 0
     resolve(S, w, k)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -64,9 +64,8 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
     is all; where there are none the impulses are finite in the limit, and bring slips to rest.  Forces without bound
     may also vanish: closed contacts without an impulse are ``released``.
     """
-    stopped = _stop_singular(S, w, k)
-    if stopped >= 0:
-        return stopped
+    if _stop_singular(S, w, k) == 1:
+        return 1
     scale = 0.0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -101,12 +100,17 @@ def _find_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
         lay_friction(S, w, k, a)
         rests, slips = abs(contact.rate[0]) <= S.velocity_tolerance, active.at_rest == 0
         active.mu_static = active.mu = active.mu if slips else active.mu_static
-        active.at_rest = active.normal_held = 1
+        active.at_rest = active.normal_held = active.tangent_held = 1
         for r in range(3):
             # what counts as zero must not hide what the accelerations do
             still = rests if r == 0 else not slips
             active.free[r] = moment * active.free[r] + (0.0 if still else contact.rate[r])
-            active.force[r] = 0.0
+    # from the impulses that stop all slips: those that only grow, sweep by sweep, from none would never be reached
+    resolve(S, w, k)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        for r in range(3):
+            active.force[r] *= 1.0 if active.normal_force > 0.0 else 0.0
     for stage in range(STAGES):
         if search_by_newton(S, w, k, stage) == 1:
             break
