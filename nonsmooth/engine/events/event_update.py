@@ -301,7 +301,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I, i8)")
 def _jam(S: Scalars, w: Floats, k: Integers, which: int) -> int:
     """Run the impact of a jam on the island of contact ``which``; return the status."""
-    S.jammed = 1
+    S.jammed += 1
     return PARADOX_REFUSED if S.policy == REFUSE else int(collide(S, w, k, JAM, which, 0.0))
 
 

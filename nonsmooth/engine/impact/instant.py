@@ -17,6 +17,8 @@ _NEXT_TO_ZERO = 1e-3
 """A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
 _MOMENT = 1e-3
 """In a moment accelerations change velocities by this part of their tolerance;"""
+_LONGER = 10.0
+"""at one instant it is so many times longer every time;"""
 _MOVED = 0.1
 """what impulses change by this part of it is more than that."""
 
@@ -73,7 +75,9 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         for r in range(3):
             active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
             scale = max(scale, abs(contact.bias[r]), abs(active.free[r]))
-    _find_impulses(S, w, k, _MOMENT * S.velocity_tolerance / scale if scale > 0.0 else 0.0)
+    # one that was too short to tell which contacts jam is followed by a longer one
+    change = _MOMENT * S.velocity_tolerance * _LONGER ** float(S.jammed - 1)
+    _find_impulses(S, w, k, change / scale if scale > 0.0 else 0.0)
     moved = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
