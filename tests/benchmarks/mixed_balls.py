@@ -6,7 +6,6 @@ to rest.  A variant gives all contacts one coefficient of friction, or another i
 many balls; all variants run by default.  A line a variant: how many seeds ended, how many of them at rest, and the
 longest run [s], and what weight the forces of those at rest leave unbalanced, relative to a ball's, by a solver that is
 not the engine's; every seed that did not end is listed with its reason.
-
 """
 
 from __future__ import annotations
@@ -159,9 +158,11 @@ def main() -> None:
             rows = list(pool.map(partial(run, variant), seeds))
             ended = [row for row in rows if row[0] == "at the end"]
             rests = sum(row[3] <= _AT_REST for row in ended)
+            unheld = f", {max(row[5] for row in rows):.0e} of a weight unbalanced" if rests > 0 else ""
+            longest = max(row[1] for row in rows)
             print(
-                f"{variant:14}{len(ended):3d} of {len(rows)} ended, {rests} at rest, {max(r[1] for r in rows):6.1f} s, "
-                f"{max(row[5] for row in rows):.0e} of a weight unbalanced"
+                f"{variant:14}{len(ended):3d} of {len(rows)} ended, {rests} at rest{unheld}, {longest:6.1f} s",
+                flush=True,
             )
             for seed, row in zip(seeds, rows, strict=True):
                 if row[0] != "at the end":
