@@ -6,7 +6,6 @@ from pathlib import Path
 
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
-from nonsmooth.queries.undeclared import warn_of_overlaps
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import check_free
 from nonsmooth.runs.loop import Progress
@@ -43,9 +42,7 @@ def assemble(system: System, engine: Engine | None = None) -> Model:
     InvalidInput
         If the engine cannot run the system, or the start is not valid.
     """
-    model = Model.of(system, engine or EventDriven())
-    warn_of_overlaps(system)
-    return model
+    return Model.of(system, engine or EventDriven())
 
 
 def simulate(
@@ -103,5 +100,4 @@ def simulate(
     if output is not None:
         check_free(Output.to(output))
     model = Model.of(system, engine or EventDriven())
-    warn_of_overlaps(system)
     return model.run(t_end, sample_interval=sample_interval, until=until, progress=progress, output=output)

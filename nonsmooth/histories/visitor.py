@@ -17,7 +17,6 @@ from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.watch import Watch
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -118,7 +117,7 @@ class Visitor:
         rows, here, scalars = self._row(times), -1, self.laid.memory.scalars
         # an earlier visit may have been interrupted
         scalars["stopped"], scalars["failed"] = 0, RUNNING
-        with self._alone, Watch(self.laid.memory) as watch:
+        with self._alone, self.laid.watch as watch:
             for i in np.argsort(times, kind="stable").tolist():
                 if rows[i] != here:
                     here = int(rows[i])

@@ -12,6 +12,7 @@ from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.checks import check_guards, check_start
+from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import by_kind, initial_state, lay_contacts
@@ -34,8 +35,10 @@ def assemble(system: System, engine: Engine) -> LaidOut:
     InvalidInput
         If bodies overlap at the start, a joint is not closed there, or a guard has no value.
     """
-    model = lay_out(system, engine)
-    check_start(model)
+    model = lay(system, engine)
+    guards = Guards.of(model.memory)
+    _stand(model)
+    check_start(model, guards)
     return model
 
 
@@ -48,9 +51,13 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
         If these are too many.
     """
     model = lay(system, engine)
-    model.memory.array("y", model.n_q + model.n_u)[:] = np.concatenate(system.starts())
-    model.list_contacts()
+    _stand(model)
     return model
+
+
+def _stand(model: LaidOut) -> None:
+    model.memory.array("y", model.n_q + model.n_u)[:] = np.concatenate(model.system.starts())
+    model.list_contacts()
 
 
 def lay(system: System, engine: Engine) -> LaidOut:
@@ -69,7 +76,8 @@ def lay(system: System, engine: Engine) -> LaidOut:
     kinds = by_kind(contacts)
     n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in kinds)
     groups = articulations(system)
-    units = find_units(contacts)
+    extents = np.array([contact.extents for contact in contacts]).reshape(-1, 2)
+    units = find_units(contacts, extents)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     head = EVENT_HEAD + n_u + n_y + BOOKED
     counts = {
@@ -103,7 +111,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     places = lay_bodies(system, memory, heap)
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)
-    lay_contacts(memory, heap, contacts, kinds, places)
+    lay_contacts(memory, heap, contacts, extents, kinds, places)
     lay_units(memory, units, {(i, f): at for i, place in places.items() for f, at in enumerate(place.frames)})
     lay_pools(memory, heap, units.pools, units.frames)
     lay_guards(system, memory, heap)

@@ -13,6 +13,7 @@ from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GU
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.articulations import articulations
+from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.pools import find_pools
 from nonsmooth.system.contact import Contact, Tie
@@ -110,9 +111,11 @@ def _entry(model: LaidOut, name: str, i: int) -> int:
     return int(model.memory.array(name, i + 1)[i])
 
 
-def written_past(model: LaidOut) -> str:
+def written_past(model: LaidOut, guards: Guards) -> str:
     """Return a sentence that names a function that has written past its block; nothing if none has."""
     memory = model.memory
+    if guards.hold(memory) and not int(memory.record["map_past"]) > 0:
+        return ""
     slots, listed = (int(memory.scalars[name][0]) for name in ("n_slots", "n_contacts"))
     behind = memory.array("geometry", GEOMETRY * slots).reshape(slots, GEOMETRY)[:, PAIR:]
     written = np.flatnonzero(np.any(behind != UNTOUCHED, axis=1))

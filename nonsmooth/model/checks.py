@@ -12,6 +12,7 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.blocks import written_past
+from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
@@ -20,8 +21,8 @@ from nonsmooth.system.system import System
 _OPEN = 1e-9
 
 
-def check_start(model: LaidOut) -> None:
-    """Look at gaps and joints at the start.
+def check_start(model: LaidOut, guards: Guards) -> None:
+    """Look at gaps and joints at the start; ``guards`` are those of the model.
 
     Raises
     ------
@@ -31,7 +32,7 @@ def check_start(model: LaidOut) -> None:
         If a function writes past its block.
     """
     gaps = model.gaps()
-    past = written_past(model)
+    past = written_past(model, guards)
     if past:
         raise PluginError(past[0].upper() + past[1:])
     contacts = model.system.contacts
@@ -66,6 +67,8 @@ def _ask_shapes(model: LaidOut, number: int) -> None:
 
 def _check_joints(model: LaidOut) -> None:
     """Look at residual and rate of every row of every joint."""
+    if not model.system.joints:
+        return
     memory = model.memory
     # speeds of a joint are judged by those of its bodies
     scale = max(1.0, float(np.max(np.abs(memory.array("y", model.n_q + model.n_u)), initial=0.0)))

@@ -20,6 +20,7 @@ from nonsmooth.packing import packed, unpacked
 from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
+Booleans = NDArray[np.bool_]
 _WIDTH = len(CATALOGUE)
 _REMEDY = "It is damaged, or of another model: take one that a run left."
 _UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
@@ -51,6 +52,11 @@ class Image:
         """The scalars."""
         return cast(np.void, self.parts[0].view(SCALARS)[0])
 
+    @functools.cached_property
+    def size(self) -> int:
+        """Memory that it takes [bytes]."""
+        return sum(part.nbytes for part in self.parts)
+
     @property
     def blocks(self) -> Array:
         """The blocks that the assembly appended."""
@@ -77,19 +83,23 @@ class Guards:
     ----------
     places : array
         Where they stand in the heap of floats.
+    content : bytes
+        What stands there.
     """
 
     places: Integers
+    content: bytes
 
     @classmethod
-    def of(cls, blank: Image) -> Guards:
-        """Find them in an image of a memory before any run."""
-        arrays, blocks = (np.flatnonzero(part == _UNTOUCHED) for part in blank.parts[1:3])
-        return cls(np.concatenate([arrays, blank.first + blocks]))
+    def of(cls, memory: Memory) -> Guards:
+        """Find them in a memory on which nothing was called yet."""
+        arrays, blocks = (np.flatnonzero(part == _UNTOUCHED) for part in memory.bits[1:3])
+        places = np.concatenate([arrays, memory.blocks + blocks])
+        return cls(places, np.full(len(places), UNTOUCHED).tobytes())
 
     def hold(self, memory: Memory) -> bool:
         """Tell whether all of them are as they were."""
-        return bool((memory.floats[self.places] == UNTOUCHED).all())
+        return memory.floats[self.places].tobytes() == self.content
 
 
 @final
@@ -147,9 +157,9 @@ class Difference:
         for places, limit in zip(self.places, limits, strict=True):
             _check("places", places, limit)
 
-    def without(self, excepted: tuple[Integers, ...]) -> Difference:
-        """Return it without some places."""
-        kept = [~np.isin(places, one, kind="table") for places, one in zip(self.places, excepted, strict=True)]
+    def within(self, allowed: tuple[Booleans, ...]) -> Difference:
+        """Return what of it is at the places of a memory that are allowed."""
+        kept = [one[places] for places, one in zip(self.places, allowed, strict=True)]
         return Difference(
             tuple(places[one] for places, one in zip(self.places, kept, strict=True)),
             tuple(bits[one] for bits, one in zip(self.bits, kept, strict=True)),

@@ -9,16 +9,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
-from nonsmooth.engine.memory.blocks import GEOMETRY
+from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import Body, ImpactMap
+from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.model.pools import failed_search
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
+from nonsmooth.watch import Watch
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,11 @@ class LaidOut:
         """Numbers of contacts, coordinates, velocities, and of all that is integrated."""
         return len(self.system.contacts), self.n_q, self.n_u, self.n_y
 
+    @functools.cached_property
+    def watch(self) -> Watch:
+        """What calls of the engine on its memory are made through that may take long."""
+        return Watch(self.memory)
+
     def list_contacts(self) -> None:
         """List the contacts that are near each other at the present state.
 
@@ -81,6 +88,15 @@ class LaidOut:
         self.evaluate()
         bodies = self.system.bodies
         return energies(bodies, self.memory.array("body_tail", len(bodies)), self.memory.floats)
+
+    def places(self) -> list[list[Place]]:
+        """Return position [m] and rotation matrix of every frame of every body, as they were evaluated last."""
+        found, memory = list[list[Place]](), self.memory
+        for body, start in zip(self.system.bodies, memory.array("body_out", len(self.system.bodies)), strict=True):
+            width = FRAME + 6 * body.n_u
+            frames = memory.floats[start : start + len(body.frames) * width].reshape(-1, width)
+            found.append([(frame[:3].copy(), frame[3:12].reshape(3, 3).copy()) for frame in frames])
+        return found
 
     def gaps(self) -> np.ndarray:
         """Return the gaps [m, n_contacts] at the present state; infinite for contacts too far to be listed."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from nonsmooth.binding.bounds import try_out
 from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
-from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, PAIR
+from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, PAIR
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CONTACT_TIME, DIRECTION, LEVERS, REACH, SIZE
 from nonsmooth.engine.memory.memory import Heap, Memory, output_block
 from nonsmooth.engine.memory.modes import OPEN
@@ -30,6 +30,7 @@ from nonsmooth.interfaces import (
 from nonsmooth.model.laying import Places
 from nonsmooth.parameters import Table, Value
 from nonsmooth.system.contact import Contact
+from nonsmooth.types import Array
 
 COLUMN = {name: number for number, name in enumerate(CATALOGUE)}
 """Where the entries of the catalogue stand in its rows."""
@@ -67,8 +68,10 @@ class Kind:
         return start
 
 
-def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], kinds: Kinds, places: Places) -> None:
-    """Lay the contacts, and reserve the Jacobians of the slots."""
+def lay_contacts(
+    memory: Memory, heap: Heap, contacts: Sequence[Contact], extents: Array, kinds: Kinds, places: Places
+) -> None:
+    """Lay the contacts with such extents [m, n, 2], and reserve the Jacobians of the slots."""
     n = len(contacts)
     rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
     tried = set[tuple[Any, ...]]()
@@ -85,10 +88,11 @@ def lay_contacts(memory: Memory, heap: Heap, contacts: Sequence[Contact], kinds:
             for begin in starts.tolist():
                 heap.refer(begin + place, begin + start, table)
     _lay_states(memory, contacts, kinds, rows)
-    _lay_sides(rows, contacts, places)
-    lay_floats(memory, contacts, kinds)
-    touching = {id(body) for contact in contacts for body in (contact.first, contact.second)}
-    size = 3 * max((places[body].articulation_nu for body in touching), default=0)
+    size = 3 * _lay_sides(rows, contacts, places)
+    levers = np.reshape([contact.levers for contact in contacts], (n, 2))
+    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
+    floats[:, DIRECTION], floats[:, LEVERS : LEVERS + 2], floats[:, SIZE] = 1.0, levers, extents.min(axis=1)
+    lay_law_floats(memory, contacts, kinds)
     slots = int(memory.scalars["n_slots"][0])
     for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
         memory.array(name, slots)[:] = heap.block(size * slots) + size * np.arange(slots)
@@ -115,32 +119,33 @@ def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds, rows:
     memory.array("y_scale", n_y)[n_y - len(scales) :] = scales
 
 
-def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) -> None:
+def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) -> int:
+    """Say on which bodies and frames the contacts are; return the most velocities of an articulation among these."""
+    numbers, stand, most = {body: place.number for body, place in places.items()}, [*places.values()], 0
+    first, sizes = (np.array(values) for values in ([p.frames[0] for p in stand], [p.articulation_nu for p in stand]))
+    said = {
+        "nu": np.array([place.nu for place in stand]),
+        "shift": np.array([place.shift for place in stand]),
+        "articulation": np.array([place.articulation for place in stand]),
+    }
     for side, which in (("a", 0), ("b", 1)):
-        bodies = [(contact.first, contact.second)[which] for contact in contacts]
-        stand = [places[id(body)] for body in bodies]
-        frames = [contact.frames[which] for contact in contacts]
-        columns = {
-            "body": [place.number for place in stand],
-            "frame": [place.frames[frame] for place, frame in zip(stand, frames, strict=True)],
-            "nu": [place.nu for place in stand],
-            "shift": [place.shift for place in stand],
-            "articulation": [place.articulation for place in stand],
-        }
-        for name, values in columns.items():
-            rows[:, COLUMN[f"{name}_{side}"]] = values
+        body = np.array([numbers[id((contact.first, contact.second)[which])] for contact in contacts], np.int64)
+        frame = np.array([contact.frames[which] for contact in contacts], np.int64)
+        rows[:, COLUMN[f"body_{side}"]] = body
+        rows[:, COLUMN[f"frame_{side}"]] = first[body] + (FRAME + 6 * said["nu"][body]) * frame
+        for name, values in said.items():
+            rows[:, COLUMN[f"{name}_{side}"]] = values[body]
+        most = max(most, int(sizes[body].max(initial=0)))
+    return most
 
 
-def lay_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Lay what the catalogue holds of each contact in floats."""
+def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
+    """Lay what the catalogue holds of the laws of each contact in floats."""
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * len(contacts)).reshape(len(contacts), CATALOGUE_FLOATS)
-    floats[:, DIRECTION] = 1.0
     for numbers in kinds:
         normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
         floats[numbers, CONTACT_TIME] = 0.0 if impact is None else impact.contact_time
         floats[numbers, REACH] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
-    floats[:, LEVERS : LEVERS + 2] = np.reshape([contact.levers for contact in contacts], (len(contacts), 2))
-    floats[:, SIZE] = np.reshape([contact.extents for contact in contacts], (len(contacts), 2)).min(axis=1)
 
 
 def initial_state(contact: Contact) -> tuple[float, ...]:

@@ -7,7 +7,7 @@ import numpy as np
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying_contacts import COLUMN, by_kind, kind_of, lay_floats
+from nonsmooth.model.laying_contacts import COLUMN, by_kind, kind_of, lay_law_floats
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
@@ -37,7 +37,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         starts = rows[numbers, COLUMN["geometry_parameters"]]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
-    lay_floats(memory, contacts, kinds)
+    lay_law_floats(memory, contacts, kinds)
     return LaidOut(system, memory, model.n_q, model.n_u, model.n_states)
 
 

@@ -59,11 +59,10 @@ class Units:
         return len(self.contacts) - bounded + min(bounded, each * len(self.frames))
 
 
-def find_units(contacts: Sequence[Contact]) -> Units:
-    """Return the units of many contacts; none for few, which need no list."""
+def find_units(contacts: Sequence[Contact], extents: Array) -> Units:
+    """Return the units of many contacts with such extents [m, n, 2]; none for few, which need no list."""
     pools = find_pools(contacts)
-    extents = np.array([contact.extents for contact in contacts]).reshape(-1, 2)
-    bounded = np.isfinite(extents).all(axis=1)
+    bounded = np.isfinite(extents[:, 0]) & np.isfinite(extents[:, 1])
     if len(contacts) <= SMALL and not pools:
         bounded[:] = False
     numbers, frames = np.flatnonzero(bounded), dict[tuple[int, int], int]()

@@ -11,7 +11,7 @@ import numpy as np
 from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
-from nonsmooth.queries.near import near_bodies, places_at_start
+from nonsmooth.queries.near import near_bodies
 from nonsmooth.queries.ties import Ties
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.system import System
@@ -24,8 +24,8 @@ class UndeclaredOverlap(NonsmoothWarning):
     """Bodies that overlap at the start and have no contact: they pass through each other."""
 
 
-def warn_of_overlaps(system: System) -> None:
-    """Warn of bodies that overlap at the start though nothing is said of them.
+def warn_of_overlaps(system: System, places: Sequence[Sequence[Place]]) -> None:
+    """Warn of bodies that overlap at the start, where their frames have these places, though nothing is said of them.
 
     Left alone are pairs with a declared contact, be it of some of their shapes, of one mechanism, of driven bodies, and
     those that the user excluded; planes, on whose wrong side a body may well be meant to start; and all of a system
@@ -33,7 +33,7 @@ def warn_of_overlaps(system: System) -> None:
     """
     if not system.declarations:
         return
-    bodies, places, ties = system.bodies, places_at_start(system), Ties.of(system)
+    bodies, ties = system.bodies, Ties.of(system)
     said = ties.declared | ties.excluded
     found = [
         (i, j, depth)
@@ -51,7 +51,7 @@ def warn_of_overlaps(system: System) -> None:
         "Declare their contact by system.contact(...), or say by system.exclude(first, second) that they do not touch. "
         "nonsmooth.proximity(system) lists all pairs.",
         UndeclaredOverlap,
-        stacklevel=3,
+        stacklevel=4,
     )
 
 

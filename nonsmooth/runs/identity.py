@@ -16,7 +16,7 @@ from nonsmooth.engine.memory.tables import (
     SCALARS,
     places,
 )
-from nonsmooth.model.image import Image, Integers
+from nonsmooth.model.image import Booleans, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import by_kind
 
@@ -57,10 +57,11 @@ def digest(model: LaidOut, blank: Image) -> str:
     return found.hexdigest()
 
 
-def constants(model: LaidOut, blank: Image) -> tuple[Integers, ...]:
-    """Return the places in the parts of an image that no run changes: sizes, offsets, functions, ways to tables.
+def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
+    """Return of every place in the parts of an image whether a run may change it.
 
-    Where the rest of an image comes from a file, these are left as this process has them.
+    It does not change sizes, offsets, functions, and ways to tables: where the rest of an image comes from a file,
+    these are left as this process has them.
     """
     record = blank.parts[0].copy().view(SCALARS)
     ranges, numerics = (
@@ -70,7 +71,11 @@ def constants(model: LaidOut, blank: Image) -> tuple[Integers, ...]:
     rows = start + np.arange(width * int(record["n_declared"][0])).reshape(-1, width)
     blocks = np.array([place - model.memory.blocks for place, _, _ in model.memory.references], dtype=np.int64)
     integers = np.concatenate([*ranges, rows[:, :-1].ravel()]).astype(np.int64)
-    return places(*CONSTANT_SCALARS, "impact_map", "watch"), np.concatenate(numerics), blocks, integers
+    standing = places(*CONSTANT_SCALARS, "impact_map", "watch"), np.concatenate(numerics), blocks, integers
+    made = tuple(np.ones(len(part), bool) for part in blank.parts)
+    for part, those in zip(made, standing, strict=True):
+        part[those] = False
+    return made
 
 
 def _size(record: np.ndarray, name: str) -> int:

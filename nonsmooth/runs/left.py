@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import final
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,17 +21,15 @@ from nonsmooth.system.system import System
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Left:
+class Left(NamedTuple):
     """What a run left.
 
     Attributes
     ----------
     system : System
         What ran.
-    key : str
-        Digest of its model.
+    key : callable
+        Returns the digest of its model.
     start : tuple
         Kinetic and potential energy where the account begins [J].
     blank, before, now : Image
@@ -41,17 +39,12 @@ class Left:
     """
 
     system: System
-    key: str
+    key: Callable[[], str]
     start: tuple[float, float]
     blank: Image
     before: Image
     now: Image
     told: int
-
-    @property
-    def size(self) -> int:
-        """Memory that it takes besides what all runs of the model share [bytes]."""
-        return sum(part.nbytes for image in (self.before, self.now) for part in image.parts)
 
     def end(self, said: tuple[str, str], wall: float, samples: Floats) -> End:
         """Return how the run ended: with a status and a reason, after a time [s], its samples as recorded."""
@@ -106,7 +99,7 @@ class Left:
             now.array("own_guard_spent", int(record["n_own_guards"])),
             self._account(y[n_q + n_u :]),
         )
-        return state.with_continuation(Continuation(self.key, Difference.between(self.blank, self.before), self.told))
+        return state.with_continuation(Continuation(self.key(), Difference.between(self.blank, self.before), self.told))
 
     def _account(self, integrated: Floats) -> EnergyAccount:
         now, record, bodies = self.now, self.now.record, self.system.bodies

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import final
+from typing import NamedTuple
 
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, STOPPED
 from nonsmooth.interfaces import Engine
@@ -15,16 +14,13 @@ from nonsmooth.runs.pace import Pace
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.solution.files import FileError
-from nonsmooth.watch import Watch
 
 _STEPS_NEAR_END = 16
 """So many steps at most a run that goes on repeats; an image takes less time than they do."""
 Progress = Callable[[float, float], None]
 
 
-@final
-@dataclass(frozen=True)
-class Ending:
+class Ending(NamedTuple):
     """How the engine ended.
 
     Attributes
@@ -70,31 +66,33 @@ def run_engine(
         Whatever ``progress`` or ``until`` raises.
     """
     memory = model.memory
-    t_end = float(memory.scalars["t_end"][0])
+    t_end = float(memory.record["t_end"])
     report = None if progress is None else lambda t: progress(t, t_end)
-    status, interrupted, trouble, pace = PAUSED, False, "", Pace(model)
+    status, interrupted, trouble = PAUSED, False, ""
     image, before = begun, records.n_passed
-    so_far, looks = RunSoFar(model, records, engine), 0
+    pace: Pace | None = None
+    so_far, looks = None if until is None else RunSoFar(model, records, engine), 0
     try:
-        with Watch(memory, report) as watch:
+        with model.watch.reporting(report) as watch:
             while status == PAUSED:
-                looks, reached = looks + 1, None if until is None else so_far.reached
+                looks, reached = looks + 1, None if so_far is None else so_far.reached
                 # a condition sees the start before any step
                 status = engine.advance(watch.call, memory, keeper.steps if until is None else min(looks - 1, 1), True)
                 # a wary engine that does nothing is next to the end
-                near = status == PAUSED and (until is None or reached == so_far.reached)
+                near = status == PAUSED and (so_far is None or reached == so_far.reached)
                 if near or (status == PAUSED and looks % keeper.steps == 0):
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
                 if near:
                     status = engine.advance(watch.call, memory, _STEPS_NEAR_END if until is None else 1, False)
                 if status != DONE:
+                    pace = pace or Pace(model, begun)
                     pace.look(status)
                 records.drain()
-                if status == PAUSED and until is not None and until(so_far):
+                if status == PAUSED and so_far is not None and until is not None and until(so_far):
                     status = CONDITION_MET
                 if progress is not None:
-                    progress(float(memory.scalars["t"][0]), t_end)
+                    progress(float(memory.record["t"]), t_end)
     except KeyboardInterrupt:
         records.drain()
         status, interrupted = PAUSED, True
@@ -103,4 +101,5 @@ def run_engine(
         status, trouble = PAUSED, str(error)
     if status in (STOPPED, CONDITION_MET):
         image, before = Image.of(memory), records.n_passed
-    return Ending(status, interrupted, image, records.n_passed - before, pace.hint(status), trouble)
+    hint = "" if pace is None else pace.hint(status)
+    return Ending(status, interrupted, image, records.n_passed - before, hint, trouble)

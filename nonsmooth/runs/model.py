@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import math
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -18,12 +17,13 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.copying import copied
-from nonsmooth.model.image import Guards, Image, Integers
+from nonsmooth.model.image import Booleans, Guards, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.other_laws import lay_laws
+from nonsmooth.queries.undeclared import warn_of_overlaps
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.runs.identity import constants, digest
+from nonsmooth.runs.identity import changing, digest
 from nonsmooth.runs.keeper import Keeper, KeepsNothing
 from nonsmooth.runs.left import Left
 from nonsmooth.runs.loop import Progress, run_engine
@@ -50,11 +50,12 @@ class Model:
     Nothing of one run is left for the next.  A model runs in one thread at a time; another thread takes a copy.
     """
 
-    def __init__(self, laid: LaidOut, engine: Engine, start: State, key: str = "") -> None:
+    def __init__(self, laid: LaidOut, engine: Engine, start: State, key: Callable[[], str] | None = None) -> None:
         self._laid, self._engine, self._start = laid, engine, start
+        self._guards = Guards.of(laid.memory)
         self._blank = Image.of(laid.memory)
-        self._key = key or digest(laid, self._blank)
-        self._guards = Guards.of(self._blank)
+        # for continuing only, and to read all numbers takes as long as to lay them
+        self._key = key or functools.cache(partial(digest, laid, self._blank))
         begin(laid, self._blank, start)
         self._energy = laid.energy()
         self._begun = Image.of(laid.memory)
@@ -65,13 +66,19 @@ class Model:
     def of(cls, system: System, engine: Engine) -> Model:
         """Return the model of a system, whose start has been looked at.
 
+        Warns
+        -----
+        UndeclaredOverlap
+            If bodies overlap at the start that have no contact, are not joined and not excluded.
+
         Raises
         ------
         InvalidInput
             If the engine cannot run it, bodies overlap at the start, a joint is open there, or a guard has no value.
         """
         made = cls(lay(system, engine), engine, State.at(system))
-        check_start(made._laid)
+        check_start(made._laid, made._guards)
+        warn_of_overlaps(system, made._laid.places())
         return made
 
     @property
@@ -119,26 +126,24 @@ class Model:
             If anything else differs, or the start is not valid, or the model runs.
         """
         made = Model(lay_laws(self._copied(), system), self._engine, State.at(system))
-        check_start(made._laid)
+        check_start(made._laid, made._guards)
         return made
 
     @functools.cached_property
-    def _standing(self) -> tuple[Integers, ...]:
-        return constants(self._laid, self._blank)
+    def _changing(self) -> tuple[Booleans, ...]:
+        return changing(self._laid, self._blank)
 
     def _copied(self) -> LaidOut:
-        with self._alone("copy"):
+        self._seize("copy")
+        try:
             self._blank.put(self._laid.memory)
             return replace(self._laid, memory=copied(self._laid.memory))
-
-    @contextlib.contextmanager
-    def _alone(self, what: str) -> Iterator[None]:
-        if not self._runs.acquire(blocking=False):
-            raise InvalidInput(f"Model.{what}", "must not be called while it runs", "running", "Make a copy before.")
-        try:
-            yield
         finally:
             self._runs.release()
+
+    def _seize(self, what: str) -> None:
+        if not self._runs.acquire(blocking=False):
+            raise InvalidInput(f"Model.{what}", "must not be called while it runs", "running", "Make a copy before.")
 
     def run(
         self,
@@ -194,9 +199,12 @@ class Model:
             if not self._goes_on(state):
                 check_start_numbers(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
-        with self._alone("run"):
-            where = None if output is None else Output.to(output)
+        where = None if output is None else Output.to(output)
+        self._seize("run")
+        try:
             return self._run(t_end, state, interval, sample_interval is None, progress, where, until)
+        finally:
+            self._runs.release()
 
     def resume(
         self, output: Output | Path | str, *, until: Until | None = None, progress: Progress | None = None
@@ -241,14 +249,18 @@ class Model:
                 "another",
                 "Assemble the system that ran.",
             )
-        with self._alone("resume"), contextlib.closing(folder):
+        self._seize("resume")
+        try:
             laid = self._laid
             self._records = records = Records(laid, (folder.events(), folder.rows()))
-            restore(laid, self._blank, state, self._standing)
+            restore(laid, self._blank, state, self._changing)
             energy = state.energy.kinetic_start, state.energy.potential_start
             wall = float(folder.said("checkpoint")["wall_seconds"])
             keeper = Writer(folder, records, self._states_from(energy), wall)
             return self._complete(records, Image.of(laid.memory), energy, progress, keeper, wall, until)
+        finally:
+            self._runs.release()
+            folder.close()
 
     def _states_from(self, energy: tuple[float, float]) -> Callable[[Image], State]:
         """Return what makes states of images, for the account of energy that begins with these [J]."""
@@ -262,7 +274,7 @@ class Model:
 
     def _goes_on(self, state: State) -> bool:
         """Tell whether a run of this model left a state, which goes on then."""
-        return state.continuation is not None and state.continuation.model == self._key
+        return state.continuation is not None and state.continuation.model == self._key()
 
     def _run(
         self,
@@ -276,25 +288,25 @@ class Model:
     ) -> Solution:
         laid = self._laid
         records = self._records = Records(laid)
-        scalars, begun = laid.memory.scalars, None
+        record, begun = laid.memory.record, None
         if state is self._start:
             begun = self._begun
             begun.put(laid.memory)
             energy = self._energy
         elif self._goes_on(state):
-            go_on(laid, self._blank, state, self._standing)
+            go_on(laid, self._blank, state, self._changing)
             records.begin_with(state)
             energy = state.energy.kinetic_start, state.energy.potential_start
         else:
             begin(laid, self._blank, state)
             check_closed(laid, state)
-            check_start(laid)
+            check_start(laid, self._guards)
             energy = laid.energy()
-        scalars["t_end"], scalars["sample_interval"], scalars["sample_index"] = t_end, interval, 0
-        scalars["sample_start"] = scalars["next_sample"] = state.time
+        record["t_end"], record["sample_interval"], record["sample_index"] = t_end, interval, 0
+        record["sample_start"] = record["next_sample"] = state.time
         # where a run ends is not to change its steps: all samples by default are fewer than those at once
-        room = _SAMPLES_AT_ONCE * float(scalars["sample_capacity"][0])
-        scalars["h_sampled"] = math.inf if is_default else room * interval
+        room = _SAMPLES_AT_ONCE * float(record["sample_capacity"])
+        record["h_sampled"] = math.inf if is_default else room * interval
         keeper: Keeper = KeepsNothing()
         if begun is None or output is not None:
             # takes milliseconds where there are many contacts
@@ -317,14 +329,14 @@ class Model:
         """Run to the end from where the model stands; ``wall`` is what the run took before [s]."""
         laid = self._laid
         began = time.perf_counter()
-        with contextlib.closing(keeper):
+        try:
             keeper.begin(begun)
             ending = run_engine(self._engine, laid, records, begun, progress, keeper, until)
             said = reason(laid, self._guards, ending)
             wall += time.perf_counter() - began
             left, recorded = self._left(energy, ending.image, ending.told), records.joined(self._engine)
             solution = Solution(laid.system, recorded, partial(left.end, said, wall, recorded.rows))
-            if left.size > _HELD:
+            if 2 * self._blank.size > _HELD:
                 # reads it: next to a run of so many contacts that takes no time
                 _ = solution.end
             failed = said[0] == "failed"
@@ -336,6 +348,8 @@ class Model:
                     solution = Solution.known(
                         laid.system, recorded, replace(solution.end, status="failed", message=str(error))
                     )
+        finally:
+            keeper.close()
         if failed:
             raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
         return solution

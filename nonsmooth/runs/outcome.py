@@ -12,12 +12,10 @@ from nonsmooth.runs.loop import Ending
 
 def reason(model: LaidOut, guards: Guards, ending: Ending) -> tuple[str, str]:
     """Return the status of a run that has ended, in a word, and why it did; ``guards`` are those of the model."""
-    past_map = int(model.memory.scalars["map_past"][0]) > 0
-    past = "" if guards.hold(model.memory) and not past_map else written_past(model)
-    status = ending.status
+    past, status = written_past(model, guards), ending.status
     if ending.trouble:
-        return "failed", f"At t = {float(model.memory.scalars['t'][0]):.9g} s {ending.trouble}"
+        return "failed", f"At t = {float(model.memory.record['t']):.9g} s {ending.trouble}"
     if past or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
-        message = f"At t = {float(model.memory.scalars['t'][0]):.9g} s {REASONS[status]}."
+        message = f"At t = {float(model.memory.record['t']):.9g} s {REASONS[status]}."
         return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
     return "interrupted" if ending.interrupted else "done", REASONS[status]

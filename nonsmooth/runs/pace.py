@@ -27,6 +27,7 @@ from nonsmooth.engine.memory.modes import (
     UPDATE_ENDLESS,
 )
 from nonsmooth.errors import NonsmoothWarning
+from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 
 _HARDLY = 1e-10
@@ -53,17 +54,20 @@ class Pace:
     Parameters
     ----------
     model : LaidOut
-        What runs, put where it starts.
+        What runs.
+    begun : Image
+        What its memory held as the run began.
     """
 
     model: LaidOut
+    begun: Image
     _last: deque[_Event] = field(default_factory=lambda: deque(maxlen=_LAST))
     _passes: int = 0
     _told: bool = False
 
     def __post_init__(self) -> None:
-        self._t, self._limits = self._now()
-        self._begun, self._since = self._t, self._limits
+        self._t = self._begun = float(self.begun.record["t"])
+        self._limits = self._since = self.begun.array("limits", len(LIMITS))
 
     def look(self, status: int) -> None:
         """Look at what the engine has done since the last look, before its buffers are emptied; it came to a status.
@@ -76,7 +80,7 @@ class Pace:
         (t, limits), before = self._now(), self._t
         passes = int(np.sum(limits - self._limits))
         self._t, self._limits = t, limits
-        passing = t - before > _HARDLY * passes * (float(self.model.memory.scalars["t_end"][0]) - self._begun)
+        passing = t - before > _HARDLY * passes * (float(self.model.memory.record["t_end"]) - self._begun)
         if passing:
             self._passes, self._since = 0, limits
             self._last.clear()

@@ -11,7 +11,6 @@ from nonsmooth.engine.events.record import EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
-from nonsmooth.engine.memory.tables import places
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.events import Events
@@ -22,9 +21,7 @@ from nonsmooth.solution.track import row_of
 _BEFORE_THE_FIRST = -1
 _CODES = 1 + 8 + 64
 """Before, during and after an event."""
-_FILLED = places("calls", "n_events", "n_samples", "floats_used", "integers_used")
-_EMPTIED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats")
-_PASSED = places("n_events", "told")
+_FILLED = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats")
 
 
 @final
@@ -55,9 +52,9 @@ class Records:
     @property
     def n_passed(self) -> int:
         """Events that the engine has recorded, less those that it has still to pass as told."""
-        now, told = self.model.memory.bits[0][_PASSED].tolist()
+        record = self.model.memory.record
         earlier = 0 if self.earlier is None else len(self.earlier[0])
-        return earlier + self._events + int(now) - int(told)
+        return earlier + self._events + int(record["n_events"]) - int(record["told"])
 
     def drain(self) -> None:
         """Empty the engine's buffers.
@@ -65,15 +62,18 @@ class Records:
         An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
         """
         memory, width = self.model.memory, self._width
-        key, n_events, n_samples, n_floats, n_integers = memory.bits[0][_FILLED].tolist()
+        record = memory.record
+        key, n_events, n_samples = int(record["calls"]), int(record["n_events"]), int(record["n_samples"])
         if key not in self._parts:
-            self._events += n_events
-            self._parts[key] = (
-                memory.array("events", n_floats).copy(),
-                memory.array("event_codes", n_integers).copy(),
+            part = (
+                memory.array("events", int(record["floats_used"])).copy(),
+                memory.array("event_codes", int(record["integers_used"])).copy(),
                 memory.array("samples", n_samples * width).reshape(n_samples, width).copy(),
             )
-        memory.bits[0][_EMPTIED] = 0
+            self._events += n_events
+            self._parts[key] = part
+        for name in _FILLED:
+            record[name] = 0
 
     def begin_with(self, state: State) -> None:
         """Record the start of a run that goes on: its modes are those of the state."""
@@ -109,9 +109,10 @@ class Records:
         return Events.from_buffers(floats, integers, *self.model.sizes), samples
 
     def _joined(self, first: int) -> tuple[Floats, Integers, Floats]:
-        nothing = np.zeros(0), np.zeros(0, np.int64), np.zeros((0, self._width))
-        parts = list(self._parts.values())[first:] or [nothing]
+        parts = list(self._parts.values())[first:]
         if len(parts) == 1:
             return parts[0]
+        if not parts:
+            return np.zeros(0), np.zeros(0, np.int64), np.zeros((0, self._width))
         floats, integers, samples = (np.concatenate(same) for same in zip(*parts, strict=True))
         return floats, integers, samples

@@ -12,7 +12,7 @@ from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
-from nonsmooth.model.image import Image
+from nonsmooth.model.image import Booleans, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Continuation, Integers, State
 
@@ -51,15 +51,15 @@ def check_arrays(model: LaidOut, state: State) -> None:
     if not math.isfinite(state.time):
         raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
     for name, shape in shapes.items():
-        value, kinds = np.asarray(getattr(state, name)), "biu" if name in _WHOLE else "biuf"
+        value, kinds = getattr(state, name), "biu" if name in _WHOLE else "biuf"
         if value.dtype.kind not in kinds:
             rule = f"must be {'whole ' if name in _WHOLE else ''}numbers"
             raise InvalidInput(f"State.{name}", rule, f"an array of {value.dtype}", _REMEDY)
         if value.shape != shape:
             raise InvalidInput(f"State.{name}", f"must have the shape {shape} of this model", value.shape, _REMEDY)
-    if not np.all(np.isin(state.modes, (OPEN, STICK, SLIDE))):
+    if not {*state.modes.tolist()} <= {OPEN, STICK, SLIDE}:
         raise InvalidInput("State.modes", "must be 0 (open), 1 (stick) or 2 (slide)", state.modes.tolist(), _REMEDY)
-    if not np.all(np.isin(state.guards_spent, (0, 1))):
+    if not {*state.guards_spent.tolist()} <= {0, 1}:
         raise InvalidInput("State.guards_spent", "must be 0 or 1", state.guards_spent.tolist(), _REMEDY)
 
 
@@ -71,12 +71,13 @@ def check_start_numbers(model: LaidOut, state: State) -> None:
     InvalidInput
         If one is not finite, or a quaternion not unit.
     """
-    for name in _NUMBERS:
-        value = np.asarray(getattr(state, name))
-        if not np.all(np.isfinite(value)):
-            number = int(np.flatnonzero(~np.isfinite(value.ravel()))[0])
-            remedy = f"Look at entry {number}; a run that failed may leave such a state."
-            raise InvalidInput(f"State.{name}", "must be finite numbers", float(value.ravel()[number]), remedy)
+    values = [getattr(state, name).ravel() for name in _NUMBERS]
+    if not np.isfinite(np.concatenate(values)).all():
+        wrong = [not np.isfinite(value).all() for value in values].index(True)
+        name, value = _NUMBERS[wrong], values[wrong]
+        number = int(np.flatnonzero(~np.isfinite(value))[0])
+        remedy = f"Look at entry {number}; a run that failed may leave such a state."
+        raise InvalidInput(f"State.{name}", "must be finite numbers", float(value[number]), remedy)
     first = 0
     for body in model.system.bodies:
         if body.quaternion >= 0:
@@ -159,17 +160,17 @@ def check_closed(model: LaidOut, state: State) -> None:
             )
 
 
-def go_on(model: LaidOut, blank: Image, state: State, standing: tuple[Integers, ...]) -> None:
+def go_on(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, ...]) -> None:
     """Put a model in the midst of the run that left a state, and goes on.
 
-    ``standing`` are the places that no run changes (:func:`nonsmooth.runs.identity.constants`).
+    ``changing`` says which places a run may change (:func:`nonsmooth.runs.identity.changing`).
 
     Raises
     ------
     InvalidInput
         If what comes from a file cannot be of such a run.
     """
-    continuation = _continue(model, blank, state, standing)
+    continuation = _continue(model, blank, state, changing)
     scalars = model.memory.scalars
     for name in (*_COUNTERS, *_OUTPUT):
         scalars[name] = 0
@@ -178,21 +179,21 @@ def go_on(model: LaidOut, blank: Image, state: State, standing: tuple[Integers, 
     scalars["told"], scalars["resumed"] = continuation.told, 1
 
 
-def restore(model: LaidOut, blank: Image, state: State, standing: tuple[Integers, ...]) -> None:
+def restore(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, ...]) -> None:
     """Put a model where a run was cut off, in the midst of whatever it was told at its start; as :func:`go_on`."""
-    _continue(model, blank, state, standing)
+    _continue(model, blank, state, changing)
     scalars = model.memory.scalars
     for name in _OUTPUT:
         scalars[name] = 0
     scalars["resumed"] = scalars["started"]
 
 
-def _continue(model: LaidOut, blank: Image, state: State, standing: tuple[Integers, ...]) -> Continuation:
+def _continue(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, ...]) -> Continuation:
     continuation = state.continuation
     assert continuation is not None
     blank.put(model.memory)
     continuation.difference.check(model.memory)
-    continuation.difference.without(standing).put(model.memory)
+    continuation.difference.within(changing).put(model.memory)
     t, told = float(model.memory.scalars["t"][0]), continuation.told
     if not t <= state.time or told < 0:
         raise InvalidInput(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import final
@@ -76,7 +77,7 @@ class Materials:
         if self.default is not None:
             _check_bundle("Materials.default", self.default)
 
-    @property
+    @functools.cached_property
     def names(self) -> tuple[str, ...]:
         """All materials of the table, sorted."""
         return tuple(sorted({name for pair in self.pairs for name in pair}))

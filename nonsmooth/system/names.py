@@ -128,7 +128,7 @@ class Naming:
         if chosen:
             check_name(f"System.{kind}: name", chosen, given)
         wanted = [chosen or name for name in made]
-        totals, names = Counter(wanted), []
+        totals, names = {name: wanted.count(name) for name in {*wanted}}, []
         for name in wanted:
             given[name] += 1
             names.append(name if given[name] == totals[name] == 1 else f"{name} ({given[name]})")

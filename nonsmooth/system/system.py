@@ -316,9 +316,20 @@ class System:
             for a pair of shapes, a body carries none or not the one named, two shapes have their contacts already,
             the impact law is of another kind than that of the other contacts, or the name is taken.
         """
+        check_laws("System.contact", normal, friction, impact)
+        return self._let_touch(first, second, ContactLaws(normal, friction, impact), shapes, name)
+
+    def _let_touch(
+        self,
+        first: Body,
+        second: Body,
+        laws: ContactLaws,
+        shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
+        name: str = "",
+    ) -> tuple[Contact, ...]:
         self._require(first, "System.contact")
         self._require(second, "System.contact")
-        check_laws("System.contact", normal, friction, impact)
+        impact = laws.impact
         present = next((contact.impact for contact in self._contacts if contact.impact is not None), impact)
         if impact is not None and present is not None and not _same_kind(impact, present):
             raise InvalidInput(
@@ -342,7 +353,6 @@ class System:
             )
         facing = [found for one, other in itertools.product(*sides) for found in self._facing(one, other)]
         made = [between(self.name_of(one.body), self.name_of(two.body)) for one, two, _ in facing]
-        laws = ContactLaws(normal, friction, impact)
         check_sharing("System.contact", laws, len(facing))
         names = self._naming.give("contact", name, made)
         added = [_contact(*named, laws) for named in zip(names, facing, strict=True)]
@@ -404,8 +414,7 @@ class System:
         try:
             for one, other in itertools.combinations(chosen, 2):
                 if self._pair_of(one, other) not in out and one.n_u + other.n_u > 0:
-                    laws = materials.laws(names.get(id(one)), names.get(id(other)))
-                    self.contact(one, other, normal=laws.normal, friction=laws.friction, impact=laws.impact)
+                    self._let_touch(one, other, materials.laws(names.get(id(one)), names.get(id(other))))
         except InvalidInput:
             vars(self).update(kept)
             raise

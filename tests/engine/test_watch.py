@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import _thread
+import gc
+import importlib
 import signal
 import threading
 from collections.abc import Iterator
@@ -15,8 +17,10 @@ import nonsmooth as ns
 from bodies import Ball, Plate, Rest
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import watch
+from nonsmooth.engine.native.kernel import PLAIN
 
 RADIUS = 0.01
+_half = importlib.import_module("nonsmooth.engine.native.plain" if PLAIN else "nonsmooth.engine.native.native")
 
 
 @pytest.fixture(autouse=True)
@@ -121,3 +125,28 @@ def test_runs_in_other_threads_report_there() -> None:
     thread.join()
     assert reported == [thread.ident]
     assert solutions[0].status == "interrupted"
+
+
+def test_a_watch_that_was_given_up_looks_again_in_the_next_run() -> None:
+    """As a second Ctrl-C does it, which comes while the first is taken."""
+    model = ns.assemble(_between_two_plates(False))
+    model._laid.watch._looks.close()
+
+    def progress(t: float, t_end: float) -> None:
+        raise ZeroDivisionError("of the user's own")
+
+    with pytest.MonkeyPatch.context() as often:
+        often.setattr(watch, "_REPORTED_EVERY", 1e-3)
+        with pytest.raises(ZeroDivisionError, match="of the user's own"):
+            model.run(1.0, progress=progress)
+
+
+def test_a_model_leaves_no_watch_behind() -> None:
+    gc.collect()
+    before = len(_half._watches)
+    models = [ns.assemble(_between_two_plates(False)) for _ in range(3)]
+    with pytest.raises(ns.RunFailed, match="did not end"):
+        models[0].run(1.0)
+    del models
+    gc.collect()
+    assert len(_half._watches) == before

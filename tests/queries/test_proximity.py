@@ -12,6 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BallJoint, BoxBody, DrivenBody, HalfSpace, MeshBody, Plate, Rest, Sphere, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.queries.near import places_at_start
 from nonsmooth.queries.undeclared import UndeclaredOverlap, warn_of_overlaps
 from tests.bodies.meshes.parts import bracket
 
@@ -109,7 +110,7 @@ def test_joined_bodies_are_marked() -> None:
 def _warned(system: ns.System) -> list[str]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        warn_of_overlaps(system)
+        warn_of_overlaps(system, places_at_start(system))
     return [str(one.message) for one in caught]
 
 

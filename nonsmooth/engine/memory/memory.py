@@ -6,6 +6,7 @@ import functools
 from array import array
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 
@@ -109,6 +110,11 @@ class Memory:
         """Return a view of ``size`` entries of the named array."""
         heap, start = self._places[name]
         return heap[start : start + size]
+
+    @functools.cached_property
+    def record(self) -> np.void:
+        """The record of the scalars: a view, of which one number is read and set most quickly."""
+        return cast(np.void, self.scalars[0])
 
     @functools.cached_property
     def _places(self) -> dict[str, tuple[np.ndarray, int]]:

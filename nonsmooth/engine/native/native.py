@@ -226,7 +226,7 @@ _watches: dict[int, Any] = {}
 def watch_address(function: Callable[[float], float]) -> int:
     """Return the address of a C function that calls ``function``, which is kept alive."""
     callback = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(function)
-    address = int(ctypes.cast(callback, ctypes.c_void_p).value or 0)
+    address = int(ctypes.c_void_p.from_buffer(callback).value or 0)
     _watches[address] = callback
     return address
 

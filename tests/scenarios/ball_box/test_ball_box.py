@@ -93,8 +93,10 @@ def test_near_pairs_give_what_all_pairs_give(monkeypatch: pytest.MonkeyPatch) ->
     ends = []
     for small in (64, 200):
         monkeypatch.setattr(units, "SMALL", small)
-        assert (len(units.find_units(scenario.build().contacts).radii) == 0) == (small == 200)
-        ends.append(ns.simulate(scenario.build(), scenario.t_end))
+        system = scenario.build()
+        extents = np.array([contact.extents for contact in system.contacts])
+        assert (len(units.find_units(system.contacts, extents).radii) == 0) == (small == 200)
+        ends.append(ns.simulate(system, scenario.t_end))
     listed, every = ends
     assert listed.counters.impacts == every.counters.impacts > 30
     np.testing.assert_allclose(listed.q_end, every.q_end, rtol=0, atol=1e-9)
