@@ -72,7 +72,6 @@ class EventDriven(Engine):
             "h_closed": step,
             "h_sampled": math.inf,
             "h_valid": math.inf,
-            "last_event_t": -math.inf,
             "chosen_t": -math.inf,
             "feature_t": -math.inf,
             "driven_t": -math.inf,

@@ -26,6 +26,9 @@ class Engine(Component, ABC):
     3. ``counts`` gives the lengths that its options decide, ``settings`` the scalars of the record ``S``.
     4. ``advance`` goes on, from wherever the memory stands, with compiled entry points or otherwise.  All that it needs
        to go on later, in another process too, it leaves in the memory.
+    5. Where time stops passing it returns ``STALLED`` and leaves in the memory the state at that instant, and in
+       ``crowd_events`` which contacts hold it up.  That does not yet end the run: an engine that is put together of two
+       may let the other one go on from there.
     """
 
     @property

@@ -16,11 +16,11 @@ from nonsmooth.engine.memory.limits import BY_ERROR, LIMITS
 from nonsmooth.engine.memory.modes import (
     CAUSES,
     DONE,
-    EVENTS_ENDLESS,
     GUARD,
     IMPACT_ENDLESS,
     NO_CONTACT_SOLUTION,
     PAUSED,
+    STALLED,
     START,
     STEP_TOO_SMALL,
     STOPPED,
@@ -36,6 +36,10 @@ _LONG = 10_000
 """So many of those in a row are told."""
 _LAST = 200
 _NAMED = 3
+_REMEDY = (
+    "A law that loses more in these contacts (a lower restitution), one that is compliant, or more room between the "
+    "bodies may help, or an engine that does not stop at every event."
+)
 _AT_ONE_INSTANT = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS)
 
 _Event = tuple[int, int]
@@ -93,8 +97,8 @@ class Pace:
 
     def hint(self, status: int) -> str:
         """Return a sentence on what a run failed at that ended with a status, "" if there is nothing to tell."""
-        if status == EVENTS_ENDLESS:
-            return self._of_events()
+        if status == STALLED:
+            return f"{self._of_events()} {_REMEDY}"
         if status == STEP_TOO_SMALL:
             return f"{_of_error(self.model)} {self._of_events()}".strip()
         return _involved(self.model) if status in _AT_ONE_INSTANT else ""

@@ -16,6 +16,7 @@ from nonsmooth.engine.events.record import (
     record_samples,
     remember,
 )
+from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.flow import is_violated, right_hand_side, slope
@@ -41,7 +42,6 @@ from nonsmooth.engine.memory.layout import BOOKED, FALL, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
 from nonsmooth.engine.memory.modes import (
     DONE,
-    EVENTS_ENDLESS,
     FEATURE_CHANGE,
     FEATURE_END,
     GUARD,
@@ -56,6 +56,7 @@ from nonsmooth.engine.memory.modes import (
     RUNNING,
     SLIDE,
     SLIP_TO_STICK,
+    STALLED,
     START,
     STEP_TOO_SMALL,
     STICK,
@@ -75,8 +76,6 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.vectors import length
 
-_EVENTS_AT_ONCE = 100
-"""Besides one for every contact."""
 _DRIFT = 0.3
 _SPACINGS = 4.0 * 2.0**-52
 """Times closer than this part of the time are not told apart."""
@@ -175,14 +174,10 @@ def _cause(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
 
 @kernel("i8(S, F, I, i8, i8)")
 def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
-    """Carry out an event: count it, and update modes and velocities at its instant; return the status."""
+    """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
     S.fresh = 0
-    if S.t - S.last_event_t > S.time_tolerance:
-        S.repeated = 0
-    S.repeated += 1
-    S.last_event_t = S.t
-    if S.repeated > _EVENTS_AT_ONCE + S.n_contacts:
-        return EVENTS_ENDLESS
+    if stalls(S, w, k, which) == 1:
+        return STALLED
     return update_at_event(S, w, k, cause, which)
 
 

@@ -101,6 +101,9 @@ CONTACT: Fields = {
         "arm_first",
         "arm_end",
         "feature",
+        # how its events crowd
+        "crowd_start",
+        "crowd_events",
         # what an event does to it
         "code_before",
         "code_during",

@@ -33,7 +33,7 @@ POLICIES = ("impact", "compliant", "refuse")
 """Their names."""
 
 RUNNING, DONE, PAUSED = 0, 1, 2
-STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS, EVENTS_ENDLESS = range(3, 9)
+STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS, STALLED = range(3, 9)
 STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 13)
 GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED = range(13, 16)
 CONDITION_MET = 16
@@ -55,7 +55,7 @@ REASONS = {
     QUATERNION_UNEXPLAINED: "a quaternion has left unit length by more than the tolerances explain",
     PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",
     NO_SLOT: "more contacts came near each other than a system of this size has room for",
-    EVENTS_ENDLESS: "events repeat without end within the time tolerance",
+    STALLED: "the run stalls: a contact has more than a hundred events within a hundredth of its contact time",
 }
 
 

@@ -38,6 +38,7 @@ ARRAYS = Arrays(
         "guard_end": guards,
         "rate_end": per(3, "n_slots"),
         "static_margin": per(1, "n_slots"),
+        "crowd_start": per(1, "n_slots"),
     },
     integers={
         "feature": per(1, "n_slots"),
@@ -47,5 +48,6 @@ ARRAYS = Arrays(
         "astray": per(1, "n_slots"),
         "redundant_contact": per(1, "n_slots"),
         "holds": per(1, "n_slots"),
+        "crowd_events": per(1, "n_slots"),
     },
 )
