@@ -109,7 +109,7 @@ def solve_contact(
     free = np.linalg.solve(m, h)
     memory = _memory(friction, number)
     write_delassus(memory, scaled.T @ scaled)
-    memory.array("b", 3 * n)[:] = s.ravel() + columns.T @ free
+    memory.array("free_accelerations", 3 * n)[:] = s.ravel() + columns.T @ free
     memory.scalars["acceleration_scale"] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
     memory.array("rate", 3 * n).reshape(n, 3)[:, 1:] = v
     with Watch(memory) as watch:
@@ -117,7 +117,7 @@ def solve_contact(
     if solved == 0:
         culprit = _culprit(memory, friction)
         raise RunFailed(f"The solver {solver!r} finds no contact forces that fulfil the laws. {culprit}".strip())
-    f = memory.array("f", 3 * n).reshape(n, 3).copy()
+    f = memory.array("active_forces", 3 * n).reshape(n, 3).copy()
     return ContactResult(
         normal_force=f[:, 0],
         tangential_force=f[:, 1:],

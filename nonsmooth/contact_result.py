@@ -65,7 +65,7 @@ class ContactResult:
         changes its normal force, its friction in proportion; one that parts has none.
         """
         n = len(self.modes)
-        mu, d = self._memory.array("mu", n), self._memory.array("d", 2 * n).reshape(n, 2)
+        mu, d = self._memory.array("mu", n), self._memory.array("active_directions", 2 * n).reshape(n, 2)
         at_rest = self._memory.array("at_rest", n)
         free = []
         for i, mode in enumerate(self.modes):
@@ -152,5 +152,5 @@ class ContactResult:
     def _differs(self, trial: Memory, small: float) -> bool:
         n = len(self.modes)
         delassus = read_delassus(trial, n)
-        acceleration = delassus @ trial.array("f", 3 * n) + trial.array("b", 3 * n)
+        acceleration = delassus @ trial.array("active_forces", 3 * n) + trial.array("free_accelerations", 3 * n)
         return float(np.max(np.abs(acceleration - self.contact_acceleration.ravel()))) > small

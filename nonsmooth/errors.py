@@ -5,6 +5,9 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+_LONGEST = 400
+"""Characters of a value that are told; meshes have thousands."""
+
 
 class NonsmoothError(Exception):
     """Base of every error raised by this package."""
@@ -27,7 +30,10 @@ class InvalidInput(NonsmoothError, ValueError):
 
     def __init__(self, thing: str, rule: str, value: object, remedy: str) -> None:
         self.thing, self.rule, self.value, self.remedy = thing, rule, value, remedy
-        super().__init__(f"{thing} {rule}, but it is {value!r}. {remedy}")
+        said = repr(value)
+        if len(said) > _LONGEST:
+            said = f"{said[: _LONGEST // 2]} ... {said[-_LONGEST // 4 :]}"
+        super().__init__(f"{thing} {rule}, but it is {said}. {remedy}")
 
 
 class UnknownName(InvalidInput):

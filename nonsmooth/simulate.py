@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import check_free
@@ -42,7 +43,7 @@ def assemble(system: System, engine: Engine | None = None) -> Model:
     InvalidInput
         If the engine cannot run the system, or the start is not valid.
     """
-    return Model.of(system, engine or EventDriven())
+    return Model.of(system, _engine(engine))
 
 
 def simulate(
@@ -99,5 +100,13 @@ def simulate(
     check_times("simulate", t_end, sample_interval)
     if output is not None:
         check_free(Output.to(output))
-    model = Model.of(system, engine or EventDriven())
+    model = Model.of(system, _engine(engine))
     return model.run(t_end, sample_interval=sample_interval, until=until, progress=progress, output=output)
+
+
+def _engine(given: Engine | None) -> Engine:
+    engine = EventDriven() if given is None else given
+    if not isinstance(engine, Engine):
+        remedy = "Give nonsmooth.EventDriven(), or another one with its options."
+        raise InvalidInput("engine", "must be an Engine", engine, remedy)
+    return engine

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import final
 
 from bodies.carried import check_carried
+from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.interfaces import Shape
 from nonsmooth.types import Floats
 
@@ -50,7 +51,8 @@ class MovingFrame(ABC):
 
 
 def _world_axes(out: Floats) -> None:
-    out[3] = out[7] = out[11] = 1.0
+    for i in range(3):
+        out[ROTATION + 4 * i] = 1.0
 
 
 def _nothing(out: Floats) -> None:

@@ -17,9 +17,11 @@ _LONG_WORD = 80
 _NAMED = 1
 """Contacts that are named then of each kind; the others are counted."""
 _COMMONEST = 5
-"""Words of modes that are told; the others are counted."""
-_ROUND_OFF, _NOTHING = 1e-15, 1e-12
-"""Numbers below which, in SI units, and beside the largest of their list, nothing is told."""
+"""Words of modes that are told; the others are counted,"""
+_INSTANT = 5e-5
+"""as are those that last for no more than this part of the time, such as those of an instant."""
+_ROUND_OFF, _NOTHING = 1e-15, 1e-9
+"""Numbers below which, in SI units, and beside the largest of their list, no run is right: 0 is told."""
 _NUMBERS = (
     "t_end",
     "wall_seconds",
@@ -86,7 +88,8 @@ def as_text(report: Report) -> str:
 
 def _modes(shares: dict[str, float], names: list[str]) -> list[str]:
     """Return the commonest words of modes with their shares of time, and how many others there are."""
-    told = [(_described(word, names), share) for word, share in list(shares.items())[:_COMMONEST]]
+    lasting = [(word, share) for word, share in shares.items() if share >= _INSTANT]
+    told = [(_described(word, names), share) for word, share in lasting[:_COMMONEST]]
     width = max((len(word) for word, _ in told), default=0)
     found = [f"{word.ljust(width)} {share:7.2%}" for word, share in told]
     others = len(shares) - len(found)

@@ -44,7 +44,7 @@ class EventDriven(Engine):
     solver: str = parameter("auto", doc="solver of the contact problem", unit="", choices=SOLVERS)
 
     @property
-    def rooms(self) -> tuple[str, ...]:
+    def layers(self) -> tuple[str, ...]:
         """All."""
         return ("delassus", "contact", "impact", "flow")
 

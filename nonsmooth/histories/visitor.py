@@ -69,7 +69,7 @@ class Visitor:
         InvalidInput
             If the system is no longer the one that ran, or the engine has no flow between events.
         """
-        if not {"delassus", "contact", "flow"} <= set(self._engine.rooms):
+        if not {"delassus", "contact", "flow"} <= set(self._engine.layers):
             raise InvalidInput(
                 "Solution",
                 "is known between its samples only where the engine integrates between events",

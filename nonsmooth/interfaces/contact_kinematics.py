@@ -28,10 +28,14 @@ class CandidateSearch:
         the first of which is not 0, of one more than there are contacts at most.
     values : mapping
         Its parameters.
+    counts : mapping
+        For each first number that it writes, how many there are of the second and of the third, whole numbers from 0:
+        what a file says that was found has to be among these.
     """
 
     function: Callable[..., None]
     values: Mapping[str, Value]
+    counts: Mapping[float, tuple[int, int]]
 
 
 class ContactKinematics(Component, ABC):

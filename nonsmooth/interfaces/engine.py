@@ -21,8 +21,8 @@ class Engine(Component, ABC):
     run ends.  The contract:
 
     1. ``check`` refuses a system that this engine cannot run, before anything is laid out.
-    2. ``rooms`` are the rooms of :mod:`nonsmooth.engine` whose arrays it works with; those of the bodies and those that
-       record there always are, all others have no length.
+    2. ``layers`` are those of :mod:`nonsmooth.engine` whose arrays it works with; arrays of the bodies and of what is
+       recorded there always are, all others have no length.
     3. ``counts`` gives the lengths that its options decide, ``settings`` the scalars of the record ``S``.
     4. ``advance`` goes on, from wherever the memory stands, with compiled entry points or otherwise.  All that it needs
        to go on later, in another process too, it leaves in the memory.
@@ -33,8 +33,8 @@ class Engine(Component, ABC):
 
     @property
     @abstractmethod
-    def rooms(self) -> tuple[str, ...]:
-        """Names of the rooms whose arrays it works with."""
+    def layers(self) -> tuple[str, ...]:
+        """Names of the layers of :mod:`nonsmooth.engine` whose arrays it works with."""
 
     @abstractmethod
     def check(self, system: System) -> None:

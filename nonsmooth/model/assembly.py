@@ -105,7 +105,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
         **engine.counts(units.n_slots),
     }
     assert counts.keys() <= set(COUNTS)
-    memory = allocate(dict.fromkeys(COUNTS, 0) | counts, engine.rooms)
+    memory = allocate(dict.fromkeys(COUNTS, 0) | counts, engine.layers)
     heap = Heap(memory)
     memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     places = lay_bodies(system, memory, heap)

@@ -32,7 +32,7 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
         raise InvalidInput("contacts", f"must couple in at most {MOST_BLOCKS} pairs", len(columns), remedy)
     memory.array("block_start", n + 1)[:] = np.searchsorted(rows, np.arange(n + 1))
     memory.array("block_column", len(columns))[:] = columns
-    memory.array("own_block", n)[:] = np.flatnonzero(rows == columns)
+    memory.array("diagonal_block", n)[:] = np.flatnonzero(rows == columns)
     memory.array("delassus", 9 * len(columns))[:] = blocks[coupled].ravel()
 
 

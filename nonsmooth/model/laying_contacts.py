@@ -122,7 +122,9 @@ def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds, rows:
 def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) -> int:
     """Say on which bodies and frames the contacts are; return the most velocities of an articulation among these."""
     numbers, stand, most = {body: place.number for body, place in places.items()}, [*places.values()], 0
-    first, sizes = (np.array(values) for values in ([p.frames[0] for p in stand], [p.articulation_nu for p in stand]))
+    # a mechanism need not have a frame, nor a contact then
+    first = np.array([next(iter(place.frames), 0) for place in stand], np.int64)
+    sizes = np.array([place.articulation_nu for place in stand], np.int64)
     said = {
         "nu": np.array([place.nu for place in stand]),
         "shift": np.array([place.shift for place in stand]),

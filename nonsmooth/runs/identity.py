@@ -16,6 +16,7 @@ from nonsmooth.engine.memory.tables import (
     SCALARS,
     places,
 )
+from nonsmooth.model.given import parameter_places
 from nonsmooth.model.image import Booleans, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import by_kind
@@ -61,7 +62,8 @@ def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
     """Return of every place in the parts of an image whether a run may change it.
 
     It does not change sizes, offsets, functions, and ways to tables: where the rest of an image comes from a file,
-    these are left as this process has them.
+    these are left as this process has them.  Last comes, of every place in the blocks, whether it may be other than a
+    parameter, which is the same in all processes.
     """
     record = blank.parts[0].copy().view(SCALARS)
     ranges, numerics = (
@@ -72,8 +74,8 @@ def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
     blocks = np.array([place - model.memory.blocks for place, _, _ in model.memory.references], dtype=np.int64)
     integers = np.concatenate([*ranges, rows[:, :-1].ravel()]).astype(np.int64)
     standing = places(*CONSTANT_SCALARS, "impact_map", "watch"), np.concatenate(numerics), blocks, integers
-    made = tuple(np.ones(len(part), bool) for part in blank.parts)
-    for part, those in zip(made, standing, strict=True):
+    made = tuple(np.ones(len(part), bool) for part in (*blank.parts, blank.parts[2]))
+    for part, those in zip(made, (*standing, parameter_places(model)), strict=True):
         part[those] = False
     return made
 

@@ -99,6 +99,7 @@ def run_engine(
     except FileError as error:
         records.drain()
         status, trouble = PAUSED, str(error)
+    records.end()
     if status in (STOPPED, CONDITION_MET):
         image, before = Image.of(memory), records.n_passed
     hint = "" if pace is None else pace.hint(status)

@@ -18,7 +18,10 @@ from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.state import Floats, Integers, State
 from nonsmooth.solution.track import row_of
 
-_BEFORE_THE_FIRST = -1
+_BEFORE_THE_FIRST, _BEHIND_THE_LAST = -1, -2
+_ROUND_OFF = 1e-9
+"""Part of the time between two samples below which a time is that of a sample."""
+_BOOKED = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
 _CODES = 1 + 8 + 64
 """Before, during and after an event."""
 _FILLED = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats")
@@ -89,6 +92,15 @@ class Records:
         listed = np.column_stack([closed, codes]).ravel()
         integers = np.concatenate([[START, -1, 0, 0, len(closed)], listed]).astype(np.int64)
         self._parts[_BEFORE_THE_FIRST] = floats, integers, np.zeros((0, self._width))
+
+    def end(self) -> None:
+        """Add a sample of where the run ends, unless there is one."""
+        memory, record = self.model.memory, self.model.memory.scalars[0]
+        t, interval = float(record["t"]), float(record["sample_interval"])
+        if record["sample_index"] > 0 and t - (float(record["next_sample"]) - interval) <= _ROUND_OFF * interval:
+            return
+        row = np.concatenate([[t], memory.array("y", self.model.n_y), [float(record[name]) for name in _BOOKED]])
+        self._parts[_BEHIND_THE_LAST] = np.zeros(0), np.zeros(0, np.int64), row[None]
 
     @property
     def n_parts(self) -> int:

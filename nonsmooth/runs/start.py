@@ -12,6 +12,7 @@ from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.given import check_candidates, check_parameters
 from nonsmooth.model.image import Booleans, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Continuation, Integers, State
@@ -192,8 +193,11 @@ def _continue(model: LaidOut, blank: Image, state: State, changing: tuple[Boolea
     continuation = state.continuation
     assert continuation is not None
     blank.put(model.memory)
+    *may_change, others = changing
     continuation.difference.check(model.memory)
-    continuation.difference.within(changing).put(model.memory)
+    check_parameters(model, continuation.difference, others)
+    continuation.difference.within(tuple(may_change)).put(model.memory)
+    check_candidates(model)
     t, told = float(model.memory.scalars["t"][0]), continuation.told
     if not t <= state.time or told < 0:
         raise InvalidInput(

@@ -26,7 +26,7 @@ def check_engine(engine: Engine) -> list[Property]:
     """Return the properties of an engine; it is looked at with one free body."""
     look = _Look(engine)
     rows = [
-        ("names", "`rooms`, `counts` and `settings` name what the memory has", look.names),
+        ("names", "`layers`, `counts` and `settings` name what the memory has", look.names),
         ("free fall", "a free body moves as gravity has it", look.falls),
         ("samples", "the samples are at the times asked for, from the start to the end", look.samples),
         ("energy", "the account of energy closes", look.energy),
@@ -53,8 +53,8 @@ class _Look:
 
     def names(self) -> None:
         """Look at the names."""
-        known = {"rooms": (*ARRAYS_OF,), "counts": COUNTS, "settings": SCALARS.names or ()}
-        told = {"rooms": self._engine.rooms, "counts": self._engine.counts(3), "settings": self._engine.settings(1.0)}
+        known = {"layers": (*ARRAYS_OF,), "counts": COUNTS, "settings": SCALARS.names or ()}
+        told = {"layers": self._engine.layers, "counts": self._engine.counts(3), "settings": self._engine.settings(1.0)}
         for what, names in told.items():
             unknown = [name for name in names if name not in known[what]]
             if unknown:

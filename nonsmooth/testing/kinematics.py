@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.blocks import FRAME, PAIR, PAST_END
+from nonsmooth.engine.memory.blocks import FEATURE, FRAME, PAIR, PAST_END
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.rotations import rotation, turned
@@ -211,7 +211,7 @@ class _Pair:
         return ""
 
     def feature(self, law: ContactKinematics, case: Case) -> str:
-        number = float(self._put(case).geometry[29])
+        number = float(self._put(case).geometry[FEATURE])
         return "" if number in range(len(law.features)) else f"it is {number:g}, of {len(law.features)} features"
 
     def gap_rate(self, law: ContactKinematics, case: Case) -> str:
@@ -238,13 +238,13 @@ class _Pair:
 
     def _derivative(self, case: Case, value: Callable[[Rig], Array]) -> Array | None:
         """Return the derivative in time while u' = 0, None where a feature changes or it is not smooth."""
-        feature = self._put(case).geometry[29]
+        feature = self._put(case).geometry[FEATURE]
         if self.rig.geometry[PAST_END] > 0.0:
             return None
         at: dict[int, Array] = {}
         for i in (-4, -2, -1, 1, 2, 4):
             rig = self._put(case, i * _STEP)
-            if rig.geometry[29] != feature or rig.geometry[PAST_END] > 0.0:
+            if rig.geometry[FEATURE] != feature or rig.geometry[PAST_END] > 0.0:
                 return None
             at[i] = np.array(value(rig))
         fine = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * _STEP)

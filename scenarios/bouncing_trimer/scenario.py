@@ -43,7 +43,14 @@ class BouncingTrimer(Scenario):
     """
 
     title: ClassVar[str] = "Bouncing trimer"
-    units: ClassVar[Mapping[str, str]] = {"drift": "m/s", "wandering": "m/s", "rotation": "rad/s"}
+    units: ClassVar[Mapping[str, str]] = {
+        "drift": "m/s",
+        "wandering": "m/s",
+        "rotation": "rad/s",
+        "turning": "rad/s",
+        "largest_gap": "m",
+        "largest_tilt": "rad",
+    }
 
     gamma: float = parameter(2.0, doc="peak acceleration of the plate over gravity", minimum=0.0, usual=(0.0, 20.0))
     frequency: float = parameter(50.0, doc="frequency f of the plate", unit="Hz", above=0.0, usual=(1.0, 1e3))

@@ -69,10 +69,10 @@ def lay_out(problem: Problem, solver: int) -> Memory:
     memory.scalars["acceleration_scale"] = np.max(np.abs(problem.bias))
     memory.array("active", n)[:] = np.arange(n)
     write_delassus(memory, problem.delassus)
-    memory.array("b", 3 * n)[:] = problem.bias
+    memory.array("free_accelerations", 3 * n)[:] = problem.bias
     memory.array("mu", n)[:] = memory.array("mu_static", n)[:] = FRICTION
     memory.array("at_rest", n)[:] = 1
-    memory.array("d", 2 * n)[::2] = 1.0
+    memory.array("active_directions", 2 * n)[::2] = 1.0
     return memory
 
 
@@ -83,7 +83,7 @@ def measure(problem: Problem, solver: int, repetitions: int) -> tuple[float, boo
     least, solved = np.inf, False
     for _ in range(repetitions):
         memory.array("mode_tried", n)[:] = -1
-        memory.array("d", 2 * n).reshape(n, 2)[:] = (1.0, 0.0)
+        memory.array("active_directions", 2 * n).reshape(n, 2)[:] = (1.0, 0.0)
         began = time.perf_counter()
         solved = call_entry("solve_contact", memory) == 1
         least = min(least, time.perf_counter() - began)

@@ -26,12 +26,12 @@ def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory
     memory.scalars["n_active"] = n
     memory.array("active", n)[:] = np.arange(n)
     write_delassus(memory, np.asarray(delassus))
-    memory.array("b", 3 * n)[:] = np.ravel(bias)
+    memory.array("free_accelerations", 3 * n)[:] = np.ravel(bias)
     memory.array("mu", n)[:], memory.array("mu_static", n)[:] = mu, static
     rest = np.all(np.asarray(slip) == 0.0, axis=1)
     memory.array("at_rest", n)[:] = rest
-    memory.array("d", 2 * n)[:] = np.where(rest[:, None], [1.0, 0.0], slip).ravel()
-    memory.array("direction", 2 * n)[:] = memory.array("d", 2 * n)
+    memory.array("active_directions", 2 * n)[:] = np.where(rest[:, None], [1.0, 0.0], slip).ravel()
+    memory.array("direction", 2 * n)[:] = memory.array("active_directions", 2 * n)
     memory.array("mode_tried", n)[:] = np.where(rest, STICK, SLIDE)
     return memory
 
@@ -39,7 +39,7 @@ def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory
 def _solve(memory: Memory, n: int) -> tuple[bool, Any, Any]:
     """Return whether it was solved, forces and modes."""
     found = call_entry("solve_contact", memory) == 1
-    return found, memory.array("f", 3 * n).reshape(n, 3).copy(), memory.array("mode_tried", n).copy()
+    return found, memory.array("active_forces", 3 * n).reshape(n, 3).copy(), memory.array("mode_tried", n).copy()
 
 
 def _delassus(seed: int, n: int, freedoms: int) -> tuple[Any, Any]:

@@ -94,9 +94,9 @@ def _memory(matrix: Any, bias: Any, mu: float, sliding: Any) -> Memory:
     memory.scalars["acceleration_scale"] = np.max(np.abs(bias))
     memory.array("active", n)[:] = np.arange(n)
     write_delassus(memory, matrix)
-    memory.array("b", 3 * n)[:] = bias
+    memory.array("free_accelerations", 3 * n)[:] = bias
     memory.array("mu", n)[:] = memory.array("mu_static", n)[:] = mu
-    memory.array("d", 2 * n)[::2] = 1.0
+    memory.array("active_directions", 2 * n)[::2] = 1.0
     memory.array("direction", 2 * n)[::2] = 1.0
     memory.array("normal_held", n)[:] = 1
     memory.array("tangent_held", n)[:] = memory.array("at_rest", n)[:] = ~np.asarray(sliding)
@@ -138,7 +138,7 @@ def test_regular_band_is_solved(n: int, seed: int, mu: float) -> None:
     memory = _memory(matrix, bias, mu, sliding)
     call_entry("resolve", memory)
     assert int(memory.array("block_start", n + 1)[n]) == 3 * n - 2
-    f = memory.array("f", 3 * n)
+    f = memory.array("active_forces", 3 * n)
     held = np.ones(3 * n, bool)
     held[1::3] = held[2::3] = ~sliding
     left = (matrix @ f + bias)[held]
@@ -162,7 +162,7 @@ def test_least_norm_in_a_band_is_that_of_the_pseudoinverse(n: int, share: float)
         call_entry("resolve", memory)
     assert [int(memory.scalars["null_banded"][0]) for memory in memories] == [1, 0]
     assert [int(memory.scalars["deficient"][0]) for memory in memories] == [1, 1]
-    forces = [memory.array("f", 3 * m) for memory in memories]
+    forces = [memory.array("active_forces", 3 * m) for memory in memories]
     np.testing.assert_allclose(forces[0], forces[1], rtol=0, atol=1e-10 * np.max(np.abs(forces[1])))
     marked = [memory.array("redundant", m).tolist() for memory in memories]
     assert marked[0] == marked[1]
@@ -189,7 +189,7 @@ def test_contact_problem_in_a_band_has_the_dense_motion(push: float) -> None:
     for g in (matrix, matrix + TINY):
         memory = _memory(g, jacobian @ free, 0.3, np.zeros(len(matrix) // 3, bool))
         assert call_entry("solve_contact", memory) == 1
-        motions.append(matrix @ memory.array("f", len(matrix)) + jacobian @ free)
+        motions.append(matrix @ memory.array("active_forces", len(matrix)) + jacobian @ free)
     np.testing.assert_allclose(motions[0], motions[1], rtol=0, atol=1e-8)
 
 

@@ -63,8 +63,8 @@ class Relay(Engine):
     first: ns.EventDriven = field(default_factory=ns.EventDriven)
 
     @property
-    def rooms(self) -> tuple[str, ...]:
-        return self.first.rooms
+    def layers(self) -> tuple[str, ...]:
+        return self.first.layers
 
     def check(self, system: ns.System) -> None:
         self.first.check(system)

@@ -28,6 +28,9 @@ TABLE = {"near": 1.0}
 LAWS: dict[str, Any] = {"normal": Unilateral(), "impact": NewtonImpact(0.5), "friction": Coulomb(0.2)}
 
 
+COUNTS = {1.0: (1, 1)}
+
+
 def _evaluate(a: Floats, b: Floats, out: Floats, candidate: Floats) -> None:
     _sound(a, b, out, 0.0)
 
@@ -112,7 +115,7 @@ def _approaching(function: Callable[..., None], second: Shape | None = None, sta
     system = ns.System([one, two])
     system.place(one, position=(0.0, 0.0, 0.0))
     system.place(two, position=(start, 0.0, 0.0), velocity=(-1.0, 0.0, 0.0))
-    search = CandidateSearch(function, {})
+    search = CandidateSearch(function, {}, COUNTS)
     shapes = Sphere(0.2, x=0.1), second or Sphere(0.3, y=-0.05)
     sizes = (0.3, math.inf if second else 0.35)
     # not by System.contact, which looks for kinematics among those installed
@@ -173,6 +176,6 @@ def test_unbounded_shapes_have_no_search() -> None:
 
 def test_the_kit_takes_contacts_of_given_features() -> None:
     """A contact that holds no features has no properties."""
-    contact = Near(CandidateSearch(finds, {}), 0)
+    contact = Near(CandidateSearch(finds, {}, COUNTS), 0)
     with pytest.raises(ns.InvalidInput, match=r"Near must be a contact of given features"):
         check_contact_kinematics(contact, Sphere(0.2), Sphere(0.3))

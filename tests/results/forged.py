@@ -15,7 +15,7 @@ import nonsmooth as ns
 from nonsmooth.errors import NonsmoothError
 from nonsmooth.model.image import Difference
 from nonsmooth.results.state_file import state_bytes, state_from
-from tests.results.runs import balls
+from tests.results.runs import balls, on_hills
 
 VALUES = (-1, 0, 1, 2, 3, 7, 255, 2**31, 2**40, -(2**62), 0.5, -1e9, 1e300, np.nan, np.inf)
 LONGEST = 5
@@ -47,13 +47,15 @@ def forged(content: bytes, draw: np.random.Generator) -> bytes:
 def _other_difference(packed: bytes, draw: np.random.Generator) -> np.ndarray:
     found = Difference.unpacked(packed)
     places, bits = [one.copy() for one in found.places], [one.copy() for one in found.bits]
-    # not of what bodies and laws write for themselves
-    part = int(draw.choice([0, 1, 3]))
+    part = int(draw.integers(len(bits)))
     for _ in range(int(draw.integers(1, 20))):
         i = int(draw.integers(len(bits[part])))
         if draw.random() < 0.1:
             places[part][i] = int(draw.choice([-1, 2**40, int(draw.integers(1000))]))
         value = float(draw.choice(VALUES))
+        if draw.random() < 0.1:
+            # what stands next to what has changed
+            places[part][i] += int(draw.integers(-3, 4))
         whole = part == 3 or not abs(value) < 2**62 or draw.random() < 0.5
         bits[part][i] = int(np.nan_to_num(value)) % 2**62 if whole else int(np.float64(value).view(np.int64))
     if draw.random() < 0.05:
@@ -74,9 +76,10 @@ def refused_or_runs(model: ns.Model, content: bytes) -> str:
 
 def main(seed: int, n: int) -> None:
     """Try some, each in a process of its own, and tell what came of them."""
-    model = ns.assemble(balls())
-    content, told = state_bytes(model.run(T_END - 1e-3).state), dict[str, int]()
+    models = [ns.assemble(balls()), ns.assemble(on_hills())]
+    contents, told = [state_bytes(model.run(T_END - 1e-3).state) for model in models], dict[str, int]()
     for number in range(seed, seed + n):
+        model, content = models[number % 2], contents[number % 2]
         child = os.fork()
         if child == 0:
             signal.alarm(LONGEST)

@@ -9,10 +9,11 @@ import sys
 import time
 
 import nonsmooth as ns
-from bodies import Ball, Harmonic, Plate
+from bodies import Ball, DrivenBody, Harmonic, Plate, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.runs import writer
+from tests.bodies.meshes.parts import hills
 
 _COULOMB = Coulomb(0.2)
 
@@ -25,6 +26,15 @@ def balls(friction: FrictionLaw = _COULOMB) -> ns.System:
         system.place(ball, position=(1e-3 * i, 0.0, 2e-2 + 1e-2 * i), velocity=(0.01, 0.0, 0.0))
     for one, other in ((balls[0], plate), (balls[1], plate), (balls[0], balls[1])):
         system.contact(one, other, normal=Unilateral(), friction=friction, impact=EnergeticImpact(restitution=0.6))
+    return system
+
+
+def on_hills() -> ns.System:
+    """Return a ball on a mesh, of whose many patches a search finds those near it."""
+    ground, ball = DrivenBody(carried=(TriangleMesh(Triangles(*hills(6))),)), Ball(0.05)
+    system = ns.System([ground, ball])
+    system.contact(ground, ball, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.4))
+    system.place(ball, position=(0.05, 0.02, 0.08), velocity=(0.1, 0.0, 0.0))
     return system
 
 

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import nonsmooth as ns
+from nonsmooth.engine.memory.layout import CATALOGUE
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.results.state_file import state_bytes
+from nonsmooth.solution.state import State
 from tests.results.forged import T_END, forged, refused_or_runs
-from tests.results.runs import balls
+from tests.results.runs import balls, on_hills
 
 
 @pytest.fixture(scope="module")
@@ -16,7 +22,14 @@ def model() -> ns.Model:
     return ns.assemble(balls())
 
 
-def test_a_state_with_random_changes_is_refused_or_runs(model: ns.Model) -> None:
+@pytest.fixture(scope="module")
+def hilly() -> ns.Model:
+    return ns.assemble(on_hills())
+
+
+@pytest.mark.parametrize("which", ["model", "hilly"])
+def test_a_state_with_random_changes_is_refused_or_runs(which: str, request: pytest.FixtureRequest) -> None:
+    model = request.getfixturevalue(which)
     state = model.run(T_END - 1e-3).state
     content, whole = state_bytes(state), model.run(T_END)
     told = [refused_or_runs(model, forged(content, np.random.default_rng(seed))) for seed in range(60)]
@@ -24,3 +37,45 @@ def test_a_state_with_random_changes_is_refused_or_runs(model: ns.Model) -> None
     assert told.count("InvalidInput") >= 10
     assert told.count("done") >= 10
     np.testing.assert_array_equal(model.run(T_END, start=state).q_end, whole.q_end)
+
+
+def _starts(memory: Memory, name: str, n: int) -> np.ndarray:
+    """Return where something of each of ``n`` contacts begins, counted from the blocks."""
+    rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
+    return np.asarray(rows[:, CATALOGUE.index(name)] - memory.blocks)
+
+
+def _with(state: State, place: int, value: float) -> State:
+    """Return what a file would give with another number at a place of the blocks."""
+    continuation = state.continuation
+    assert continuation is not None
+    difference, number = continuation.difference, np.array([value]).view(np.int64)
+    kept = difference.places[2] != place
+    places, bits = [*difference.places], [*difference.bits]
+    places[2], bits[2] = np.append(places[2][kept], place), np.append(bits[2][kept], number)
+    forged = replace(difference, places=tuple(places), bits=tuple(bits))
+    return replace(state).with_continuation(replace(continuation, difference=forged))
+
+
+@pytest.mark.parametrize("value", [np.nan, -1.0, 1e300])
+def test_another_parameter_is_named(model: ns.Model, value: float) -> None:
+    """No run changes one."""
+    place = int(_starts(model._laid.memory, "friction_parameters", 3)[1]) + 1
+    state = _with(model.run(T_END - 1e-3).state, place, value)
+    said = r"number 1 of the friction parameters of contact '.*' must be 0\.2, as the model has it, but it is "
+    with pytest.raises(ns.InvalidInput, match=said + re.escape(repr(value))):
+        model.run(T_END, start=state)
+
+
+@pytest.mark.parametrize(
+    ("which", "value"), [(0, 2.0), (0, np.nan), (1, 1e9), (1, 0.5), (1, -1.0), (2, 1.0), (3, np.nan)]
+)
+def test_features_that_there_are_not_are_named(hilly: ns.Model, which: int, value: float) -> None:
+    """A search left them in a contact; the evaluator goes by them through the tables of the mesh."""
+    state = hilly.run(T_END).state
+    memory, n = hilly._laid.memory, len(hilly.system.contacts)
+    held = [start for start in _starts(memory, "candidate", n) if memory.floats[memory.blocks + start] != 0.0]
+    said = r"the features of the contact '.*' must be those of \(1, below \d+, below 1\)"
+    with pytest.raises(ns.InvalidInput, match=said):
+        hilly.run(2.0 * T_END, start=_with(state, int(held[0]) + which, value))
+    assert hilly.run(2.0 * T_END, start=state).status == "done"

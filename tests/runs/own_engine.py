@@ -25,7 +25,7 @@ class Midpoint(Engine):
     step: float = parameter(1e-3, doc="step", unit="s", above=0.0)
 
     @property
-    def rooms(self) -> tuple[str, ...]:
+    def layers(self) -> tuple[str, ...]:
         """None but those that every engine has."""
         return ()
 

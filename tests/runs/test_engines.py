@@ -54,7 +54,14 @@ def test_an_engine_refuses_what_it_cannot_run() -> None:
         ns.simulate(system, 1.0, engine=Midpoint())
 
 
-def test_arrays_of_rooms_that_an_engine_does_not_name_have_no_length() -> None:
+@pytest.mark.parametrize("given", ["event_driven", ns.EventDriven])
+def test_what_is_no_engine_is_refused(given: Any) -> None:
+    """A name, and a class without its options."""
+    with pytest.raises(ns.InvalidInput, match=r"engine must be an Engine, but it is .*Give nonsmooth\.EventDriven"):
+        ns.assemble(_tumbling()[0], given)
+
+
+def test_arrays_of_layers_that_an_engine_does_not_name_have_no_length() -> None:
     """Scratch has an owner: another engine's costs nothing."""
     system, _ = _tumbling()
     sizes = [

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import nonsmooth as ns
@@ -64,3 +65,21 @@ def test_what_a_condition_raises_is_raised(model: ns.Model) -> None:
 def test_results_on_disk_end_there_too(model: ns.Model, tmp_path: Path) -> None:
     run = model.run(T_END, until=lambda run: run.n_impacts >= 7, output=tmp_path)
     assert differences(run, ns.open_solution(tmp_path)) == []
+
+
+@pytest.mark.parametrize("n", [0, 1, 7])
+def test_samples_reach_from_the_start_to_the_end(model: ns.Model, n: int) -> None:
+    """Also where a condition is met before the first step; both are known there as the state is."""
+    run = model.run(T_END, until=lambda run: run.n_impacts >= n)
+    assert (run.t[0], run.t[-1]) == (0.0, run.t_end)
+    assert len(run.t) == 1 or np.all(np.diff(run.t) > 0.0)
+    np.testing.assert_array_equal(run.q[-1], run.q_end)
+    np.testing.assert_array_equal(run.u[-1], run.u_end)
+
+
+def test_the_end_is_a_sample_where_the_interval_does_not_lead_to_it(model: ns.Model, tmp_path: Path) -> None:
+    run = model.run(0.1, sample_interval=0.03, output=tmp_path)
+    np.testing.assert_allclose(run.t, [0.0, 0.03, 0.06, 0.09, 0.1], rtol=1e-15)
+    np.testing.assert_array_equal(ns.open_solution(tmp_path).q, run.q)
+    np.testing.assert_array_equal(run.q[-1], run.q_end)
+    assert run.energies(run.t[-1:]).kinetic[0] == pytest.approx(run.energy.kinetic_end, rel=1e-12)

@@ -53,8 +53,8 @@ class Dummy(Engine):
         return {}
 
     @property
-    def rooms(self) -> tuple[str, ...]:
-        return (*EventDriven().rooms, *self.attic)
+    def layers(self) -> tuple[str, ...]:
+        return (*EventDriven().layers, *self.attic)
 
     def check(self, system: System) -> None:
         EventDriven().check(system)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.features.curvature import write_sweep
-from bodies.contacts.features.polytope_tables import FACE, Numbers, edge_rows, face_table
+from bodies.contacts.features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
 from bodies.contacts.frustum.frustum import FLANK, center_in_world, write_part
 from bodies.contacts.frustum.frustum_edge import (
     astray_of_edge,
@@ -61,14 +61,14 @@ def evaluate_flank_edge(
             gap, ex, ey = found, gx, gy
     # where the edge is on that side of the axis
     crossing = dy * ex - dx * ey
-    s = 0.5 * edge[6]
+    s = 0.5 * edge[LENGTH]
     if abs(crossing) > 1e-6:
         s = -(vy * ex - vx * ey) / crossing
     px, py, pz = vx + s * dx, vy + s * dy, vz + s * dz
     nx, ny, nz = cosine * ex, cosine * ey, sine
     away = ex * px + ey * py - gap * cosine
     up = cosine * (pz - gap * nz - frustum[LOW]) - sine * (away - frustum[0])
-    over = max(max(-s, s - edge[6]), max(-up, up - frustum[SIDE]))
+    over = max(max(-s, s - edge[LENGTH]), max(-up, up - frustum[SIDE]))
     past = past_end(gap, over, abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz), size)
     if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
         # no normal is across both

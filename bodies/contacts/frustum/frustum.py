@@ -18,6 +18,8 @@ from nonsmooth.types import Floats
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
 """The parts; the flank is the side."""
+RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
+"""What the names of features call them."""
 
 
 def part_names(numbers: Sequence[float]) -> tuple[str, ...]:

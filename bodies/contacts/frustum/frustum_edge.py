@@ -10,6 +10,7 @@ import math
 from bodies.blocks import put
 from bodies.contacts.features.curvature import write_principal
 from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
 from bodies.contacts.features.tangents import write_tangent
 from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
 from bodies.contacts.frustum.frustum import nearest_part
@@ -38,9 +39,9 @@ def edge_in_frustum(
     b: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float
 ) -> tuple[float, float, float, float, float, float]:
     """Return the first end from the frustum's centre and the direction of an edge, in the axes of the frustum."""
-    x, y, z = point_in_world(b, edge[0], edge[1], edge[2])
+    x, y, z = point_in_world(b, edge[START], edge[START + 1], edge[START + 2])
     x, y, z = back(axes, x - cx, y - cy, z - cz)
-    dx, dy, dz = vector_in_world(b, edge[3], edge[4], edge[5])
+    dx, dy, dz = vector_in_world(b, edge[ALONG], edge[ALONG + 1], edge[ALONG + 2])
     dx, dy, dz = back(axes, dx, dy, dz)
     return x, y, z, dx, dy, dz
 
@@ -48,8 +49,8 @@ def edge_in_frustum(
 @compiled
 def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz: float) -> float:
     """Return the sine of the angle by which a normal, in the axes of the frustum, leaves those against the edge."""
-    ux, uy, uz = vector_in_world(b, edge[7], edge[8], edge[9])
-    vx, vy, vz = vector_in_world(b, edge[10], edge[11], edge[12])
+    ux, uy, uz = vector_in_world(b, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
+    vx, vy, vz = vector_in_world(b, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     nx, ny, nz = forth(axes, nx, ny, nz)
     return float(max(-nx * ux - ny * uy - nz * uz, -nx * vx - ny * vy - nz * vz))
 
@@ -131,5 +132,5 @@ def write_crossing(
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
-    ex, ey, ez = vector_in_world(b, edge[3], edge[4], edge[5])
+    ex, ey, ez = vector_in_world(b, edge[ALONG], edge[ALONG + 1], edge[ALONG + 2])
     write_principal(out, SIDE_B, ex, ey, ez, 0.0, 1.0, 1.0, radius)

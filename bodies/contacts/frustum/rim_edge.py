@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.features.curvature import write_sweep
-from bodies.contacts.features.polytope_tables import FACE, Numbers, edge_rows, face_table
+from bodies.contacts.features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
 from bodies.contacts.features.vertex_face import height_over
-from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, center_in_world, nearest_part, write_part
+from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, write_part
 from bodies.contacts.frustum.frustum_edge import (
     astray_of_edge,
     edge_in_frustum,
@@ -172,7 +172,7 @@ def evaluate_rim_edge(
             astray, flip = off, sign
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = flip * ahead
-    over = max(-s, s - edge[6])
+    over = max(-s, s - edge[LENGTH])
     past = past_end(gap, over, crossing, astray, size)
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
         past, over = max(past, size), size
@@ -271,4 +271,4 @@ class RimEdge(ContactKinematics):
     @property
     def features(self) -> tuple[str, ...]:
         """The only pair."""
-        return (f"rim {self.rim // 2} and {self.name}",)
+        return (f"{RIM_NAMES[self.rim]} and {self.name}",)

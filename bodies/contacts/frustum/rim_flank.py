@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.features.polytope_tables import Numbers
-from bodies.contacts.frustum.frustum import FLANK, HIGH_RIM, LOW_RIM, center_in_world
+from bodies.contacts.frustum.frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world
 from bodies.contacts.frustum.frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
 from bodies.contacts.smooth.smooth_core import axes_in_world, back, forth
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
@@ -247,5 +247,5 @@ class RimFlank(ContactKinematics):
     @property
     def features(self) -> tuple[str, ...]:
         """The only pair."""
-        rim = f"rim {self.rim // 2}"
+        rim = RIM_NAMES[self.rim]
         return (f"side and {rim}" if self.swap else f"{rim} and side",)

@@ -30,9 +30,10 @@ from bodies.shapes.frustum import HIGH, SIDE, SWEEP
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
-RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_RIM = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
+RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
 """A face and a rim over it, a patch and a point over it, a patch and the round apex, a corner of the surface, an edge
-of it across the side, and one across a half of a rim: the first of the three numbers of a candidate."""
+of it across the side, and one across the first or the second half of a rim: the first of the three numbers of a
+candidate."""
 POINT_ROW = 4
 """Numbers of a point, a foot or the apex: place, number of lines about it; the unit vectors along these follow."""
 
@@ -58,8 +59,8 @@ def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
 @compiled
 def _add_halves(edge: float, rim: int, out: Floats, n: int, most: int) -> int:
     """Write the candidates of an edge and both halves of a rim."""
-    n = _add(ACROSS_RIM, edge, 2.0 * rim, out, n, most)
-    return int(_add(ACROSS_RIM, edge, 2.0 * rim + 1.0, out, n, most))
+    n = _add(ACROSS_BACK, edge, float(rim), out, n, most)
+    return int(_add(ACROSS_FRONT, edge, float(rim), out, n, most))
 
 
 @compiled

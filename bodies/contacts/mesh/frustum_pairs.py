@@ -8,13 +8,15 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.features.apart import NO_CANDIDATE, write_apart
+from bodies.contacts.frustum.frustum import HIGH_RIM
 from bodies.contacts.frustum.frustum_swept import write_vertex_ball
 from bodies.contacts.mesh.apex_mesh import write_apex
 from bodies.contacts.mesh.flank_mesh import write_flank
 from bodies.contacts.mesh.frustum_corner import write_corner
 from bodies.contacts.mesh.frustum_find import (
+    ACROSS_BACK,
     ACROSS_FLANK,
-    ACROSS_RIM,
+    ACROSS_FRONT,
     APEX,
     POINT,
     POINT_ROW,
@@ -84,9 +86,9 @@ def _evaluate(
             write_corner(a, b, out, frustum, x, y, z, n, star, own, surface, size)
     elif kind == ACROSS_FLANK:
         write_flank(a, b, out, frustum, block_at(surface, int(surface[EDGES]) + EDGE * i), surface, size)
-    elif kind == ACROSS_RIM:
-        edge, half = block_at(surface, int(surface[EDGES]) + EDGE * i), 2.0 * (j % 2) - 1.0
-        write_half_rim(a, b, out, frustum, float(j // 2), half, edge, surface, size)
+    elif kind == ACROSS_BACK or kind == ACROSS_FRONT:
+        edge, half = block_at(surface, int(surface[EDGES]) + EDGE * i), -1.0 if kind == ACROSS_BACK else 1.0
+        write_half_rim(a, b, out, frustum, float(j), half, edge, surface, size)
     else:
         write_apart(a, out, size)
 
@@ -124,21 +126,32 @@ class FrustumPairs(ContactKinematics):
         assert isinstance(second, TriangleMesh)
         numbers, own, extents = set_back(first), second.features, (first.extent, second.extent)
         points = [*feet_of(first), *(apex_of(first) if numbers[SWEEP] == 0.0 else ())]
+        patches = patches_for_ball(own, numbers[SWEEP])
         rows = [(*place, len(star) // 3, *star) for place, star, _ in points]
         lengths = [x for i in range(len(own.corners)) for x in star_lengths(own, i)] if not numbers[SIDE] else []
         values: dict[str, Value] = {
             "frustum": numbers,
             "n_points": float(len(rows)),
             "points": Table([*itertools.chain(*rows)] or [0.0]),
-            "surface": surface_numbers(own, patches_for_ball(own, numbers[SWEEP])),
+            "surface": surface_numbers(own, patches),
             "size": max(own.size, 2.0 * first.extent),
             "most": float(MOST_NEAR),
             "turning": 0.5 / extents[0] + 0.5 / extents[1],
             "narrow": NARROW * min(extents),
         }
-        search = CandidateSearch(find_near_frustum, values)
+        n_edges = len(own.edges)
+        counts = {
+            RIM: (len(own.planes), len(first.standing_rims)),
+            POINT: (patches.count, len(rows)),
+            APEX: (patches.count, 1),
+            UNDER: (len(own.corners), 1),
+            ACROSS_FLANK: (n_edges, 1),
+            ACROSS_BACK: (n_edges, HIGH_RIM + 1),
+            ACROSS_FRONT: (n_edges, HIGH_RIM + 1),
+        }
+        search = CandidateSearch(find_near_frustum, values, counts)
         rims = tuple(x for radius, center in first.standing_rims for x in (radius, *center))
-        n, table = len(own.planes) + len(own.edges) + len(own.corners), Table(lengths or [0.0])
+        n, table = len(own.planes) + n_edges + len(own.corners), Table(lengths or [0.0])
         return tuple(cls(search, rims, table, n, number) for number in range(MOST_NEAR))
 
     @property

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from bodies.contacts.features.across import across
 from bodies.contacts.features.frames import vector_in_body
+from bodies.contacts.features.polytope_tables import INTO_FIRST, INTO_SECOND, LENGTH
 from bodies.contacts.features.vertex_face import DEEP
 from bodies.contacts.frustum.frustum import center_in_world, nearest_part
 from bodies.contacts.frustum.frustum_edge import edge_in_frustum
@@ -31,13 +32,13 @@ def _pierced(
 ) -> float:
     """Return how deep an edge goes through a frustum [m], where it is deepest under the side between the caps, or 0."""
     x, y, z, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
-    least, low, high = THROUGH * size, 0.0, edge[6]
+    least, low, high = THROUGH * size, 0.0, edge[LENGTH]
     if frustum[SIDE] > 0.0:
         under, over = frustum[LOW] + 2.0 * least - z, frustum[HIGH] - 2.0 * least - z
         if abs(dz) > 0.0:
             low, high = max(low, min(under / dz, over / dz)), min(high, max(under / dz, over / dz))
         square, slope = dx * dx + dy * dy, dz * frustum[SIN] / frustum[COS]
-        s = 0.5 * edge[6]
+        s = 0.5 * edge[LENGTH]
         if square > slope * slope:
             # where the distance from the axis changes by the slope
             s = -(x * dx + y * dy) / square
@@ -49,7 +50,7 @@ def _pierced(
         outside, _, _, _ = nearest_part(frustum, z + s * dz, math.hypot(x + s * dx, y + s * dy))
         return -outside if low <= high and outside < -least else 0.0
     under = frustum[LOW] - z
-    ends = -under, -under + dz * edge[6]
+    ends = -under, -under + dz * edge[LENGTH]
     if ends[0] * ends[1] >= 0.0:
         return 0.0
     away = math.hypot(x + under / dz * dx, y + under / dz * dy)
@@ -68,7 +69,10 @@ def judge_crossing(
     edge that goes through the frustum is a sign that they overlap.
     """
     x, y, z = vector_in_body(b, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2])
-    astray = max(-x * edge[7] - y * edge[8] - z * edge[9], -x * edge[10] - y * edge[11] - z * edge[12])
+    astray = max(
+        -x * edge[INTO_FIRST] - y * edge[INTO_FIRST + 1] - z * edge[INTO_FIRST + 2],
+        -x * edge[INTO_SECOND] - y * edge[INTO_SECOND + 1] - z * edge[INTO_SECOND + 2],
+    )
     beyond = size * (astray - _ASTRAY)
     if out[PAST_END] <= 0.0 < beyond and out[GAP] >= -DEEP * size:
         apart = math.sqrt(out[GAP] * out[GAP] + beyond * beyond)

@@ -134,7 +134,8 @@ class SweptPairs(ContactKinematics):
         assert isinstance(second, SweptPolytope)
         own, extents = first.features, (first.extent, second.extent)
         core, sweep = second.core, second.sweep
-        numbers = surface_numbers(own, patches_for_ball(own, sweep))
+        patches = patches_for_ball(own, sweep)
+        numbers = surface_numbers(own, patches)
         values: dict[str, Value] = {
             "surface": numbers,
             "n_vertices": float(len(core.vertices)),
@@ -149,11 +150,16 @@ class SweptPairs(ContactKinematics):
             "turning": 0.5 / extents[0] + 0.5 / extents[1],
             "narrow": NARROW * min(extents),
         }
-        counts = [len(own.planes) + len(own.edges) + len(own.corners)]
-        counts.append(len(core.planes) + len(core.edges) + len(core.vertices))
-        search = CandidateSearch(_find, values)
+        counts = {
+            BALL: (patches.count, len(core.vertices)),
+            UNDER: (len(own.corners), 1),
+            ACROSS: (len(own.edges), len(core.edges)),
+        }
+        search = CandidateSearch(_find, values, counts)
+        n_own = len(own.planes) + len(own.edges) + len(own.corners)
+        n_features = max(n_own, len(core.planes) + len(core.edges) + len(core.vertices))
         surfaces, size = (numbers, surface_of_core(core)), max(own.size, core.size + 2.0 * sweep)
-        return tuple(cls(search, surfaces, size, max(counts), number) for number in range(MOST_NEAR))
+        return tuple(cls(search, surfaces, size, n_features, number) for number in range(MOST_NEAR))
 
     @property
     def candidates(self) -> CandidateSearch:

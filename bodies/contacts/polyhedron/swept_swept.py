@@ -10,7 +10,7 @@ from typing import ClassVar, final
 from bodies.blocks import put
 from bodies.contacts.features.curvature import write_principal
 from bodies.contacts.features.frames import point_in_world, vector_in_world
-from bodies.contacts.features.polytope_tables import FACE, Numbers, edge_rows, face_table
+from bodies.contacts.features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
 from bodies.contacts.features.swept_vertex import END, SweptVertex, size_of
 from bodies.contacts.features.tangents import tangent_of, write_tangent
 from bodies.contacts.features.vertex_face import height_over
@@ -33,8 +33,8 @@ _ASTRAY = 0.25
 @compiled
 def _astray(frame: Floats, edge: Floats, x: float, y: float, z: float) -> float:
     """Return the sine of the angle by which a vector across an edge leaves the outward normals of the body."""
-    ux, uy, uz = vector_in_world(frame, edge[7], edge[8], edge[9])
-    vx, vy, vz = vector_in_world(frame, edge[10], edge[11], edge[12])
+    ux, uy, uz = vector_in_world(frame, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
+    vx, vy, vz = vector_in_world(frame, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     return float(max(x * ux + y * uy + z * uz, x * vx + y * vy + z * vz))
 
 

@@ -20,6 +20,8 @@ from nonsmooth.types import Floats
 
 MOST_EACH = 8
 """Patches up to which each of them is a contact of its own."""
+NEAR = 1.0
+"""The first number of a candidate; that of the patch follows, and 0."""
 
 
 def _find(
@@ -29,7 +31,7 @@ def _find(
     x, y, z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, x - a[POSITION], y - a[POSITION + 1], z - a[POSITION + 2])
     most = int(surface[N_PATCHES])
-    out[0] = float(patches_near(surface, x, y, z, extent + out[0], 1.0, 0.0, out, 0, most))
+    out[0] = float(patches_near(surface, x, y, z, extent + out[0], NEAR, 0.0, out, 0, most))
 
 
 def are_many(patches: Patches) -> bool:
@@ -81,7 +83,11 @@ class PatchNear(ContactKinematics, ABC):
         """
         surface = surface_numbers(own, patches)
         x, y, z, extent = ball
-        search = CandidateSearch(_find, {"surface": surface, "extent": extent, "x_b": x, "y_b": y, "z_b": z})
+        search = CandidateSearch(
+            _find,
+            {"surface": surface, "extent": extent, "x_b": x, "y_b": y, "z_b": z},
+            {NEAR: (patches.count, 1)},
+        )
         offered = {**values, "surface": surface, "size": own.size}
         n = len(own.planes) + len(own.edges) + len(own.corners)
         return tuple(cls(search, offered, n, number) for number in range(patches.count))

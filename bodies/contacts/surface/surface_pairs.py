@@ -102,7 +102,12 @@ class SurfacePairs(ContactKinematics):
             "most": float(MOST_NEAR),
             "turning": turning,
         }
-        search, size = CandidateSearch(_find, values), max(one.size, two.size)
+        counts = {
+            OVER_FIRST: (divided[0].count, len(two.corners)),
+            OVER_SECOND: (divided[1].count, len(one.corners)),
+            EDGE_ACROSS: (len(one.edges), len(two.edges)),
+        }
+        search, size = CandidateSearch(_find, values, counts), max(one.size, two.size)
         n_faces = max(len(one.planes), len(two.planes))
         return tuple(cls(search, surfaces, size, n_faces, number) for number in range(MOST_NEAR))
 

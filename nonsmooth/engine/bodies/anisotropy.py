@@ -69,13 +69,12 @@ def stretch_bias(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     contact.bias[1], contact.bias[2] = s11 * b1 + s12 * b2, s21 * b1 + s22 * b2
 
 
-@kernel("void(S, F, I, i8, i8)")
-def unstretch_force(S: Scalars, w: Floats, k: Integers, c: int, force: int) -> None:
-    """Turn the force or impulse at ``force`` from the rows to the unit tangents."""
+@kernel("v2(S, F, I, i8, v2)")
+def along_tangents(S: Scalars, w: Floats, k: Integers, c: int, friction: Pair) -> Pair:
+    """Return a force or impulse of friction, given along the rows, along the unit tangents."""
     contact = contact_at(S, w, k, c)
-    f1, f2 = w[force + 1], w[force + 2]
-    (s11, s12), (s21, s22) = contact.skew_1, contact.skew_2
-    w[force + 1], w[force + 2] = s11 * f1 + s21 * f2, s12 * f1 + s22 * f2
+    (s11, s12), (s21, s22), (f1, f2) = contact.skew_1, contact.skew_2, friction
+    return s11 * f1 + s21 * f2, s12 * f1 + s22 * f2
 
 
 @kernel("f8(S, F, I, i8, f8)")

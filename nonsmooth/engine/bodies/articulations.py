@@ -157,12 +157,12 @@ def evaluate_articulation(S: Scalars, w: Floats, k: Integers, number: int) -> No
 
 @kernel("f8(S, F, I, i8)")
 def _power(S: Scalars, w: Floats, k: Integers, number: int) -> float:
-    """Return the power of the bodies' own forces on the velocities ``u_own``."""
+    """Return the power of the bodies' own forces on the velocities ``u_free``."""
     articulation, power = articulation_at(S, w, k, number), 0.0
     for one in range(articulation.body, articulation.body + articulation.bodies):
         body = body_at(S, w, k, one)
         for i in range(body.nu):
-            power += w[body.tail + body.nq + i] * w[S.u_own + body.u + i]
+            power += w[body.tail + body.nq + i] * w[S.u_free + body.u + i]
     return power
 
 
@@ -173,7 +173,7 @@ def _prescribe(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     if articulation.driven == 0:
         return
     n, m = articulation.nu, articulation.rows
-    u, x = S.u_own + articulation.u, articulation.x
+    u, x = S.u_free + articulation.u, articulation.x
     S.driven_power -= _power(S, w, k, number)
     for line in range(m):
         total = 0.0

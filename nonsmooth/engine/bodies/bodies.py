@@ -47,7 +47,7 @@ def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int)
 def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let the bodies that have coordinates write their output blocks, then loads and joints act on them."""
     interrupted(S, S.n_contacts + S.n_bodies)
-    S.own = y + S.n_q
+    S.free_velocities = y + S.n_q
     S.driven_power = 0.0
     S.load_power = 0.0
     if S.n_loads + S.n_joints > 0:
@@ -66,8 +66,8 @@ def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -
         _apply(S, w, k, load, t, y)
     if S.n_joints > 0:
         for i in range(S.n_u):
-            w[S.u_own + i] = w[y + S.n_q + i]
-        S.own = S.u_own
+            w[S.u_free + i] = w[y + S.n_q + i]
+        S.free_velocities = S.u_free
         for number in range(S.n_articulations):
             if articulation_at(S, w, k, number).rows > 0:
                 evaluate_articulation(S, w, k, number)

@@ -131,8 +131,8 @@ def _in_world(S: Scalars, w: Floats, k: Integers, c: int, x: float, y: float, z:
 
 
 @kernel("void(S, F, I, i8, F)")
-def lay_wrench(S: Scalars, w: Floats, k: Integers, c: int, f: Floats) -> None:
-    """Write row 1 and response 0 of all that the compliant contact ``c`` does, its forces being ``f``."""
+def write_wrench(S: Scalars, w: Floats, k: Integers, c: int, f: Floats) -> None:
+    """Write row 1 and response 0 of all that the compliant contact ``c`` does, its forces being ``active_forces``."""
     contact = contact_at(S, w, k, c)
     force, moment = _in_world(S, w, k, c, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
     if contact.traction_function != 0:
@@ -144,7 +144,7 @@ def lay_wrench(S: Scalars, w: Floats, k: Integers, c: int, f: Floats) -> None:
 
 @kernel("void(S, F, I, i8, F, i8)")
 def rub_by_traction(S: Scalars, w: Floats, k: Integers, c: int, f: Floats, y: int) -> None:
-    """Write the forces of a contact with a law of traction to ``f``."""
+    """Write the forces of a contact with a law of traction to ``active_forces``."""
     evaluate_traction(S, w, k, c, y)
     contact = contact_at(S, w, k, c)
     traction = at(w, contact.traction_out + TRACTION)
@@ -160,7 +160,7 @@ def push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
             continue
         if contact.traction_function != 0:
             rub_by_traction(S, w, k, c, contact.force, S.y)
-            lay_wrench(S, w, k, c, contact.force)
+            write_wrench(S, w, k, c, contact.force)
             push_response(S, w, k, c, 0, 1.0, S.du)
         else:
             push_response(S, w, k, c, 0, contact.compliant_force, S.du)

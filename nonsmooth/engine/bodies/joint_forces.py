@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.articulations import substitute
-from nonsmooth.engine.bodies.compliance import lay_wrench
+from nonsmooth.engine.bodies.compliance import write_wrench
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, articulation_at, body_at, contact_at, kernel
 
 
@@ -13,7 +13,7 @@ def _add_contacts(S: Scalars, w: Floats, k: Integers, forces: int) -> None:
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
-        lay_wrench(S, w, k, c, contact.force)
+        write_wrench(S, w, k, c, contact.force)
         for side in range(2):
             articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
             row = (contact.jacobian_a if side == 0 else contact.jacobian_b) + articulation.nu

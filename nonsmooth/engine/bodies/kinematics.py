@@ -169,7 +169,7 @@ def evaluate_jacobian(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     evaluate_row(S, w, k, c, 2, contact.axis_2)
     for r in range(3):
         evaluate_row_response(S, w, k, c, r, r)
-        contact.prescribed_rate[r] = contact.rate[r] - row(S, w, k, c, r, S.own)
+        contact.prescribed_rate[r] = contact.rate[r] - row(S, w, k, c, r, S.free_velocities)
 
 
 @kernel("void(S, F, I, i8, i8)")
@@ -198,14 +198,13 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     slide_a, turn_a, slide_b, turn_b = contact.slide_a, contact.turn_a, contact.slide_b, contact.turn_b
     r1 = slide_b[0] * d1 + slide_b[1] * d2 + turn_b[0] * rho1 + turn_b[1] * rho2
     r2 = slide_b[2] * d1 + slide_b[3] * d2 + turn_b[2] * rho1 + turn_b[3] * rho2
-    for i in range(2):
-        for j in range(2):
-            total = 0.0
-            for m in range(2):
-                reach = turn_a[2 * m + j] + gap * slide_a[2 * m + j]
-                total += slide_b[2 * i + m] * reach + turn_b[2 * i + m] * slide_a[2 * m + j]
-            w[S.small + 2 * i + j] = total
-    m11, m12, m21, m22 = w[S.small], w[S.small + 1], w[S.small + 2], w[S.small + 3]
+    (s11, s12, s21, s22), (g11, g12, g21, g22), (h11, h12, h21, h22) = slide_a, slide_b, turn_b
+    reach_11, reach_12 = turn_a[0] + gap * s11, turn_a[1] + gap * s12
+    reach_21, reach_22 = turn_a[2] + gap * s21, turn_a[3] + gap * s22
+    m11 = (g11 * reach_11 + h11 * s11) + (g12 * reach_21 + h12 * s21)
+    m12 = (g11 * reach_12 + h11 * s12) + (g12 * reach_22 + h12 * s22)
+    m21 = (g21 * reach_11 + h21 * s11) + (g22 * reach_21 + h22 * s21)
+    m22 = (g21 * reach_12 + h21 * s12) + (g22 * reach_22 + h22 * s22)
     determinant = m11 * m22 - m12 * m21
     if determinant == 0.0:
         # a trial step far too long; what is not a number rejects it, where plain Python would raise

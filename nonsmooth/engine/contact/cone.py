@@ -7,7 +7,7 @@ is given; ``at_rest`` 1 if it has no slip velocity, so that it may stick or star
 from __future__ import annotations
 
 from nonsmooth.engine.contact.forces import friction_of_slip
-from nonsmooth.engine.delassus.delassus import add_product, own_block
+from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.linear import SINGULAR
@@ -21,13 +21,13 @@ _FLAT = 1e-14
 
 @kernel("f8(S, F, I, i8, i8)")
 def _row(S: Scalars, w: Floats, k: Integers, a: int, r: int) -> float:
-    return add_product(S, w, k, active_at(S, w, k, a).free[r], a, r, S.f)
+    return add_product(S, w, k, active_at(S, w, k, a).free[r], a, r, S.active_forces)
 
 
 @kernel("void(S, F, I, i8)")
 def _update_normal(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Set the normal force that stops the approach, or zero."""
-    active, block = active_at(S, w, k, a), own_block(S, w, k, a)
+    active, block = active_at(S, w, k, a), diagonal_block(S, w, k, a)
     own = block.nn
     rest = _row(S, w, k, a, 0) - own * active.normal_force
     if active.at_rest == 0:
@@ -47,7 +47,7 @@ def _update_tangent(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     if active.at_rest == 0:
         friction_of_slip(S, w, k, a)
         return
-    own = own_block(S, w, k, a)
+    own = diagonal_block(S, w, k, a)
     g11, g12, g22 = own.t11, own.t12, own.t22
     t1, t2 = active.friction
     c1 = _row(S, w, k, a, 1) - g11 * t1 - g12 * t2
@@ -93,7 +93,7 @@ def _cut_to_disc(g11: float, g12: float, g22: float, c1: float, c2: float, radiu
 
 @entry_point("i8(S, F, I, i8)")
 def gauss_seidel(S: Scalars, w: Floats, k: Integers, sweeps: int) -> int:
-    """Sweep until the forces settle; leave ``f``, ``tangent_held`` and, for incipient slip, ``d``.
+    """Sweep until the ``active_forces`` settle; leave ``tangent_held`` and, of incipient slip, ``active_directions``.
 
     Return 1 if they settled within so many sweeps.
     """

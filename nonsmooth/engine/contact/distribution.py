@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.components import contact_of
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
+from nonsmooth.engine.contact.unknowns import force_of, set_force
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel, unknown_at
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
 from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, project_on_null
@@ -51,12 +51,12 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
     """Write f less its projection on the cones to ``right``; return half its square."""
     square = 0.0
     for i in range(n):
-        line = k[S.column + i]
-        a = contact_of(line)
+        unknown = unknown_at(S, w, k, i)
+        a = unknown.contact
         active = active_at(S, w, k, a)
-        if line == 3 * a + 1 and active.normal_held == 0:
+        if unknown.direction == 1 and active.normal_held == 0:
             square += _disc_excess(S, w, k, i, a)
-        if line != 3 * a:
+        if unknown.direction != 0:
             continue
         normal = active.normal_force - inset * active.redundant
         w[S.right + i] = min(0.0, normal)
@@ -81,12 +81,12 @@ def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
 def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: int, factor: float, inset: float) -> None:
     """Add the Hessian of the half square, block by block and times a factor, to the band at ``matrix``."""
     for i in range(n):
-        line = k[S.column + i]
-        a = contact_of(line)
+        unknown = unknown_at(S, w, k, i)
+        a = unknown.contact
         active = active_at(S, w, k, a)
-        if line == 3 * a + 1 and active.normal_held == 0:
+        if unknown.direction == 1 and active.normal_held == 0:
             _add_disc_curve(S, w, k, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
-        if line != 3 * a:
+        if unknown.direction != 0:
             continue
         normal, h = active.normal_force - inset * active.redundant, band_row(matrix, i, n, half) + i
         if active.tangent_held == 0:
@@ -170,7 +170,7 @@ def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> i
 def distribute(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 
-    ``f`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the
+    ``active_forces`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the
     distance to the cones, moved up by ``inset`` [N] where forces are not unique, is convex along the null space, and
     its smallest value is sought by Newton's method until no force is out by more than ``arrived`` [N].
     """
@@ -187,14 +187,14 @@ def distribute(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float)
         slope = 0.0
         for i in range(n):
             slope += w[S.right + i] * w[S.x + i]
-            w[S.sigma + i] = w[S.f + k[S.column + i]]
+            w[S.sigma + i] = force_of(S, w, k, i)
         # where the distance has its smallest value, and it is not zero, there are no such forces
         if not slope < -_NO_GAIN * square:
             return 0
         share, moved = 1.0, 0
         for _halving in range(30):
             for i in range(n):
-                w[S.f + k[S.column + i]] = w[S.sigma + i] + share * w[S.x + i]
+                set_force(S, w, k, i, w[S.sigma + i] + share * w[S.x + i])
             new = _excess(S, w, k, n, inset)
             if new <= square + 1e-4 * share * slope:
                 square, moved = new, 1

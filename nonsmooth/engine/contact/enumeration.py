@@ -17,7 +17,7 @@ _ENDLESS = 1e30
 
 
 @kernel("i8(S, F, I, i8)")
-def _lay_modes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+def _write_modes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
     """Write the modes that the digits of ``number`` to base 3 mean; return 1 if they make sense."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -53,8 +53,8 @@ def _start_slips(S: Scalars, w: Floats, k: Integers) -> int:
         active = active_at(S, w, k, a)
         if active.at_rest == 0 or active.mode_tried != SLIDE:
             continue
-        a1 = add_product(S, w, k, active.free[1], a, 1, S.f)
-        a2 = add_product(S, w, k, active.free[2], a, 2, S.f)
+        a1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)
+        a2 = add_product(S, w, k, active.free[2], a, 2, S.active_forces)
         norm = length((a1, a2))
         active.direction = a1 / norm if norm > 0.0 else 1.0, a2 / norm if norm > 0.0 else 0.0
     return count
@@ -92,7 +92,7 @@ def enumerate_modes(S: Scalars, w: Floats, k: Integers, first: int) -> int:
     for number in range(first, combinations):
         if interrupted(S, S.n_active) == 1:
             return 0
-        if _lay_modes(S, w, k, number) == 0:
+        if _write_modes(S, w, k, number) == 0:
             continue
         slips = _start_slips(S, w, k)
         if slips > 0:

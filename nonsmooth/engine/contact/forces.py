@@ -1,15 +1,15 @@
 """Forces of the active contacts when it is known what each of them does.
 
 One linear problem serves sustained contact and impact.  For every active contact the normal force is
-either unknown (``normal_held``: its normal row of G f + b must vanish) or given in ``f``; the
+either unknown (``normal_held``: its normal row of G f + b must vanish) or given in ``active_forces``; the
 tangential force is either unknown (``tangent_held``: sticking) or follows the slip, -mu f_N d.
 """
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.components import contact_of
-from nonsmooth.engine.delassus.delassus import add_product, own_block
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
+from nonsmooth.engine.contact.unknowns import list_unknown, set_force
+from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel, unknown_at
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import (
@@ -33,7 +33,7 @@ DEAR = 500
 
 @entry_point()
 def resolve(S: Scalars, w: Floats, k: Integers) -> None:
-    """Complete ``f``; where the forces are not unique, take those of least norm and mark the contacts."""
+    """Complete ``active_forces``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)
     interrupted(S, n + n * n * n // DEAR)
     if open_band(S, w, k, n, S.reduced) == 0:
@@ -41,15 +41,15 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         for i in range(active.first_unknown, active.end_unknown):
-            _lay_row(S, w, k, a, i, n)
+            _write_row(S, w, k, a, i, n)
     if solve_unknowns(S, w, k, n) == 0:
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
             for i in range(active.first_unknown, active.end_unknown):
-                _lay_held_row(S, w, k, a, i, n)
+                _write_held_row(S, w, k, a, i, n)
         solve_doubtful(S, w, k, n)
     for i in range(n):
-        w[S.f + k[S.column + i]] = w[S.x + i]
+        set_force(S, w, k, i, w[S.x + i])
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         if active.normal_held == 1 and active.tangent_held == 0:
@@ -57,11 +57,11 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
-def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+def _write_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
     active = active_at(S, w, k, a)
-    r = k[S.column + i] - 3 * a
-    w[S.right + i] = -add_product(S, w, k, active.free[r], a, r, S.f)
+    r = unknown_at(S, w, k, i).direction
+    w[S.right + i] = -add_product(S, w, k, active.free[r], a, r, S.active_forces)
     line = band_row(S.reduced, i, n, S.half_band)
     for block in range(active.first_block, active.end_block):
         pushing = active_at(S, w, k, k[S.block_column + block])
@@ -78,16 +78,15 @@ def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
-def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+def _write_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without the friction of sliding contacts to ``matrix``."""
     active = active_at(S, w, k, a)
-    r = k[S.column + i] - 3 * a
+    r = unknown_at(S, w, k, i).direction
     line = band_row(S.matrix, i, n, S.half_band)
     for block in range(active.first_block, active.end_block):
-        d = k[S.block_column + block]
-        pushing = active_at(S, w, k, d)
+        pushing = active_at(S, w, k, k[S.block_column + block])
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            w[line + j] = w[S.delassus + 9 * block + 3 * r + k[S.column + j] - 3 * d]
+            w[line + j] = w[S.delassus + 9 * block + 3 * r + unknown_at(S, w, k, j).direction]
 
 
 @kernel("i8(S, F, I, i8)")
@@ -129,7 +128,7 @@ def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
         _least_norm(S, w, n, rank)
     for i in range(n):
         if null_entry(S, w, i, i) > _COUPLED:
-            active_at(S, w, k, contact_of(k[S.column + i])).redundant = 1
+            active_at(S, w, k, unknown_at(S, w, k, i).contact).redundant = 1
 
 
 @kernel("void(S, F, i8, i8)")
@@ -175,13 +174,13 @@ def _collect(S: Scalars, w: Floats, k: Integers) -> int:
         active.redundant = 0
         active.first_unknown = n
         if active.normal_held == 1:
-            k[S.column + n] = 3 * a
+            list_unknown(S, w, k, n, a, 0, 0)
             n += 1
             active.normal_force = 0.0
         active.friction = 0.0, 0.0
         if active.tangent_held == 1:
-            k[S.column + n] = 3 * a + 1
-            k[S.column + n + 1] = 3 * a + 2
+            list_unknown(S, w, k, n, a, 1, 0)
+            list_unknown(S, w, k, n + 1, a, 2, 0)
             n += 2
         else:
             friction_of_slip(S, w, k, a)
@@ -200,7 +199,7 @@ def friction_of_slip(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 @kernel("f8(S, F, I, i8)")
 def reduced_coefficient(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
-    active, own = active_at(S, w, k, a), own_block(S, w, k, a)
+    active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a)
     return float(own.nn - active.mu * (active.direction[0] * own.n1 + active.direction[1] * own.n2))
 
 
@@ -231,9 +230,9 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
         first, end = max(0, own - S.null_half), min(end, own + S.null_half)
     bound = sum1 = sum2 = 0.0
     for i in range(first, end):
-        other = contact_of(k[S.column + i])
-        sharing = active_at(S, w, k, other)
-        if k[S.column + i] != 3 * other + 1 or sharing.redundant == 0:
+        unknown = unknown_at(S, w, k, i)
+        sharing = active_at(S, w, k, unknown.contact)
+        if unknown.direction != 1 or sharing.redundant == 0:
             continue
         coupling = (
             abs(null_entry(S, w, own, i))
@@ -241,7 +240,7 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
             + abs(null_entry(S, w, own + 1, i))
             + abs(null_entry(S, w, own + 1, i + 1))
         )
-        if coupling > _COUPLED or other == a:
+        if coupling > _COUPLED or unknown.contact == a:
             bound += sharing.mu_static * sharing.normal_force
             sum1 += sharing.friction[0]
             sum2 += sharing.friction[1]

@@ -8,18 +8,28 @@ contact pushes along n as its law says, holds t1, t2 where it sticks, and nothin
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.compliance import lay_wrench
+from nonsmooth.engine.bodies.compliance import write_wrench
 from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
 from nonsmooth.engine.contact.forces import friction_of_slip, solve_doubtful, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
+from nonsmooth.engine.contact.unknowns import list_unknown
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    articulation_at,
+    contact_at,
+    kernel,
+    unknown_at,
+)
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import band_row
 
 
 @kernel("void(S, F, I, i8)")
-def lay_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+def write_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write rows and columns of the active contact ``a``: Jacobian rows 0 to 2, or 0 and that of the column, 1."""
     active = active_at(S, w, k, a)
     c = active.slot
@@ -33,7 +43,7 @@ def lay_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
             evaluate_row_response(S, w, k, c, r, r)
         return
     if active.normal_held == 0:
-        lay_wrench(S, w, k, c, active.force)
+        write_wrench(S, w, k, c, active.force)
         return
     m1, m2 = active.mu * active.direction[0], active.mu * active.direction[1]
     push = (
@@ -73,7 +83,7 @@ def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
         active.redundant = 0
         active.first_unknown = n
         for r in range(1 - active.normal_held, 1 + 2 * active.tangent_held):
-            k[S.column + n] = 3 * a + r
+            list_unknown(S, w, k, n, a, r, 0)
             n += 1
     k[S.first_unknown + S.n_active] = n
     return n
@@ -83,31 +93,29 @@ def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
 def _reduce(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write row ``i`` of the reduced matrix, one of contact ``a``, and what it lacks to vanish without forces."""
     active = active_at(S, w, k, a)
-    c, r = active.slot, k[S.column + i] - 3 * a
+    c, r = active.slot, unknown_at(S, w, k, i).direction
     contact = contact_at(S, w, k, c)
     w[S.right + i] = -contact.bias[r] - row(S, w, k, c, r, S.du)
     line = band_row(S.reduced, i, n, S.half_band)
     for block in range(active.first_block, active.end_block):
-        other = k[S.block_column + block]
-        pushing = active_at(S, w, k, other)
+        pushing = active_at(S, w, k, k[S.block_column + block])
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            w[line + j] = _coupling(S, w, k, c, r, pushing.slot, k[S.column + j] - 3 * other)
+            w[line + j] = _coupling(S, w, k, c, r, pushing.slot, unknown_at(S, w, k, j).direction)
     # a sliding contact on which more force gives more approach
     if r == 0 and contact.mode == SLIDE and w[line + i] <= 0.0:
         S.singular = c
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
-def _lay_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+def _write_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without friction to ``matrix``, response 1 of slips being that."""
     active = active_at(S, w, k, a)
-    c, r = active.slot, k[S.column + i] - 3 * a
+    c, r = active.slot, unknown_at(S, w, k, i).direction
     line = band_row(S.matrix, i, n, S.half_band)
     for block in range(active.first_block, active.end_block):
-        other = k[S.block_column + block]
-        pushing = active_at(S, w, k, other)
+        pushing = active_at(S, w, k, k[S.block_column + block])
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            column = k[S.column + j] - 3 * other + 1 - pushing.tangent_held
+            column = unknown_at(S, w, k, j).direction + 1 - pushing.tangent_held
             w[line + j] = _coupling(S, w, k, c, r, pushing.slot, column)
 
 
@@ -122,7 +130,7 @@ def _push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         force = active.normal_force if sticks == 1 else 1.0
         push_response(S, w, k, c, 0, force, S.du)
-        S.driven_power += force * row(S, w, k, c, 1 - sticks, S.own) - contact.turned
+        S.driven_power += force * row(S, w, k, c, 1 - sticks, S.free_velocities) - contact.turned
         S.load_power += active.normal_force * contact.rate[0]
 
 
@@ -144,14 +152,14 @@ def _solve_held(S: Scalars, w: Floats, k: Integers) -> int:
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
             for i in range(active.first_unknown, active.end_unknown):
-                _lay_held_row(S, w, k, a, i, n)
+                _write_held_row(S, w, k, a, i, n)
         solve_doubtful(S, w, k, n)
     return 1
 
 
 @kernel("i8(S, F, I, i8)")
 def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
-    """Write the forces ``f`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
+    """Write the ``active_forces`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
 
     Rows and columns must be laid, and the given forces; the free accelerations stand in ``du``.  With ``choosing`` (1)
     the null-space force of those not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
@@ -170,11 +178,11 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
         contact = contact_at(S, w, k, c)
         sticks = active.tangent_held
         for i in range(active.first_unknown, active.end_unknown):
-            r, force = k[S.column + i] - 3 * a, w[S.x + i]
+            r, force = unknown_at(S, w, k, i).direction, w[S.x + i]
             active.force[r] = force
             push_response(S, w, k, c, r, force, S.du)
             # the power of what the coordinates do not move: that of the force less that on them
-            S.driven_power += force * row(S, w, k, c, r + 1 - sticks, S.own)
+            S.driven_power += force * row(S, w, k, c, r + 1 - sticks, S.free_velocities)
         if sticks == 0 and active.normal_held == 1:
             friction_of_slip(S, w, k, a)
         for r in range(3):

@@ -56,8 +56,8 @@ def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
                 active.direction = -t1 / norm, -t2 / norm
                 changed += 1
             continue
-        a1 = add_product(S, w, k, active.free[1], a, 1, S.f)
-        a2 = add_product(S, w, k, active.free[2], a, 2, S.f)
+        a1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)
+        a2 = add_product(S, w, k, active.free[2], a, 2, S.active_forces)
         if a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
             active.mode_tried = STICK
             changed += 1
@@ -67,7 +67,7 @@ def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel()
 def _note(S: Scalars, w: Floats, k: Integers) -> None:
     """Add what the forces do to ``du``, and note power and what is held."""
-    add_response(S, w, k, S.f, S.du)
+    add_response(S, w, k, S.active_forces, S.du)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         c = active.slot
@@ -77,12 +77,12 @@ def _note(S: Scalars, w: Floats, k: Integers) -> None:
             S.singular = c
         active.tangent_held = 0 if slides else 1
         for r in range(3):
-            S.driven_power += active.force[r] * (row(S, w, k, c, r, S.own) - contact.rate[r])
+            S.driven_power += active.force[r] * (row(S, w, k, c, r, S.free_velocities) - contact.rate[r])
 
 
 @kernel()
 def hold_at_end(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write the forces ``f`` of the active contacts with which a stage ends, and add what they do to ``du``.
+    """Write the ``active_forces`` of the active contacts with which a stage ends, and add what they do to ``du``.
 
     Geometry and rates are those of the state that the accelerations at ``guess`` lead to.  Where no forces are found,
     or they are not unique, ``unsettled`` is raised.

@@ -151,7 +151,7 @@ def _leaving(S: Scalars, w: Floats, k: Integers, n: int, s: int) -> int:
 
 @entry_point("i8(S, F, I, i8)")
 def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
-    """Write the forces of the faceted problem to ``f``; return 1 if there are none, its path ending in a ray."""
+    """Write ``active_forces`` of the faceted problem; return 1 if there are none, its path ending in a ray."""
     m = S.n_active
     if m > S.n_pivoted:
         return 1
@@ -159,8 +159,8 @@ def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     g = size = 0.0
     for i in range(3 * m):
         g = max(g, w[S.matrix + i * 3 * m + i])
-        size = max(size, abs(w[S.b + i]))
-        w[S.f + i] = 0.0
+        size = max(size, abs(w[S.free_accelerations + i]))
+        w[S.active_forces + i] = 0.0
     if size == 0.0:
         return 0
     n = _list_unknowns(S, w, k)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from nonsmooth.engine.contact.forces import DEAR
 from nonsmooth.engine.contact.gauss_seidel import sweep
 from nonsmooth.engine.contact.trial import slope_of_slip
-from nonsmooth.engine.delassus.delassus import add_product, own_block
+from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
@@ -44,8 +44,8 @@ def _residual(S: Scalars, w: Floats, k: Integers) -> float:
         active = active_at(S, w, k, a)
         right = at(w, S.right + 3 * a)
         for r in range(3):
-            active.acceleration[r] = add_product(S, w, k, active.free[r], a, r, S.f)
-        y = active.normal_force - active.normal_acceleration / own_block(S, w, k, a).nn
+            active.acceleration[r] = add_product(S, w, k, active.free[r], a, r, S.active_forces)
+        y = active.normal_force - active.normal_acceleration / diagonal_block(S, w, k, a).nn
         right[0] = active.normal_force - max(0.0, y)
         radius = active.mu * max(0.0, y)
         t1, t2 = active.friction
@@ -76,7 +76,7 @@ def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, slope: float) -
 def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, c2: float) -> None:
     """Add the derivative of the friction that is cut to the disc, along (c1, c2), to its two rows of ``matrix``."""
     active = active_at(S, w, k, a)
-    own, slope = own_block(S, w, k, a).nn, slope_of_slip(S, w, k, a)
+    own, slope = diagonal_block(S, w, k, a).nn, slope_of_slip(S, w, k, a)
     n = 3 * S.n_active
     first, second = band_row(S.matrix, 3 * a + 1, n, S.half_band), band_row(S.matrix, 3 * a + 2, n, S.half_band)
     for block in range(active.first_block, active.end_block):
@@ -92,8 +92,8 @@ def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, 
 
 
 @kernel("i8(S, F, I)")
-def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
-    """Write the derivative of the natural map at ``f`` and its accelerations to ``matrix``; return 0 if no room."""
+def _write_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
+    """Write the derivative of the natural map at the forces at hand to ``matrix``; return 0 if it is too wide."""
     n = 3 * S.n_active
     for a in range(S.n_active + 1):
         active_at(S, w, k, a).first_unknown = 3 * a
@@ -102,7 +102,7 @@ def _lay_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         line = 3 * a
-        own = own_block(S, w, k, a).nn
+        own = diagonal_block(S, w, k, a).nn
         y = active.normal_force - active.normal_acceleration / own
         row = band_row(S.matrix, line, n, S.half_band)
         if y > 0.0:
@@ -145,21 +145,21 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
             return 0
         size = 0.0
         for i in range(width):
-            size += w[S.f + i] * w[S.f + i]
+            size += w[S.active_forces + i] * w[S.active_forces + i]
         if square <= _SETTLED * _SETTLED * size:
             return 1
-        if _lay_jacobian(S, w, k) == 0:
+        if _write_jacobian(S, w, k) == 0:
             return 0
         for i in range(width):
             w[S.x + i] = -w[S.right + i]
         if eliminate(w, S.matrix, width, S.half_band, S.x, SINGULAR) == 0:
             return 0
         for i in range(width):
-            w[S.f_kept + i] = w[S.f + i]
+            w[S.active_forces_kept + i] = w[S.active_forces + i]
         share, better = 1.0, 0
         for _halving in range(_HALVINGS):
             for i in range(width):
-                w[S.f + i] = w[S.f_kept + i] + share * w[S.x + i]
+                w[S.active_forces + i] = w[S.active_forces_kept + i] + share * w[S.x + i]
             new = _residual(S, w, k)
             if new < (1.0 - 1e-4 * share) * square:
                 square, better = new, 1
@@ -167,6 +167,6 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
             share *= 0.5
         if better == 0:
             for i in range(width):
-                w[S.f + i] = w[S.f_kept + i]
+                w[S.active_forces + i] = w[S.active_forces_kept + i]
             return 0
     return 0

@@ -2,59 +2,67 @@
 
 Of closed contacts whose forces are not unique the flow finds those of least norm.  These may pull, or leave Coulomb's
 cone, though others that do neither give the same motion.  So a force from the null space is added to them, chosen to
-leave every bound as much room as can be, within a factor, and kept while time goes on.  That such forces keep the
+stay as far from every bound as can be, within a factor, and kept while time goes on.  That such forces keep the
 bounds shows that the contacts hold; where they come to a bound a new one is chosen, and only where there is none
 the contacts let go.
 """
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.components import contact_of, direction_of
 from nonsmooth.engine.contact.distribution import distribute
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, entry_point, kernel
+from nonsmooth.engine.contact.unknowns import force_of, set_force
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    contact_at,
+    entry_point,
+    kernel,
+    unknown_at,
+)
 from nonsmooth.engine.numerics.null_band import project_on_null
 from nonsmooth.engine.numerics.vectors import length
 
 _AMPLE = 1e-2
-"""A room to the bounds of this part of the largest force is as good as more."""
+"""A distance to the bounds of this part of the largest force is as good as more."""
 _LEAST = 1e-11
-"""A room below this part of the largest force is none."""
+"""A distance below this part of the largest force is none."""
 _ARRIVED = 1e-12
 _SLACK = 2e-9
-"""Without room, a bound that is passed by this part of the largest force holds, as it does to the contact problem."""
+"""Then a bound that is passed by this part of the largest force holds, as it does to the contact problem."""
 
 
 @kernel("f8(S, F, I, i8)")
-def _least_room(S: Scalars, w: Floats, k: Integers, n: int) -> float:
+def _least_distance(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     """Return how far the forces that are not unique are from their bounds at least [N]."""
     least = 1e300
     for i in range(n):
-        line = k[S.column + i]
-        a = contact_of(line)
-        active = active_at(S, w, k, a)
-        if line == 3 * a + 1 and active.normal_held == 0 and active.redundant == 1:
+        unknown = unknown_at(S, w, k, i)
+        active = active_at(S, w, k, unknown.contact)
+        if unknown.direction == 1 and active.normal_held == 0 and active.redundant == 1:
             least = min(least, active.mu_static * active.normal_force - length(active.friction))
-        if line != 3 * a or active.redundant == 0:
+        if unknown.direction != 0 or active.redundant == 0:
             continue
-        room_left = active.normal_force
+        distance = active.normal_force
         if active.tangent_held == 1:
-            room_left = min(room_left, active.mu_static * room_left - length(active.friction))
-        least = min(least, room_left)
+            distance = min(distance, active.mu_static * distance - length(active.friction))
+        least = min(least, distance)
     return least
 
 
 @kernel("void(S, F, I, i8)")
 def _keep_null_space_force(S: Scalars, w: Floats, k: Integers, n: int) -> None:
-    """Keep by how much the forces ``f`` differ from ``x``, those of least norm."""
+    """Keep by how much the ``active_forces`` differ from ``x``, those of least norm."""
     for i in range(n):
-        a, r = contact_of(k[S.column + i]), direction_of(k[S.column + i])
-        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
-        contact.null_space_force[r] = w[S.f + k[S.column + i]] - w[S.f_raw + i]
+        unknown = unknown_at(S, w, k, i)
+        contact = contact_at(S, w, k, active_at(S, w, k, unknown.contact).slot)
+        contact.null_space_force[unknown.direction] = force_of(S, w, k, i) - w[S.active_forces_first + i]
 
 
 @entry_point("i8(S, F, I)")
 def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
-    """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it leaves every bound room."""
+    """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it keeps off every bound."""
     n = S.n_unknown
     largest = 0.0
     for a in range(S.n_active):
@@ -63,26 +71,26 @@ def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
         for r in range(3):
             contact.null_space_force[r] = 0.0
     for i in range(n):
-        w[S.f_raw + i] = w[S.x + i]
-        w[S.f + k[S.column + i]] = w[S.x + i]
+        w[S.active_forces_first + i] = w[S.x + i]
+        set_force(S, w, k, i, w[S.x + i])
         largest = max(largest, abs(w[S.x + i]))
-    if _least_room(S, w, k, n) >= _AMPLE * largest:
+    if _least_distance(S, w, k, n) >= _AMPLE * largest:
         return 1
     inset, found = 0.25 * largest, 0
     while found == 0 and inset >= _LEAST * largest:
         for i in range(n):
-            w[S.f + k[S.column + i]] = w[S.f_raw + i]
+            set_force(S, w, k, i, w[S.active_forces_first + i])
         found = distribute(S, w, k, inset, _ARRIVED * largest)
         inset *= 0.25
     if found == 0:
         for i in range(n):
-            w[S.f + k[S.column + i]] = w[S.f_raw + i]
+            set_force(S, w, k, i, w[S.active_forces_first + i])
         distribute(S, w, k, 0.0, _ARRIVED * largest)
         for a in range(S.n_active):
             contact_at(S, w, k, active_at(S, w, k, a).slot).slack = _SLACK * largest
     _keep_null_space_force(S, w, k, n)
     for i in range(n):
-        w[S.x + i] = w[S.f_raw + i]
+        w[S.x + i] = w[S.active_forces_first + i]
     return found
 
 
@@ -91,8 +99,9 @@ def add_null_space_force(S: Scalars, w: Floats, k: Integers) -> None:
     """Add what of the null-space force lies in the present null space to the unknowns ``x``."""
     n = S.n_unknown
     for i in range(n):
-        a, r = contact_of(k[S.column + i]), direction_of(k[S.column + i])
-        w[S.sigma + i] = contact_at(S, w, k, active_at(S, w, k, a).slot).null_space_force[r]
+        unknown = unknown_at(S, w, k, i)
+        contact = contact_at(S, w, k, active_at(S, w, k, unknown.contact).slot)
+        w[S.sigma + i] = contact.null_space_force[unknown.direction]
     if S.null_banded == 1:
         project_on_null(S, w, n, S.sigma)
         for i in range(n):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.components import contact_of
 from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
+from nonsmooth.engine.contact.unknowns import list_unknown
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel, unknown_at
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, minimum_norm
 from nonsmooth.engine.numerics.null_band import solve_shifted
@@ -24,39 +24,38 @@ _NEAR = 1e-8
 
 @kernel("f8(S, F, I, i8, i8)")
 def _acceleration(S: Scalars, w: Floats, k: Integers, a: int, r: int) -> float:
-    return add_product(S, w, k, active_at(S, w, k, a).free[r], a, r, S.f)
+    return add_product(S, w, k, active_at(S, w, k, a).free[r], a, r, S.active_forces)
 
 
 @kernel("f8(S, F, I, i8, i8)")
 def _effect(S: Scalars, w: Floats, k: Integers, g: int, j: int) -> float:
     """Return the effect of unknown ``j``, a force or the turn of a direction, on the row of a block at ``g``."""
-    column = k[S.column + j]
-    a = contact_of(column)
-    active = active_at(S, w, k, a)
+    unknown = unknown_at(S, w, k, j)
+    active = active_at(S, w, k, unknown.contact)
     d1, d2 = active.direction
-    if k[S.turn + j] == 1:
+    if unknown.turn == 1:
         return float(d2 * w[g + 1] - d1 * w[g + 2])
-    if column != 3 * a or active.tangent_held == 1:
-        return w[g + column - 3 * a]
+    if unknown.direction != 0 or active.tangent_held == 1:
+        return w[g + unknown.direction]
     return float(w[g] - active.mu * (d1 * w[g + 1] + d2 * w[g + 2]))
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")
-def _lay_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> float:
+def _write_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> float:
     """Write row ``i`` of Newton's system, one of contact ``a``; return how wrong it is, relative."""
-    active = active_at(S, w, k, a)
+    active, unknown = active_at(S, w, k, a), unknown_at(S, w, k, i)
     line = band_row(S.reduced, i, n, S.half_band)
     d1, d2 = active.direction
     for block in range(active.first_block, active.end_block):
         other = active_at(S, w, k, k[S.block_column + block])
         g = S.delassus + 9 * block
         for j in range(other.first_unknown, other.end_unknown):
-            if k[S.turn + i] == 0:
-                w[line + j] = _effect(S, w, k, g + 3 * (k[S.column + i] - 3 * a), j)
+            if unknown.turn == 0:
+                w[line + j] = _effect(S, w, k, g + 3 * unknown.direction, j)
             else:
                 w[line + j] = d2 * _effect(S, w, k, g + 3, j) - d1 * _effect(S, w, k, g + 6, j)
     w[S.right + i] = 0.0
-    if k[S.turn + i] == 0:
+    if unknown.turn == 0:
         return 0.0  # the forces of these directions are exact
     a1, a2 = _acceleration(S, w, k, a, 1), _acceleration(S, w, k, a, 2)
     w[S.right + i] = -(a1 * d2 - a2 * d1)
@@ -76,12 +75,10 @@ def _list_unknowns(S: Scalars, w: Floats, k: Integers) -> int:
         active.first_unknown = n
         for r in range(3):
             if (active.normal_held if r == 0 else active.tangent_held) == 1:
-                k[S.column + n] = 3 * a + r
-                k[S.turn + n] = 0
+                list_unknown(S, w, k, n, a, r, 0)
                 n += 1
         if _starts(S, w, k, a) == 1:
-            k[S.column + n] = 3 * a
-            k[S.turn + n] = 1
+            list_unknown(S, w, k, n, a, 0, 1)
             n += 1
     k[S.first_unknown + S.n_active] = n
     return n
@@ -96,7 +93,7 @@ def _starts(S: Scalars, w: Floats, k: Integers, a: int) -> int:
 @kernel("void(S, F, I, i8)")
 def _turn(S: Scalars, w: Floats, k: Integers, i: int) -> None:
     """Turn the direction of unknown ``i`` by its step; one without friction follows its acceleration."""
-    a = contact_of(k[S.column + i])
+    a = unknown_at(S, w, k, i).contact
     active = active_at(S, w, k, a)
     d1, d2 = active.direction
     force = active.mu * active.normal_force
@@ -130,7 +127,7 @@ def _solve(S: Scalars, w: Floats, n: int) -> None:
 
 @entry_point("i8(S, F, I)")
 def polish(S: Scalars, w: Floats, k: Integers) -> int:
-    """Turn the directions ``d`` of incipient slip until no acceleration is left across them, the modes being given.
+    """Turn the directions of incipient slip until no acceleration is left across them, the modes being given.
 
     Newton's method on the turns, the forces of every direction being exact; quadratic, from a good guess.  Return 1
     if it arrives.  Nothing is asked of signs and bounds.
@@ -150,12 +147,12 @@ def polish(S: Scalars, w: Floats, k: Integers) -> int:
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
             for i in range(active.first_unknown, active.end_unknown):
-                worst = max(worst, _lay_row(S, w, k, a, i, n))
+                worst = max(worst, _write_row(S, w, k, a, i, n))
         if worst <= _EXACT or (worst <= _NEAR and worst >= best):
             return 1
         best = min(best, worst)
         _solve(S, w, n)
         for i in range(n):
-            if k[S.turn + i] == 1:
+            if unknown_at(S, w, k, i).turn == 1:
                 _turn(S, w, k, i)
     return 0

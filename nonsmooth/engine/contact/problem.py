@@ -85,7 +85,7 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
 
 
 @kernel("void(S, F, I, i8)")
-def lay_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+def write_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write coefficients, slip direction and whether it is at rest of active contact ``a``."""
     active = active_at(S, w, k, a)
     c = active.slot
@@ -116,7 +116,7 @@ def set_up(S: Scalars, w: Floats, k: Integers) -> None:
             bias, free = contact.bias[r], row(S, w, k, c, r, S.du)
             active.free[r] = bias + free
             S.acceleration_scale = max(S.acceleration_scale, abs(bias), abs(free))
-        lay_friction(S, w, k, a)
+        write_friction(S, w, k, a)
     decouple_normals(S, w, k)
 
 
@@ -125,7 +125,7 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
     """Find modes and forces of the active contacts, ``mode_tried`` holding the past modes; return 1 if found.
 
     The kinematics of the active contacts must be evaluated and :func:`set_up` called.  A past mode of -1 is none.  On
-    return ``mode_tried``, ``f`` and ``d`` describe the solution.
+    return ``mode_tried``, ``active_forces`` and ``active_directions`` describe the solution.
     """
     S.effort = 0.0
     past = 1
@@ -153,7 +153,7 @@ def solve_contact(S: Scalars, w: Floats, k: Integers) -> int:
 def solve_from_rates(S: Scalars, w: Floats, k: Integers) -> int:
     """Solve on G and b as given, the friction following from the slip velocities in ``rate``; return 1 if solved."""
     for a in range(S.n_active):
-        lay_friction(S, w, k, a)
+        write_friction(S, w, k, a)
     return solve_contact(S, w, k)
 
 
@@ -164,4 +164,4 @@ def accelerate(S: Scalars, w: Floats, k: Integers) -> None:
         active = active_at(S, w, k, a)
         if contact_at(S, w, k, active.slot).normal_function != 0:
             active.normal_force = 0.0
-    add_response(S, w, k, S.f, S.du)
+    add_response(S, w, k, S.active_forces, S.du)

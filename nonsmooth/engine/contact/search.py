@@ -1,8 +1,9 @@
 """A search for modes and forces by one solver, with the static and the kinetic bound told apart.
 
-The contract of a solver: it reads G, b, who is ``at_rest``, the coefficients ``mu`` and, of sliding contacts, ``d``;
-it improves the forces ``f`` stage by stage and returns 1 where a further stage would not help.  Every contact at rest
-has one cone, that of ``mu``.  Which modes the forces mean, and whether these are right, is found here alike for all.
+The contract of a solver: it reads G, ``free_accelerations``, who is ``at_rest``, the coefficients ``mu`` and, of
+sliding contacts, ``active_directions``; it improves the ``active_forces`` stage by stage and returns 1 where a further
+stage would not help.  Every contact at rest has one cone, that of ``mu``.  Which modes the forces mean, and whether
+these are right, is found here alike for all.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ def _improve(S: Scalars, w: Floats, k: Integers, solver: int, stage: int) -> int
 
 
 @kernel("void(S, F, I)")
-def _lay_cones(S: Scalars, w: Floats, k: Integers) -> None:
+def _write_cones(S: Scalars, w: Floats, k: Integers) -> None:
     """Give every contact at rest one cone: the static one, or the kinetic one where it may not stick."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -58,7 +59,7 @@ def _restore_cones(S: Scalars, w: Floats, k: Integers) -> None:
 
 
 @kernel("i8(S, F, I)")
-def _lay_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
+def _guess_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
     """Try the modes that the accelerations tell, but for those of the past; return 1 if they differ."""
     differ = 0
     small = _EQUAL * S.small_acceleration
@@ -166,7 +167,7 @@ def _take_raw(S: Scalars, w: Floats, k: Integers) -> None:
     """Go back to the forces of the solver, its modes and directions."""
     _take_found(S, w, k)
     for i in range(3 * S.n_active):
-        w[S.f + i] = w[S.f_raw + i]
+        w[S.active_forces + i] = w[S.active_forces_first + i]
 
 
 @kernel("i8(S, F, I)")
@@ -176,7 +177,7 @@ def _try_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
     Where forces are not unique a solver may well put the friction of some on the bound and let others do with less.
     """
     set_scales(S, w, k)
-    if _lay_by_motion(S, w, k) == 1:
+    if _guess_by_motion(S, w, k) == 1:
         polish(S, w, k)
         if _accept(S, w, k) == 1:
             return 1
@@ -207,16 +208,16 @@ def _search_round(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     elif solver == LEMKE:
         stages = lemke.STAGES
     for i in range(3 * S.n_active):
-        w[S.f_raw + i] = 0.0
+        w[S.active_forces_first + i] = 0.0
     for stage in range(stages):
         if S.effort >= _MOST_EFFORT or interrupted(S, S.n_active) == 1:
             return 0
         for i in range(3 * S.n_active):
-            w[S.f + i] = w[S.f_raw + i]
-        _lay_cones(S, w, k)
+            w[S.active_forces + i] = w[S.active_forces_first + i]
+        _write_cones(S, w, k)
         settled = _improve(S, w, k, solver, stage)
         for i in range(3 * S.n_active):
-            w[S.f_raw + i] = w[S.f + i]
+            w[S.active_forces_first + i] = w[S.active_forces + i]
         identify(S, w, k)
         _restore_cones(S, w, k)
         if settled == 0 and stage < stages - 1 and _hasty(S, w, k) == 1:
@@ -263,7 +264,7 @@ def _search_from(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
 def _keep_answer(S: Scalars, w: Floats, k: Integers) -> None:
     _keep_found(S, w, k)
     for i in range(3 * S.n_active):
-        w[S.f_raw + i] = w[S.f + i]
+        w[S.active_forces_first + i] = w[S.active_forces + i]
 
 
 @kernel("void(S, F, I)")
@@ -276,7 +277,7 @@ def _take_answer(S: Scalars, w: Floats, k: Integers) -> None:
 def _close_idle(S: Scalars, w: Floats, k: Integers) -> None:
     """Of several sets of forces for the motion found take that of all contacts that it leaves closed."""
     _keep_answer(S, w, k)
-    if _lay_by_motion(S, w, k) == 0:
+    if _guess_by_motion(S, w, k) == 0:
         return
     polish(S, w, k)
     if _accept(S, w, k) == 1:

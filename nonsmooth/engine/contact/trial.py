@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
-from nonsmooth.engine.delassus.delassus import add_product, own_block
+from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -39,9 +39,9 @@ def set_scales(S: Scalars, w: Floats, k: Integers) -> None:
     scale = S.acceleration_scale
     force_scale = 0.0
     for i in range(3 * S.n_active):
-        force_scale = max(force_scale, abs(w[S.f + i]))
+        force_scale = max(force_scale, abs(w[S.active_forces + i]))
     for a in range(S.n_active):
-        own = own_block(S, w, k, a).nn
+        own = diagonal_block(S, w, k, a).nn
         if own > 0.0:
             force_scale = max(force_scale, scale / own)
     for a in range(S.n_active):
@@ -62,7 +62,7 @@ def set_scales(S: Scalars, w: Floats, k: Integers) -> None:
 def small_force(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return what counts as zero among the forces of one contact: beside a heavy body a light one has its own scale."""
     active = active_at(S, w, k, a)
-    own, size = own_block(S, w, k, a).nn, 0.0
+    own, size = diagonal_block(S, w, k, a).nn, 0.0
     for r in range(3):
         size = max(size, abs(active.force[r]))
     if own > 0.0:
@@ -124,7 +124,7 @@ def _compare(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
 
 @kernel("i8(S, F, I, i8)")
 def judge(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
-    """Return 1 if the forces ``f`` fulfil the laws in the modes under trial, distributed where not unique."""
+    """Return 1 if the ``active_forces`` fulfil the laws in the modes under trial, distributed where not unique."""
     result = _compare(S, w, k, lenient)
     if result == 2 and distribute(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
@@ -137,14 +137,14 @@ def judge(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
 
 @kernel("void(S, F, I)")
 def identify(S: Scalars, w: Floats, k: Integers) -> None:
-    """Guess modes and directions from the forces ``f``, by the side of the natural map on which they stand."""
+    """Guess modes and directions from the ``active_forces``, by the side of the natural map on which they stand."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         push = 0.0
         for r in range(3):
-            total = add_product(S, w, k, active.free[r], a, r, S.f)
+            total = add_product(S, w, k, active.free[r], a, r, S.active_forces)
             if r == 0:
-                push = active.normal_force * own_block(S, w, k, a).nn - total
+                push = active.normal_force * diagonal_block(S, w, k, a).nn - total
             active.acceleration[r] = total
         active.mode_tried = SLIDE
         if active.at_rest == 1:
@@ -163,6 +163,6 @@ def identify(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("f8(S, F, I, i8)")
 def slope_of_slip(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return how fast contact ``a`` slips under a unit of its own friction, or a number like it where it cannot."""
-    own = own_block(S, w, k, a)
+    own = diagonal_block(S, w, k, a)
     largest = max(own.t11, own.t22)
     return float(largest if largest > 0.0 else own.nn)

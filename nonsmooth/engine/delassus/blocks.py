@@ -9,13 +9,10 @@ from __future__ import annotations
 from nonsmooth.engine.memory.layout import MOST_BLOCKS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, articulation_at, contact_at, kernel
 
-_SIDES = 2
-"""Entries of a contact in the lists of its articulations."""
-
 
 @kernel()
 def _hang(S: Scalars, w: Floats, k: Integers) -> None:
-    """Hang the active contacts on their movable articulations."""
+    """Hang the active contacts on their movable articulations: first entries of all contacts, then second ones."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         active.block_mark = -1
@@ -29,8 +26,9 @@ def _hang(S: Scalars, w: Floats, k: Integers) -> None:
         for side in range(2):
             articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
             if articulation.nu > 0:
-                k[S.link_next + _SIDES * a + side] = articulation.link_head
-                articulation.link_head = _SIDES * a + side
+                entry = side * S.n_active + a
+                k[S.link_next + entry] = articulation.link_head
+                articulation.link_head = entry
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -41,7 +39,7 @@ def _note(S: Scalars, w: Floats, k: Integers, row: int, column: int, fill: int) 
         block = active.first_block + active.block_count
         k[S.block_column + block] = column
         if row == column:
-            active.own_block = block
+            active.diagonal_block = block
     active.block_count += 1
 
 
@@ -57,7 +55,7 @@ def _visit(S: Scalars, w: Floats, k: Integers, fill: int) -> None:
         for side in range(2):
             entry = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b).link_head
             while entry >= 0 and S.crowded == 0:
-                other = entry // _SIDES
+                other = entry if entry < S.n_active else entry - S.n_active
                 neighbour = active_at(S, w, k, other)
                 if neighbour.block_mark != mark:
                     neighbour.block_mark = mark

@@ -52,9 +52,9 @@ def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
 
 
 @kernel("D(S, F, I, i8)")
-def own_block(S: Scalars, w: Floats, k: Integers, a: int) -> Any:
+def diagonal_block(S: Scalars, w: Floats, k: Integers, a: int) -> Any:
     """Return the block of the active contact ``a`` on the diagonal."""
-    return delassus_block(w, S.delassus, active_at(S, w, k, a).own_block)
+    return delassus_block(w, S.delassus, active_at(S, w, k, a).diagonal_block)
 
 
 @kernel("f8(S, F, I, f8, i8, i8, i8)")
@@ -86,7 +86,7 @@ def write_dense(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("void(S, F, I, i8, i8)")
 def add_response(S: Scalars, w: Floats, k: Integers, f: int, du: int) -> None:
-    """Add K (W f_N + N f_T) of the active contacts' forces or impulses at ``f`` to ``du``."""
+    """Add K (W f_N + N f_T) of the active contacts' forces or impulses at ``active_forces`` to ``du``."""
     for i in range(S.n_active):
         contact = contact_at(S, w, k, k[S.active + i])
         for side in range(2):

@@ -180,11 +180,11 @@ def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
             for r in range(3):
                 active.free[r] = contact.rate[r]
         gauss_seidel(S, w, k, SWEEPS)
-        add_response(S, w, k, S.f, S.y + S.n_q)
+        add_response(S, w, k, S.active_forces, S.y + S.n_q)
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
             contact = contact_at(S, w, k, active.slot)
-            loss -= 0.5 * active.normal_force * add_product(S, w, k, 2.0 * contact.rate[0], a, 0, S.f)
+            loss -= 0.5 * active.normal_force * add_product(S, w, k, 2.0 * contact.rate[0], a, 0, S.active_forces)
             S.driven_work -= active.normal_force * contact.prescribed_rate[0]
     return loss
 

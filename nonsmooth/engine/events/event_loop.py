@@ -18,7 +18,7 @@ from nonsmooth.engine.events.record import (
 )
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
-from nonsmooth.engine.flow.clearance import bound_speeds
+from nonsmooth.engine.flow.clearance import UNKNOWN_FALL, bound_speeds
 from nonsmooth.engine.flow.flow import is_violated, right_hand_side, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
@@ -38,7 +38,7 @@ from nonsmooth.engine.flow.projection import (
 )
 from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.flow.step import try_step
-from nonsmooth.engine.memory.layout import BOOKED, FALL, LAST_STAGE
+from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
 from nonsmooth.engine.memory.modes import (
     DONE,
@@ -93,7 +93,7 @@ def _drifted(S: Scalars, w: Floats, k: Integers) -> int:
             if contact.normal_function != 0:
                 rate = gap = 0.0
             if contact.mode == STICK:
-                rate += abs(contact.rate_end[1]) + abs(contact.rate_end[2])
+                rate += abs(contact.slip_end[0]) + abs(contact.slip_end[1])
             if rate > _DRIFT * S.velocity_tolerance or gap > _DRIFT * S.gap_tolerance:
                 return 1
     return 0
@@ -161,9 +161,9 @@ def _closing_cause(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 @kernel("i8(S, F, I, i8)")
 def _cause(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
     """Return what it means that a guard of a contact has fired."""
-    c = contact_of(guard)
+    c = contact_of(S, guard)
     contact = contact_at(S, w, k, c)
-    if is_friction_guard(guard) == 0:
+    if is_friction_guard(S, guard) == 0:
         return _closing_cause(S, w, k, c) if contact.mode == OPEN else LIFT_OFF
     if contact.mode != STICK:
         return SLIP_TO_STICK
@@ -190,8 +190,8 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode == SLIDE and contact.traction_function == 0:
-            speed = length((contact.rate_end[1], contact.rate_end[2]))
-            if speed <= S.velocity_tolerance and speed < guard_at(S, w, k, friction_guard(c)).first:
+            speed = length(contact.slip_end)
+            if speed <= S.velocity_tolerance and speed < guard_at(S, w, k, friction_guard(S, c)).first:
                 return c
     return -1
 
@@ -223,7 +223,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     which = _due_at_start(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
-    orient_slips(S, w, k, S.rate_end)
+    orient_slips(S, w, k, 1)
     arm_guards(S, w, k)
     status = accepted_step(S, w, k)
     if status != RUNNING:
@@ -264,10 +264,8 @@ def _keep_start(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         contact.gap_first, contact.gap_rate_first = contact.gap_end, contact.gap_rate_end
         contact.past_first, contact.speed_first = contact.past_end, contact.speed_end
-        for r in range(FALL):
-            contact.fall_first[r] = contact.fall_end[r] if S.fresh == 1 else -1.0
-        for r in range(3):
-            contact.arm_first[r] = contact.arm_end[r]
+        contact.fall_first = contact.fall_end if S.fresh == 1 else UNKNOWN_FALL
+        contact.arm_first = contact.arm_end
 
 
 @kernel("i8(S, F, I)")
@@ -368,7 +366,7 @@ def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
     if guard >= first_own_guard(S):
         _commit(S, w, k, h)
         return _own_event(S, w, k, guard - first_own_guard(S))
-    cause, which = _cause(S, w, k, guard), contact_of(guard)
+    cause, which = _cause(S, w, k, guard), contact_of(S, guard)
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, which)
     _commit(S, w, k, h)
@@ -384,8 +382,8 @@ def _null_space_forces_hold(S: Scalars, w: Floats, k: Integers, guard: int) -> i
     The ``guard`` that fired must be that of a force.  A second time within the time tolerance there is no choice: then
     all forces vanish.
     """
-    contact = contact_at(S, w, k, contact_of(guard))
-    if contact.mode == OPEN or (is_friction_guard(guard) == 1 and contact.holds == 0):
+    contact = contact_at(S, w, k, contact_of(S, guard))
+    if contact.mode == OPEN or (is_friction_guard(S, guard) == 1 and contact.holds == 0):
         return 0
     if S.t - S.chosen_t <= S.time_tolerance:
         return 0

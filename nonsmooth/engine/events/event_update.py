@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.anisotropy import turn_facing, unstretch_force
+from nonsmooth.engine.bodies.anisotropy import along_tangents, turn_facing
 from nonsmooth.engine.bodies.compliance import (
     begin_contact,
     push_compliant,
@@ -185,7 +185,7 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
             contact.event_impulse[r] = impulse
             w[S.event_head + DRIVEN_WORK] -= impulse * contact.prescribed_rate[r]
         if contact.oriented == 1:
-            unstretch_force(S, w, k, c, S.event_impulse + 3 * c)
+            contact.event_friction = along_tangents(S, w, k, c, contact.event_friction)
     return RUNNING
 
 
@@ -421,5 +421,5 @@ def _finish(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
         contact = contact_at(S, w, k, c)
         if code(S, w, k, c) != contact.code_before:
             changed = 1
-    if changed == 1 or cause == 0 or cause == FEATURE_CHANGE:
+    if changed == 1 or cause == START or cause == FEATURE_CHANGE:
         record_event(S, w, k, cause, which, 0)

@@ -21,6 +21,7 @@ from nonsmooth.engine.memory.limits import (
 from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import step_factor
+from nonsmooth.engine.numerics.vectors import dot
 
 _BEGINS = 10.0
 """A compliant contact begins so many gap tolerances from its reach at most."""
@@ -39,8 +40,7 @@ def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     contact = contact_at(S, w, k, c)
     if contact.normal_function == 0 or guard_at(S, w, k, normal_guard(c)).end > _BEGINS * S.gap_tolerance:
         return 1e300
-    rate = contact.rate_end
-    speed = math.sqrt(rate[0] * rate[0] + rate[1] * rate[1] + rate[2] * rate[2])
+    speed = math.sqrt(dot(contact.rate_end, contact.rate_end))
     return float(_FIRST_WAY * contact.size / max(speed, S.velocity_tolerance))
 
 

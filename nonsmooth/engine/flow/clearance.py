@@ -17,15 +17,8 @@ from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.guards import grown, has_fired
-from nonsmooth.engine.memory.blocks import (
-    ACCELERATION,
-    FRAME,
-    GEOMETRY,
-    NORMAL,
-    SPIN,
-    VELOCITY,
-)
-from nonsmooth.engine.memory.layout import FALL, LAST_STAGE, SECTOR, SECTORS
+from nonsmooth.engine.memory.blocks import FRAME
+from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -37,16 +30,15 @@ from nonsmooth.engine.native.kernel import (
     frame_at,
     guard_at,
     kernel,
+    part_end,
 )
 from nonsmooth.engine.numerics.runge_kutta import dense_part
-from nonsmooth.engine.numerics.vectors import minus
+from nonsmooth.engine.numerics.vectors import Vector, cross, distance, dot, minus, scaled
 
 _CURVED = 4.0
 """By so much a curved surface or an edge may turn the normal faster than its body turns."""
-_THETA, _GAP, _RATE, _PAST, _ARM = 0, 1, 2, 3, 4
-"""Where these stand in what is kept of an end of a part of a step."""
-_NOW, _GROWTH, _TURNING = 0, 1, 2
-"""Where these stand in how fast the rate of a gap can fall."""
+UNKNOWN_FALL = -1.0, 0.0, 0.0
+"""How fast the rate of a gap can fall where that has not been looked at."""
 WAY = 0.02
 """Part of the size of the smaller body that features may move unseen where they do not face each other."""
 _RESTS = 10.0
@@ -56,38 +48,14 @@ _COARSE = 0.125
 
 
 @kernel("f8(F, i8, i8)")
-def _dot(w: Floats, a: int, b: int) -> float:
-    return w[a] * w[b] + w[a + 1] * w[b + 1] + w[a + 2] * w[b + 2]
-
-
-@kernel("void(F, i8, i8, f8, i8)")
-def _add_cross(w: Floats, a: int, b: int, factor: float, out: int) -> None:
-    """Add ``factor`` a x b."""
-    w[out] += factor * (w[a + 1] * w[b + 2] - w[a + 2] * w[b + 1])
-    w[out + 1] += factor * (w[a + 2] * w[b] - w[a] * w[b + 2])
-    w[out + 2] += factor * (w[a] * w[b + 1] - w[a + 1] * w[b])
-
-
-@kernel("void(S, F, i8, i8)")
-def _relative_motion(S: Scalars, w: Floats, a: int, b: int) -> None:
-    """Write place, velocity and turning of frame ``b`` relative to frame ``a``, as seen from it, to ``relative``."""
-    d = S.relative
-    for i in range(3):
-        w[d + i] = w[b + i] - w[a + i]
-        w[d + 3 + i] = w[b + VELOCITY + i] - w[a + VELOCITY + i]
-        w[d + 6 + i] = w[b + SPIN + i] - w[a + SPIN + i]
-    _add_cross(w, a + SPIN, d, -1.0, d + 3)
-
-
-@kernel("f8(F, i8, i8)")
-def _speed_seen(w: Floats, a: int, b: int) -> float:
-    """Return the speed of the origin of frame ``b`` as seen from frame ``a`` [m/s]."""
-    x, y, z = w[b] - w[a], w[b + 1] - w[a + 1], w[b + 2] - w[a + 2]
-    ox, oy, oz = w[a + SPIN], w[a + SPIN + 1], w[a + SPIN + 2]
-    vx = w[b + VELOCITY] - w[a + VELOCITY] - oy * z + oz * y
-    vy = w[b + VELOCITY + 1] - w[a + VELOCITY + 1] - oz * x + ox * z
-    vz = w[b + VELOCITY + 2] - w[a + VELOCITY + 2] - ox * y + oy * x
-    return math.sqrt(vx * vx + vy * vy + vz * vz)
+def _speed_seen(w: Floats, frame_a: int, frame_b: int) -> float:
+    """Return the speed of the origin of the second frame as seen from the first [m/s]."""
+    a, b = frame_at(w, frame_a), frame_at(w, frame_b)
+    x, y, z = minus(b.origin, a.origin)
+    ox, oy, oz = a.spin
+    vx, vy, vz = minus(b.velocity, a.velocity)
+    seen = vx - oy * z + oz * y, vy - oz * x + ox * z, vz - ox * y + oy * x
+    return math.sqrt(dot(seen, seen))
 
 
 @kernel("void(S, F, I)")
@@ -110,41 +78,40 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
             speed, turning = _speed_seen(w, a, b), -1.0
             last_a, last_b = a, b
         if lever > 0.0 and turning < 0.0:
-            x, y, z = w[b + SPIN] - w[a + SPIN], w[b + SPIN + 1] - w[a + SPIN + 1], w[b + SPIN + 2] - w[a + SPIN + 2]
-            turning = math.sqrt(x * x + y * y + z * z)
+            turning = distance(frame_at(w, b).spin, frame_at(w, a).spin)
         contact.speed_end = speed + turning * lever if lever > 0.0 else speed
         if lever > 0.0:
-            _write_arm(S, w, k, c, S.arm_end + 3 * c)
+            contact.arm_end = _arm(S, w, k, c)
 
 
-@kernel("void(S, F, I, i8, i8)")
-def _write_arm(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
-    """Write where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
+@kernel("v3(S, F, I, i8)")
+def _arm(S: Scalars, w: Floats, k: Integers, c: int) -> Vector:
+    """Return where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
     contact = contact_at(S, w, k, c)
     if contact.lever_b <= contact.lever_a:
-        arm = minus(contact.point_b, frame_at(w, contact.frame_b).origin)
-    else:
-        arm = minus(contact.point_a, frame_at(w, contact.frame_a).origin)
-    w[out], w[out + 1], w[out + 2] = arm
+        return minus(contact.point_b, frame_at(w, contact.frame_b).origin)
+    return minus(contact.point_a, frame_at(w, contact.frame_a).origin)
 
 
-@kernel("void(S, F, I, i8, i8, i8, i8)")
-def _frame_acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, du: int, out: int) -> None:
-    """Write the acceleration of the origin of a frame and its angular acceleration."""
+@kernel("v3(S, F, I, i8, i8, i8, i8)")
+def _acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, angular: int, du: int) -> Vector:
+    """Return the acceleration of the origin of a frame, or (1) its angular acceleration."""
     contact = contact_at(S, w, k, c)
     frame = contact.frame_a if side == 0 else contact.frame_b
     n_u = contact.nu_a if side == 0 else contact.nu_b
     first = du + body_at(S, w, k, contact.body_a if side == 0 else contact.body_b).u
-    for r in range(6):
-        total = w[frame + ACCELERATION + r]
-        for j in range(n_u):
-            total += w[frame + FRAME + r * n_u + j] * w[first + j]
-        w[out + r] = total
+    x, y, z = frame_at(w, frame).spin_acceleration if angular == 1 else frame_at(w, frame).acceleration
+    row = frame + FRAME + 3 * angular * n_u
+    for j in range(n_u):
+        x += w[row + j] * w[first + j]
+        y += w[row + n_u + j] * w[first + j]
+        z += w[row + 2 * n_u + j] * w[first + j]
+    return x, y, z
 
 
-@kernel("void(S, F, I, i8, i8, i8)")
-def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) -> None:
-    """Write how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
+@kernel("v3(S, F, I, i8, i8)")
+def _fall(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
+    """Return how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
 
     The second number is by how much more for every second of a step, the third how fast the bodies turn.  With the
     normal fixed to the first body a convex second one is no nearer than along this normal, whatever the normal does;
@@ -152,34 +119,29 @@ def write_fall(S: Scalars, w: Floats, k: Integers, c: int, du: int, out: int) ->
     """
     contact = contact_at(S, w, k, c)
     second = contact.lever_b <= contact.lever_a
-    a, b = (contact.frame_a, contact.frame_b) if second else (contact.frame_b, contact.frame_a)
-    _relative_motion(S, w, a, b)
-    d = S.relative
-    velocity, turning, of_a, of_b, carried = d + 3, d + 6, d + 9, d + 15, d + 21
-    _frame_acceleration(S, w, k, c, 0 if second else 1, du, of_a)
-    _frame_acceleration(S, w, k, c, 1 if second else 0, du, of_b)
-    for i in range(6):
-        w[of_b + i] -= w[of_a + i]
+    one, other = (0, 1) if second else (1, 0)
+    a = frame_at(w, contact.frame_a if second else contact.frame_b)
+    b = frame_at(w, contact.frame_b if second else contact.frame_a)
+    spin, way, turning = a.spin, minus(b.origin, a.origin), minus(b.spin, a.spin)
+    velocity = minus(minus(b.velocity, a.velocity), cross(spin, way))
+    linear = minus(_acceleration(S, w, k, c, other, 0, du), _acceleration(S, w, k, c, one, 0, du))
+    alpha = _acceleration(S, w, k, c, one, 1, du)
+    angular = minus(minus(_acceleration(S, w, k, c, other, 1, du), alpha), cross(spin, turning))
     # what the turning of the first body takes away: alpha x d, omega x (omega x d), twice omega x velocity
-    _add_cross(w, of_a + 3, d, -1.0, of_b)
-    for i in range(3):
-        w[carried + i] = 0.0
-    _add_cross(w, a + SPIN, d, -1.0, carried)
-    _add_cross(w, a + SPIN, carried, 1.0, of_b)
-    _add_cross(w, a + SPIN, velocity, -2.0, of_b)
-    _add_cross(w, a + SPIN, turning, -1.0, of_b + 3)
-    along = _dot(w, S.geometry + GEOMETRY * c + NORMAL, of_b)
-    speed, rate = math.sqrt(_dot(w, velocity, velocity)), math.sqrt(_dot(w, turning, turning))
+    linear = minus(minus(linear, cross(alpha, way)), cross(spin, cross(spin, way)))
+    linear = minus(linear, scaled(2.0, cross(spin, velocity)))
+    along = dot(contact.normal, linear)
+    speed, rate = math.sqrt(dot(velocity, velocity)), math.sqrt(dot(turning, turning))
     lever = min(contact.lever_a, contact.lever_b)
     fall = max(0.0, -along if second else along)
-    fall += (math.sqrt(_dot(w, of_b + 3, of_b + 3)) + rate * rate) * lever
+    fall += (math.sqrt(dot(angular, angular)) + rate * rate) * lever
     grows = 0.0
     if lever > 0.0:
         fall += _CURVED * rate * rate * lever
-        grows = _CURVED * rate * math.sqrt(_dot(w, of_b, of_b))
+        grows = _CURVED * rate * math.sqrt(dot(linear, linear))
         if max(contact.lever_a, contact.lever_b) < 1e300:
             fall += _CURVED * rate * speed
-    w[out + _NOW], w[out + _GROWTH], w[out + _TURNING] = fall, grows, rate
+    return fall, grows, rate
 
 
 @kernel("void(S, F, I, f8)")
@@ -192,7 +154,7 @@ def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
         contact = contact_at(S, w, k, c)
         faces = contact.mode == OPEN and contact.past_first <= 0.0
         if faces and guard_at(S, w, k, normal_guard(c)).end <= 2.0 * h * contact.speed_first:
-            write_fall(S, w, k, c, S.slopes + S.n_q, S.fall_first + FALL * c)
+            contact.fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
@@ -216,7 +178,7 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     S.n_doubtful = S.n_astray = 0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        contact.fall_end[_NOW] = -1.0
+        contact.fall_end = UNKNOWN_FALL
         if contact.mode != OPEN:
             continue
         start = 0.0 if guard_at(S, w, k, normal_guard(c)).deflated == 1 else guard_at(S, w, k, normal_guard(c)).first
@@ -227,7 +189,7 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
             k[S.astray + S.n_astray] = c
             S.n_astray += 1
             continue
-        write_fall(S, w, k, c, S.slopes + LAST_STAGE * S.n_y + S.n_q, S.fall_end + FALL * c)
+        contact.fall_end = _fall(S, w, k, c, S.slopes + LAST_STAGE * S.n_y + S.n_q)
         k[S.doubtful + S.n_doubtful] = c
         S.n_doubtful += 1
 
@@ -257,59 +219,61 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
 @kernel("f8(S, F, I, f8, i8)")
 def _largest_fall(S: Scalars, w: Floats, k: Integers, h: float, c: int) -> float:
     """Return how fast the rate of the gap of ``c`` can fall within the step, from how fast it can at its ends."""
-    first, last = S.fall_first + FALL * c, S.fall_end + FALL * c
-    if w[first + _NOW] < 0.0:
+    contact = contact_at(S, w, k, c)
+    if contact.fall_first[0] < 0.0:
         _put(S, w, k, h, 0.0, c)
-        write_fall(S, w, k, c, S.slopes + S.n_q, first)
-    start, end = w[first + _NOW] + h * w[first + _GROWTH], w[last + _NOW] + h * w[last + _GROWTH]
+        contact.fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
+    (first, grows_first, _), (last, grows_last, _) = contact.fall_first, contact.fall_end
+    start, end = first + h * grows_first, last + h * grows_last
     return float(max(start, end) + abs(end - start))
 
 
+@kernel("f8(S, F, I, i8, f8)")
+def _above_start(S: Scalars, w: Floats, k: Integers, c: int, gap: float) -> float:
+    """Return the gap, less what it started from if that was zero."""
+    guard = guard_at(S, w, k, normal_guard(c))
+    return float(gap - guard.start) if guard.deflated == 1 else gap
+
+
 @kernel("void(S, F, I, f8, f8, i8, i8)")
-def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
-    """Write an end of a part of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
-    contact = contact_at(S, w, k, c)
-    gap = contact.gap
+def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, n: int) -> None:
+    """Keep end ``n`` of the parts of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
+    contact, guard, end = contact_at(S, w, k, c), guard_at(S, w, k, normal_guard(c)), part_end(w, S.part_ends, n)
     contact.gap_rate = contact.rate[0]
-    guard_at(S, w, k, normal_guard(c)).value = grown(S, w, k, normal_guard(c), gap, theta * h)
-    if guard_at(S, w, k, normal_guard(c)).value > 0.0:
-        guard_at(S, w, k, normal_guard(c)).armed = 1
-    w[out + _THETA], w[out + _RATE] = theta, contact.rate[0]
-    w[out + _GAP] = (
-        gap - guard_at(S, w, k, normal_guard(c)).start if guard_at(S, w, k, normal_guard(c)).deflated == 1 else gap
-    )
-    w[out + _PAST] = contact.beyond
-    _write_arm(S, w, k, c, out + _ARM)
+    guard.value = grown(S, w, k, normal_guard(c), contact.gap, theta * h)
+    if guard.value > 0.0:
+        guard.armed = 1
+    end.theta, end.gap, end.rate = theta, _above_start(S, w, k, c, contact.gap), contact.gap_rate
+    end.past, end.arm = contact.beyond, _arm(S, w, k, c)
 
 
 @kernel("void(S, F, I, f8, f8, i8, i8)")
-def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, out: int) -> None:
-    """Evaluate the gap of ``c`` at a fraction of the step and write an end of a part of it."""
+def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, n: int) -> None:
+    """Evaluate the gap of ``c`` at a fraction of the step and keep it as end ``n`` of the parts of it."""
     _put(S, w, k, h, theta, c)
     evaluate_rates(S, w, k, c)
-    _keep(S, w, k, h, theta, c, out)
+    _keep(S, w, k, h, theta, c, n)
 
 
 @kernel("i8(F, i8, i8, f8, f8, f8, f8, f8, f8)")
 def stays_open(
-    w: Floats, one: int, two: int, h: float, speed: float, fall: float, turning: float, lever: float, tolerance: float
+    w: Floats, ends: int, n: int, h: float, speed: float, fall: float, turning: float, lever: float, tolerance: float
 ) -> int:
-    """Return 1 if a gap stays above minus the tolerance between two ends of a part of a step, by the bounds.
+    """Return 1 if a gap stays above minus the tolerance between ends 0 and ``n`` of a part of a step, by the bounds.
 
     It is above both parabolas that fall away from its ends, and lowest where they cross.  A witness point that moves
     farther on its body than the body turns, as on a rim next to flat, makes the rate fall by up to as much as two
     points so far apart can differ in.
     """
-    span = (w[two + _THETA] - w[one + _THETA]) * h
-    g0, r0, g1, r1 = w[one + _GAP], w[one + _RATE], w[two + _GAP], w[two + _RATE]
-    if _too_far(g0, w[one + _PAST], g1, w[two + _PAST], span * speed) == 1:
+    one, two = part_end(w, ends, 0), part_end(w, ends, n)
+    span = (two.theta - one.theta) * h
+    g0, r0, g1, r1 = one.gap, one.rate, two.gap, two.rate
+    if _too_far(g0, one.past, g1, two.past, span * speed) == 1:
         return 1
-    if w[one + _PAST] > 0.0 or w[two + _PAST] > 0.0 or min(g0, g1) < -tolerance:
+    if one.past > 0.0 or two.past > 0.0 or min(g0, g1) < -tolerance:
         return 0
     if turning > 0.0:
-        arm0, arm1 = one + _ARM, two + _ARM
-        x, y, z = w[arm1] - w[arm0], w[arm1 + 1] - w[arm0 + 1], w[arm1 + 2] - w[arm0 + 2]
-        fall += 2.0 * turning * max(0.0, math.sqrt(x * x + y * y + z * z) / span - turning * lever)
+        fall += 2.0 * turning * max(0.0, distance(two.arm, one.arm) / span - turning * lever)
     closing = fall * span + r1 - r0
     ahead = g0 - g1 + r1 * span + 0.5 * fall * span * span
     back = g1 - g0 - r0 * span + 0.5 * fall * span * span
@@ -329,50 +293,39 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
     It has been evaluated at ``high`` if the contact stands there (1).
     """
     contact = contact_at(S, w, k, c)
-    left, n = S.sectors, 1
-    deflated = guard_at(S, w, k, normal_guard(c)).deflated == 1
-    w[left + _THETA] = 0.0
-    w[left + _GAP] = contact.gap_first - (guard_at(S, w, k, normal_guard(c)).start if deflated else 0.0)
-    w[left + _RATE], w[left + _PAST] = contact.gap_rate_first, contact.past_first
-    right = left + SECTOR
-    for r in range(3):
-        w[left + _ARM + r], w[right + _ARM + r] = contact.arm_first[r], contact.arm_end[r]
+    left, right, n = part_end(w, S.part_ends, 0), part_end(w, S.part_ends, 1), 1
+    left.theta, left.gap = 0.0, _above_start(S, w, k, c, contact.gap_first)
+    left.rate, left.past, left.arm = contact.gap_rate_first, contact.past_first, contact.arm_first
+    speed = contact.speed_first + contact.speed_end
     if high < 1.0:
         if stands == 1:
-            _keep(S, w, k, h, high, c, right)
+            _keep(S, w, k, h, high, c, 1)
         else:
-            _look(S, w, k, h, high, c, right)
+            _look(S, w, k, h, high, c, 1)
+        if _too_far(left.gap, left.past, right.gap, right.past, high * h * speed) == 1:
+            return 0.0
     else:
-        w[right + _THETA], w[right + _RATE], w[right + _PAST] = 1.0, contact.gap_rate_end, contact.past_end
-        w[right + _GAP] = contact.gap_end - (guard_at(S, w, k, normal_guard(c)).start if deflated else 0.0)
-    speed = contact.speed_first + contact.speed_end
-    if (
-        high < 1.0
-        and _too_far(w[left + _GAP], w[left + _PAST], w[right + _GAP], w[right + _PAST], high * h * speed) == 1
-    ):
-        return 0.0
+        right.theta, right.gap = 1.0, _above_start(S, w, k, c, contact.gap_end)
+        right.rate, right.past, right.arm = contact.gap_rate_end, contact.past_end, contact.arm_end
     fall = _largest_fall(S, w, k, h, c)
-    turning = contact.fall_first[_TURNING] + contact.fall_end[_TURNING]
     lever = min(contact.lever_a, contact.lever_b)
+    turning = contact.turning_first + contact.turning_end if lever > 0.0 else 0.0
     while n > 0:
-        right = left + SECTOR * n
-        span = w[right + _THETA] - w[left + _THETA]
-        proved = stays_open(w, left, right, h, speed, fall, turning if lever > 0.0 else 0.0, lever, S.gap_tolerance)
-        if proved == 0 and n < SECTORS:
-            gaps = max(abs(w[left + _GAP]), abs(w[right + _GAP]))
-            rates = max(abs(w[left + _RATE]), abs(w[right + _RATE]))
+        right = part_end(w, S.part_ends, n)
+        span = right.theta - left.theta
+        if stays_open(w, S.part_ends, n, h, speed, fall, turning, lever, S.gap_tolerance) == 0 and n < PARTS:
+            gaps, rates = max(abs(left.gap), abs(right.gap)), max(abs(left.rate), abs(right.rate))
             rests = gaps <= _RESTS * S.gap_tolerance and rates <= _RESTS * S.velocity_tolerance
-            astray = w[left + _PAST] > 0.0 or w[right + _PAST] > 0.0
+            astray = left.past > 0.0 or right.past > 0.0
             enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * contact.size))
             if span * h > S.time_tolerance and not enough:
                 n += 1
                 S.gap_looks += 1
-                _look(S, w, k, h, w[left + _THETA] + 0.5 * span, c, left + SECTOR * n)
+                _look(S, w, k, h, left.theta + 0.5 * span, c, n)
                 if has_fired(S, w, k, normal_guard(c)) == 1:
-                    return w[left + SECTOR * n + _THETA]
+                    return float(part_end(w, S.part_ends, n).theta)
                 continue
-        for i in range(SECTOR):
-            w[left + i] = w[right + i]
+        left.theta, left.gap, left.rate, left.past, left.arm = right.theta, right.gap, right.rate, right.past, right.arm
         n -= 1
     return 0.0
 
@@ -395,5 +348,5 @@ def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float, ask
             found = high = theta
             stands = 0
         elif S.looked == 1 and (high == 1.0 or c == asked):
-            _look(S, w, k, h, high, c, S.sectors)
+            _look(S, w, k, h, high, c, 0)
     return found

@@ -12,7 +12,7 @@ from nonsmooth.engine.bodies.compliance import (
 )
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.contact.forces import friction_of_slip
-from nonsmooth.engine.contact.held_contacts import hold_contacts, lay_rows
+from nonsmooth.engine.contact.held_contacts import hold_contacts, write_rows
 from nonsmooth.engine.contact.implicit_slip import hold_at_end
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
@@ -65,7 +65,7 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
                 evaluate_compliant_force(S, w, k, c)
             _set_friction(S, w, k, a, y)
             evaluate_bias(S, w, k, c, 1 + 2 * active.tangent_held)
-            lay_rows(S, w, k, a)
+            write_rows(S, w, k, a)
         if implicit:
             hold_at_end(S, w, k)
         else:

@@ -5,8 +5,6 @@ Nothing here looks for events: there are none between a stored state and the tim
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
@@ -30,6 +28,7 @@ from nonsmooth.engine.native.kernel import (
     kernel,
 )
 from nonsmooth.engine.numerics.runge_kutta import step_factor
+from nonsmooth.engine.numerics.vectors import length
 
 _ATTEMPTS = 200
 _EXCESS = 1e-8
@@ -39,15 +38,15 @@ _SHORTEST = 0.1
 
 
 @kernel("void(S, F, I, i8)")
-def orient_slips(S: Scalars, w: Floats, k: Integers, rates: int) -> None:
-    """Take the slip directions of the rates as those of the step that begins."""
+def orient_slips(S: Scalars, w: Floats, k: Integers, at_end: int) -> None:
+    """Take the directions of slips at hand, or of those at the end of the last step (1), for the step that begins."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode == SLIDE:
-            v1, v2 = w[rates + 3 * c + 1], w[rates + 3 * c + 2]
-            speed = math.sqrt(v1 * v1 + v2 * v2)
+            slip = contact.slip_end if at_end == 1 else contact.slip
+            speed = length(slip)
             if speed > S.velocity_tolerance:
-                contact.direction = v1 / speed, v2 / speed
+                contact.direction = slip[0] / speed, slip[1] / speed
 
 
 @kernel("i8(S, F, I)")
@@ -62,7 +61,7 @@ def _turned_round(S: Scalars, w: Floats, k: Integers) -> int:
         contact = contact_at(S, w, k, c)
         if contact.mode == SLIDE and slip_guard(S, w, k, c) < -S.velocity_tolerance:
             against = 1
-    orient_slips(S, w, k, S.rate)
+    orient_slips(S, w, k, 0)
     return against
 
 
@@ -79,12 +78,12 @@ def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
         last = slip_guard(S, w, k, c)
         if contact.mode != SLIDE or last >= -S.velocity_tolerance:
             continue
-        first = guard_at(S, w, k, friction_guard(c)).first
+        first = guard_at(S, w, k, friction_guard(S, c)).first
         if first > S.velocity_tolerance:
             part = min(part, max(_SHORTEST, first / (first - last)))
             continue
         part = 0.0
-        guard_at(S, w, k, friction_guard(c)).first = -first
+        guard_at(S, w, k, friction_guard(S, c)).first = -first
         contact.direction = -contact.direction[0], -contact.direction[1]
     return part
 
@@ -138,9 +137,9 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
             slope(S, w, k, S.t, S.y, S.slopes, 0)
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
-            guard_at(S, w, k, friction_guard(c)).first = slip_guard(S, w, k, c)
-            for r in range(3):
-                contact_at(S, w, k, c).rate_end[r] = contact_at(S, w, k, c).rate[r]
+            guard_at(S, w, k, friction_guard(S, c)).first = slip_guard(S, w, k, c)
+            contact = contact_at(S, w, k, c)
+            contact.rate_end = contact.velocity
         S.relaxation = relaxation(S, w, k)
         left = t - S.t
         h = _found_step(S, w, k, min(wanted, left))

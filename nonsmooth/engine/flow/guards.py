@@ -84,7 +84,7 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
             c = k[S.grouped + i]
             contact = contact_at(S, w, k, c)
             guard_at(S, w, k, normal_guard(c)).value = hold_guard(S, w, k, c)
-            friction = guard_at(S, w, k, friction_guard(c))
+            friction = guard_at(S, w, k, friction_guard(S, c))
             contact.gap_rate = contact.rate[0]
             if contact.mode == STICK:
                 friction.value = contact.static_margin
@@ -96,7 +96,7 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
             guard_at(S, w, k, normal_guard(c)).value = contact.gap
-            guard_at(S, w, k, friction_guard(c)).value = 1.0
+            guard_at(S, w, k, friction_guard(S, c)).value = 1.0
             contact.gap_rate = contact.rate[0]
     for g in range(S.n_own_guards):
         own = own_guard_at(S, w, k, g)
@@ -123,7 +123,7 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
 @kernel("i8(S, F, I, i8)")
 def _is_open(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if the contact whose normal or friction guard ``i`` is, is open."""
-    return 1 if contact_at(S, w, k, contact_of(i)).mode == OPEN else 0
+    return 1 if contact_at(S, w, k, contact_of(S, i)).mode == OPEN else 0
 
 
 @kernel("f8(S, F, I, i8, f8, f8)")
@@ -158,12 +158,8 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
         contact.gap_rate_end = contact.gap_rate
         contact.gap_end = contact.gap
         contact.past_end = contact.beyond
-        for i in range(normal_guard(c), friction_guard(c) + 1):
-            guard = guard_at(S, w, k, i)
-            guard.end = guard.value
-        for r in range(3):
-            contact.rate_end[r] = contact.rate[r]
-    for i in range(first_own_guard(S), number_of_guards(S)):
+        contact.rate_end = contact.velocity
+    for i in range(number_of_guards(S)):
         guard = guard_at(S, w, k, i)
         guard.end = guard.value
 
@@ -185,12 +181,12 @@ def _arm(S: Scalars, w: Floats, k: Integers, i: int) -> None:
 @kernel("f8(S, F, I, i8)")
 def _least(S: Scalars, w: Floats, k: Integers, i: int) -> float:
     """Return above what guard ``i`` of a contact is armed: a force that counts as none is neither positive nor not."""
-    contact = contact_at(S, w, k, contact_of(i))
+    contact = contact_at(S, w, k, contact_of(S, i))
     if contact.mode == OPEN or contact.normal_function != 0:
         return 0.0
     # the bound of friction is none where nothing presses
-    presses = guard_at(S, w, k, normal_guard(contact_of(i))).first > contact.small_force_of
-    return 0.0 if is_friction_guard(i) == 1 and (presses or contact.mode != STICK) else float(contact.small_force_of)
+    presses = guard_at(S, w, k, normal_guard(contact_of(S, i))).first > contact.small_force_of
+    return 0.0 if is_friction_guard(S, i) == 1 and (presses or contact.mode != STICK) else float(contact.small_force_of)
 
 
 @kernel()
@@ -198,9 +194,9 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
     """Take the kept guards as those of the start: arm the positive ones, deflate those that start from zero."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        normal, friction = guard_at(S, w, k, normal_guard(c)), guard_at(S, w, k, friction_guard(c))
+        normal, friction = guard_at(S, w, k, normal_guard(c)), guard_at(S, w, k, friction_guard(S, c))
         _start(S, w, k, normal_guard(c))
-        _start(S, w, k, friction_guard(c))
+        _start(S, w, k, friction_guard(S, c))
         if contact.mode == OPEN:
             if normal.first <= S.gap_tolerance:
                 normal.deflated = 1
@@ -219,7 +215,7 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
             friction.first = 0.0
         rests = contact.mode == OPEN and normal.deflated == 1
         normal.armed = 1 if rests or normal.first > _least(S, w, k, normal_guard(c)) else 0
-        friction.armed = 1 if friction.first > _least(S, w, k, friction_guard(c)) else 0
+        friction.armed = 1 if friction.first > _least(S, w, k, friction_guard(S, c)) else 0
     for g in range(S.n_own_guards):
         guard, own = guard_at(S, w, k, first_own_guard(S) + g), own_guard_at(S, w, k, g)
         _start(S, w, k, first_own_guard(S) + g)
@@ -250,8 +246,8 @@ def _rests(S: Scalars, w: Floats, k: Integers, i: int) -> int:
 
     Beside contacts that hold the bodies a gap drifts with theirs.
     """
-    guard, contact = guard_at(S, w, k, i), contact_at(S, w, k, contact_of(i))
-    if contact.mode != OPEN or is_friction_guard(i) == 1:
+    guard, contact = guard_at(S, w, k, i), contact_at(S, w, k, contact_of(S, i))
+    if contact.mode != OPEN or is_friction_guard(S, i) == 1:
         return 0
     if guard.deflated == 1:
         return 1 if contact.gap_rate > -_ROUND_OFF * S.velocity_tolerance else 0
@@ -262,10 +258,10 @@ def _rests(S: Scalars, w: Floats, k: Integers, i: int) -> int:
 @kernel("f8(S, F, I, i8)")
 def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
     """Return below what guard ``i`` of a contact fires though it is not armed."""
-    guard, contact = guard_at(S, w, k, i), contact_at(S, w, k, contact_of(i))
+    guard, contact = guard_at(S, w, k, i), contact_at(S, w, k, contact_of(S, i))
     if guard.deflated == 1:
         return float(_WRONG_SLIP * S.velocity_tolerance)
-    normal = is_friction_guard(i) == 0
+    normal = is_friction_guard(S, i) == 0
     if normal and (contact.mode == OPEN or contact.normal_function != 0):
         return float(_WRONG_GAP * S.gap_tolerance)
     if normal or (contact.mode == STICK and contact.holds == 1):
@@ -287,13 +283,13 @@ def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap whose rate is known."""
     if i >= first_own_guard(S) or _is_open(S, w, k, i) == 0:
         return 0
-    return 1 if contact_at(S, w, k, contact_of(i)).beyond <= 0.0 else 0
+    return 1 if contact_at(S, w, k, contact_of(S, i)).beyond <= 0.0 else 0
 
 
 @kernel("i8(S, F, I, i8)")
 def _closes_now(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap that has closed no longer ago than instants are told apart."""
-    contact = contact_at(S, w, k, contact_of(i))
+    contact = contact_at(S, w, k, contact_of(S, i))
     late = max(S.gap_tolerance, S.time_tolerance * abs(contact.gap_rate))
     return 1 if is_gap(S, w, k, i) == 1 and contact.gap >= -late else 0
 
@@ -306,13 +302,15 @@ def first_fired(S: Scalars, w: Floats, k: Integers, forces: int, but: int) -> in
     where it was none of them has a root to look for.
     """
     jumps = -1
-    for i in range(first_own_guard(S)):
-        if forces == 0 and _is_open(S, w, k, i) == 0:
+    for c in range(S.n_contacts):
+        is_open = contact_at(S, w, k, c).mode == OPEN
+        if forces == 0 and not is_open:
             continue
-        if i != but and has_fired(S, w, k, i) == 1 and (but < 0 or _closes_now(S, w, k, i) == 0):
-            if _is_open(S, w, k, i) == 0 or is_gap(S, w, k, i) == 1:
-                return i
-            jumps = i if jumps < 0 else jumps
+        for i in (normal_guard(c), friction_guard(S, c)):
+            if i != but and has_fired(S, w, k, i) == 1 and (but < 0 or _closes_now(S, w, k, i) == 0):
+                if not is_open or is_gap(S, w, k, i) == 1:
+                    return i
+                jumps = i if jumps < 0 else jumps
     if jumps >= 0:
         return jumps
     for i in range(first_own_guard(S), number_of_guards(S)):

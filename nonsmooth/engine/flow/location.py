@@ -127,9 +127,8 @@ def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode != OPEN:
-            last = friction_guard(c) if contact.mode == STICK else normal_guard(c)
-            for i in range(normal_guard(c), last + 1):
-                if guard_at(S, w, k, i).armed == 1:
+            for i in (normal_guard(c), friction_guard(S, c)):
+                if guard_at(S, w, k, i).armed == 1 and (i == normal_guard(c) or contact.mode == STICK):
                     theta = _lowest(S, w, k, h, i)
                     if theta > 0.0:
                         return theta
@@ -296,7 +295,7 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
         if is_gap(S, w, k, i) == 1:
-            S.guard_slope = w[S.gap_rate + contact_of(i)]
+            S.guard_slope = contact_at(S, w, k, contact_of(S, i)).gap_rate
             if guard_at(S, w, k, i).deflated == 1:
                 S.guard_slope = (S.guard_slope - g) / (theta * h)
         if g == 0.0 or (high - low) * h <= fine or abs(g) <= -fine * S.guard_slope:
@@ -359,7 +358,7 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
         if guard_at(S, w, k, i).deflated == 1:
             value -= guard_at(S, w, k, i).start
         if is_gap(S, w, k, i) == 1:
-            slope = w[S.gap_rate + contact_of(i)]
+            slope = contact_at(S, w, k, contact_of(S, i)).gap_rate
         elif guard_at(S, w, k, i).deflated == 1:
             value /= step
         # a gap that closes slower than what counts as rest does not tell where
@@ -388,7 +387,7 @@ def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        if contact.mode == OPEN and c != contact_of(i) and contact.beyond <= 0.0:
+        if contact.mode == OPEN and c != contact_of(S, i) and contact.beyond <= 0.0:
             start = min(0.0, guard_at(S, w, k, normal_guard(c)).start)
             if contact.gap < start - _FAR_BEHIND * S.gap_tolerance and contact.gap_rate < 0.0:
                 return 1
@@ -405,7 +404,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """
     closed = _asks_forces(S, w, k)
     first = first_fired(S, w, k, 1, -1)
-    if S.stage_time > 0.0 and 0 <= first < first_own_guard(S) and contact_at(S, w, k, contact_of(first)).mode != OPEN:
+    of_contact = 0 <= first < first_own_guard(S)
+    if S.stage_time > 0.0 and of_contact and contact_at(S, w, k, contact_of(S, first)).mode != OPEN:
         # explicit steps, which are short enough then, find out when
         return -1.0
     theta = high
@@ -426,7 +426,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             fired = first
             first = first_fired(S, w, k, closed, fired)
         if first < 0 and S.n_astray + S.n_doubtful > 0:
-            earlier = _closed_before(S, w, k, h, theta, contact_of(fired))
+            earlier = _closed_before(S, w, k, h, theta, contact_of(S, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
             elif S.n_astray > 0:
@@ -440,7 +440,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     jumps = (
         1
         if fired < first_own_guard(S)
-        and contact_at(S, w, k, contact_of(fired)).mode == OPEN
+        and contact_at(S, w, k, contact_of(S, fired)).mode == OPEN
         and is_gap(S, w, k, fired) == 0
         else 0
     )

@@ -7,7 +7,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_free_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.contact.forces import resolve
-from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, own_block
+from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
 from nonsmooth.engine.memory.modes import JOINTS_APART, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED, RUNNING, STICK
@@ -62,7 +62,7 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     part = _DAMPING if m > 1 else 0.0
     _damp(S, w, k, part)
     resolve(S, w, k)
-    add_response(S, w, k, S.f, S.y + S.n_q)
+    add_response(S, w, k, S.active_forces, S.y + S.n_q)
     loss = 0.0
     for a in range(m):
         active = active_at(S, w, k, a)
@@ -70,7 +70,7 @@ def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
         contact = contact_at(S, w, k, c)
         for r in range(3):
             impulse = active.force[r]
-            damping = own_block(S, w, k, a).entries[4 * r] * part / (1.0 + part)
+            damping = diagonal_block(S, w, k, a).entries[4 * r] * part / (1.0 + part)
             loss -= 0.5 * impulse * (contact.rate[r] - damping * impulse)
             S.driven_work -= impulse * contact.prescribed_rate[r]
     return loss
@@ -81,7 +81,7 @@ def _damp(S: Scalars, w: Floats, k: Integers, part: float) -> None:
     """Add a part of its diagonal to the Delassus matrix of the active contacts."""
     for a in range(S.n_active):
         for r in range(3):
-            own_block(S, w, k, a).entries[4 * r] *= 1.0 + part
+            diagonal_block(S, w, k, a).entries[4 * r] *= 1.0 + part
 
 
 @kernel("i8(S, F, I)")
@@ -114,7 +114,7 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
     if m > 1:
         _damp(S, w, k, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
     resolve(S, w, k)
-    add_response(S, w, k, S.f, S.y_stage + S.n_q)
+    add_response(S, w, k, S.active_forces, S.y_stage + S.n_q)
     return 1
 
 

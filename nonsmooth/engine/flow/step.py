@@ -83,7 +83,7 @@ def relaxation(S: Scalars, w: Floats, k: Integers) -> float:
             return 0.0
         if contact.mode == SLIDE:
             friction = math.hypot(contact.force[1], contact.force[2])
-            speed = math.hypot(contact.rate_end[1], contact.rate_end[2])
+            speed = math.hypot(contact.slip_end[0], contact.slip_end[1])
             fastest = max(fastest, contact.mobility * friction / max(speed, _SLOWEST * S.velocity_tolerance))
     return fastest
 

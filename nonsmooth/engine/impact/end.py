@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact.forces import resolve
-from nonsmooth.engine.delassus.delassus import own_block
+from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
@@ -58,7 +58,7 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
-        if loaded and abs(active.gap_rate) > REST * math.sqrt(brought * own_block(S, w, k, a).nn):
+        if loaded and abs(active.gap_rate) > REST * math.sqrt(brought * diagonal_block(S, w, k, a).nn):
             return 0
     size = left = 0.0
     for a in range(S.n_active):

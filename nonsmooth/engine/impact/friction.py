@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import friction_coefficient
-from nonsmooth.engine.delassus.delassus import add_product, own_block
+from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, evaluate_impact_rates, normal_force
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -53,11 +53,11 @@ def _hold_idle(S: Scalars, w: Floats, k: Integers) -> None:
     largest = 0.0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        largest = max(largest, own_block(S, w, k, a).nn * active.normal_force)
+        largest = max(largest, diagonal_block(S, w, k, a).nn * active.normal_force)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         if active.at_rest == 1 and active.tangent_held == 0 and active.mu_static > 0.0:
-            growth = add_product(S, w, k, 0.0, a, 1, S.f), add_product(S, w, k, 0.0, a, 2, S.f)
+            growth = add_product(S, w, k, 0.0, a, 1, S.active_forces), add_product(S, w, k, 0.0, a, 2, S.active_forces)
             if length(growth) <= _IDLE * largest:
                 active.tangent_held = 1
 
@@ -105,7 +105,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         friction_of_slip(S, w, k, a)
     if open_question == 1:
         for i in range(3 * S.n_active):
-            w[S.b + i] = 0.0
+            w[S.free_accelerations + i] = 0.0
         gauss_seidel(S, w, k, SWEEPS)
         _hold_idle(S, w, k)
     for a in range(S.n_active):

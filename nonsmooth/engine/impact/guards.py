@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact.forces import evaluate_margins
-from nonsmooth.engine.delassus.delassus import own_block
+from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import (
     COMPRESSION,
     EXPANSION,
@@ -226,7 +226,7 @@ def aim(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     active = active_at(S, w, k, a)
     shortest = h
     contact = contact_at(S, w, k, active.slot)
-    rate, force, own = active.rate, active.force, own_block(S, w, k, a).entries
+    rate, force, own = active.rate, active.force, diagonal_block(S, w, k, a).entries
     growth = slip = slip_growth = 0.0
     for j in range(3):
         growth += own[j] * force[j]

@@ -6,8 +6,8 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
 from nonsmooth.engine.contact.newton import STAGES, search_by_newton
-from nonsmooth.engine.contact.problem import friction_coefficient, lay_friction
-from nonsmooth.engine.delassus.delassus import add_product, own_block, write_dense
+from nonsmooth.engine.contact.problem import friction_coefficient, write_friction
+from nonsmooth.engine.delassus.delassus import add_product, diagonal_block, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
@@ -40,7 +40,7 @@ def _stop_singular(S: Scalars, w: Floats, k: Integers) -> int:
         if contact.mode == SLIDE and contact.normal_function == 0 and speed > 0.0:
             active.mu = friction_coefficient(S, w, k, active.slot, speed)
             active.direction = contact.slip[0] / speed, contact.slip[1] / speed
-            if reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * own_block(S, w, k, a).nn:
+            if reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * diagonal_block(S, w, k, a).nn:
                 active.tangent_held = jammed = 1
         for r in range(3):
             active.free[r] = contact.rate[r]
@@ -86,7 +86,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         moved = max(moved, contact.released)
         for r in range(3):
             active.impulse[r] = active.force[r]
-            if abs(add_product(S, w, k, 0.0, a, r, S.f)) > _MOVED * S.velocity_tolerance:
+            if abs(add_product(S, w, k, 0.0, a, r, S.active_forces)) > _MOVED * S.velocity_tolerance:
                 moved = 1
     _split_loss(S, w, k)
     return moved
@@ -94,14 +94,14 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
 
 @kernel("void(S, F, I, f8)")
 def _find_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
-    """Write to ``f`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
+    """Write to ``active_forces`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
 
-    The rates are those at hand and what the accelerations, which stand in ``b``, make of them in a ``moment`` [s].
+    The rates are those at hand and what the ``free_accelerations`` make of them in a ``moment`` [s].
     """
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
-        lay_friction(S, w, k, a)
+        write_friction(S, w, k, a)
         rests, slips = abs(contact.rate[0]) <= S.velocity_tolerance, active.at_rest == 0
         active.mu_static = active.mu = active.mu if slips else active.mu_static
         active.at_rest = active.normal_held = active.tangent_held = 1

@@ -192,7 +192,7 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float, seed: float) 
     pressed = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        growth = add_product(S, w, k, 0.0, a, 0, S.f)
+        growth = add_product(S, w, k, 0.0, a, 0, S.active_forces)
         if active.phase == IDLE and growth < 0.0 and active.gap_rate_before <= S.rest_speed:
             active.phase = COMPRESSION
             S.phases += 1
@@ -212,7 +212,9 @@ def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
         v1, v2 = active.slip
         if length(active.slip) > active.rest_slip:
             continue
-        power = v1 * add_product(S, w, k, 0.0, a, 1, S.f) + v2 * add_product(S, w, k, 0.0, a, 2, S.f)
+        power = v1 * add_product(S, w, k, 0.0, a, 1, S.active_forces) + v2 * add_product(
+            S, w, k, 0.0, a, 2, S.active_forces
+        )
         slow = 1
         if power < 0.0:
             S.slow_steps = _PATIENCE

@@ -77,7 +77,7 @@ def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
 
 @entry_point("void(S, F, I, i8)")
 def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
-    """Write the forces ``f`` of the active contacts at the impact state ``y`` in the present phases."""
+    """Write the ``active_forces`` of the active contacts at the impact state ``y`` in the present phases."""
     evaluate_impact_rates(S, w, k, y)
     held = 0
     for a in range(S.n_active):
@@ -95,7 +95,7 @@ def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
             friction_of_slip(S, w, k, a)
     if held > 0:
         for i in range(3 * S.n_active):
-            w[S.b + i] = 0.0
+            w[S.free_accelerations + i] = 0.0
         resolve(S, w, k)
 
 

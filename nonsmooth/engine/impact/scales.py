@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.delassus.delassus import own_block
+from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_scalar, contact_at, kernel
 
 REST = 1e-9
@@ -32,16 +32,16 @@ def scale_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> float:
         speed = max(seed, -active.gap_rate_before)
         S.speed_scale = max(S.speed_scale, speed)
         if speed > 0.0:
-            brought = max(brought, speed * speed / own_block(S, w, k, a).nn)
+            brought = max(brought, speed * speed / diagonal_block(S, w, k, a).nn)
     S.rest_speed = max(REST, _CIRCLING * S.impact_rtol) * S.speed_scale
     shortest = _UNUSED
     for a in range(m):
         active = active_at(S, w, k, a)
-        energy = min(brought, S.speed_scale * S.speed_scale / own_block(S, w, k, a).nn)
+        energy = min(brought, S.speed_scale * S.speed_scale / diagonal_block(S, w, k, a).nn)
         x = 1.0
         active.energy_scale = energy
         # the impulse that takes it up
-        active.impulse_scale = math.sqrt(energy / own_block(S, w, k, a).nn)
+        active.impulse_scale = math.sqrt(energy / diagonal_block(S, w, k, a).nn)
         if a != S.lone:
             contact = contact_at(S, w, k, active.slot)
             for _iteration in range(4):
@@ -66,7 +66,7 @@ def scale_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> float:
 def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     """Return the slip of the active contact ``a`` that counts as none: small by its energy, or within the error."""
     active = active_at(S, w, k, a)
-    own = own_block(S, w, k, a)
+    own = diagonal_block(S, w, k, a)
     moved = 0.0
     for block in range(active.first_block, active.end_block):
         impulse = active_at(S, w, k, k[S.block_column + block]).impulse_scale

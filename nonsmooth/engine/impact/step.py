@@ -8,17 +8,15 @@ Linearly implicit Euler steps, 1 to 6 in one of ``h``, have no such bound; their
 
 from __future__ import annotations
 
-from nonsmooth.engine.delassus.delassus import own_block
+from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import DEFORMATION, STRIDE, evaluate_impact_rates, impact_slope
 from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES, STIFF
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, impact_state, kernel
+from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES, STIFF_SLIPS
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, impact_state, kernel, stiff_slip_at
 from nonsmooth.engine.numerics.linear import eliminate
 from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes
 from nonsmooth.engine.numerics.vectors import length
 
-_SLIPS = 2
-"""Slip components of a contact."""
 _EXTRAPOLATED = 6
 """Results that are extrapolated; they lie where the stages of the explicit step do, behind the first."""
 _STIFF = 1.0
@@ -66,24 +64,26 @@ def _relative_error(S: Scalars, w: Floats, k: Integers) -> float:
 
 @kernel("i8(S, F, I, f8)")
 def _find_stiff(S: Scalars, w: Floats, k: Integers, h: float) -> int:
-    """List the contacts whose slip turns too fast for an explicit step of ``h`` in ``stiff``; return how many."""
+    """List the components of slips that turn too fast for an explicit step of ``h``; return how many."""
     evaluate_impact_rates(S, w, k, S.impact_y)
     stiff = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         speed = length(active.slip)
-        if active.tangent_held == 1 or not speed > active.rest_slip or stiff == STIFF:
+        if active.tangent_held == 1 or not speed > active.rest_slip or stiff == STIFF_SLIPS:
             continue
-        friction, own = impact_state(w, S.impact_slopes, a).friction, own_block(S, w, k, a)
+        friction, own = impact_state(w, S.impact_slopes, a).friction, diagonal_block(S, w, k, a)
         if h * length(friction) * max(own.t11, own.t22) > _STIFF * speed:
-            k[S.stiff + stiff] = a
-            stiff += 1
+            for r in range(1, 3):
+                slip = stiff_slip_at(S, w, k, stiff)
+                slip.contact, slip.direction = a, r
+                stiff += 1
     return stiff
 
 
 @kernel("f8(S, F, I, f8, i8)")
 def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int) -> float:
-    """Take one step of ``h`` to ``impact_new``, implicit at the ``stiff`` contacts; return its relative error.
+    """Take one step of ``h`` to ``impact_new``, implicit in so many components of slip; return its relative error.
 
     Leaves slopes from which the dense output of the explicit step makes the cubic through both ends.
     """
@@ -124,46 +124,35 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int)
     return error
 
 
-@kernel("i8(S, I, i8)")
-def _stiff_contact(S: Scalars, k: Integers, j: int) -> int:
-    """Return the active contact that slip component ``j`` is of, two to each of the stiff ones."""
-    return k[S.stiff + j // _SLIPS]
-
-
-@kernel("i8(i8)")
-def _tangent(j: int) -> int:
-    """Return the direction of slip component ``j``, 1 or 2."""
-    return 1 + j % _SLIPS
-
-
 @kernel("void(S, F, I, i8)")
 def _differentiate(S: Scalars, w: Floats, k: Integers, stiff: int) -> None:
-    """Write the derivatives of the slope by the slips of the ``stiff`` contacts, and the slips that those make."""
+    """Write the derivatives of the slope by the ``stiff`` components of slip, and the slips that those make."""
     n = STRIDE * S.n_active
-    for j in range(2 * stiff):
-        a = _stiff_contact(S, k, j)
-        active = active_at(S, w, k, a)
-        column, component = S.stiff_slopes + j * n, S.impact_z0 + 3 * a + _tangent(j)
+    for j in range(stiff):
+        slip = stiff_slip_at(S, w, k, j)
+        active = active_at(S, w, k, slip.contact)
+        column = S.stiff_slopes + j * n
         evaluate_impact_rates(S, w, k, S.impact_y)
-        kept, change = w[component], _NEAR * length(active.slip)
-        w[component] += change
-        change = w[component] - kept
+        kept, change = active.rate_before[slip.direction], _NEAR * length(active.slip)
+        active.rate_before[slip.direction] += change
+        change = active.rate_before[slip.direction] - kept
         impact_slope(S, w, k, S.impact_y, column)
-        w[component] = kept
+        active.rate_before[slip.direction] = kept
         for i in range(n):
             w[column + i] = (w[column + i] - w[S.impact_slopes + i]) / change
-        for i in range(2 * stiff):
-            w[S.stiff_rates + 2 * stiff * i + j] = _slip_of(S, w, k, i, column)
+        for i in range(stiff):
+            w[S.stiff_rates + stiff * i + j] = _slip_of(S, w, k, i, column)
 
 
 @kernel("f8(S, F, I, i8, i8)")
 def _slip_of(S: Scalars, w: Floats, k: Integers, i: int, impulses: int) -> float:
-    """Return the component ``i`` of the slips of the stiff contacts that the impulses make, which lie in a state."""
-    r = 3 * _tangent(i)
-    active = active_at(S, w, k, _stiff_contact(S, k, i))
+    """Return the stiff component ``i`` of slip that the impulses make, which lie in a state."""
+    slip = stiff_slip_at(S, w, k, i)
+    active = active_at(S, w, k, slip.contact)
     total = 0.0
     for block in range(active.first_block, active.end_block):
-        g, p = at(w, S.delassus + 9 * block + r), impact_state(w, impulses, k[S.block_column + block]).impulse
+        g = at(w, S.delassus + 9 * block + 3 * slip.direction)
+        p = impact_state(w, impulses, k[S.block_column + block]).impulse
         total += g[0] * p[0] + g[1] * p[1] + g[2] * p[2]
     return total
 
@@ -176,16 +165,15 @@ def _euler_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int, slope:
     (1 - h V D) v = h V slope.
     """
     n = STRIDE * S.n_active
-    m = 2 * stiff
-    for i in range(m):
-        for j in range(m):
-            w[S.stiff_matrix + m * i + j] = (1.0 if i == j else 0.0) - h * w[S.stiff_rates + m * i + j]
+    for i in range(stiff):
+        for j in range(stiff):
+            w[S.stiff_matrix + stiff * i + j] = (1.0 if i == j else 0.0) - h * w[S.stiff_rates + stiff * i + j]
         w[S.stiff_slip + i] = h * _slip_of(S, w, k, i, slope)
-    if eliminate(w, S.stiff_matrix, m, m, S.stiff_slip, 0.0) == 0:
+    if eliminate(w, S.stiff_matrix, stiff, stiff, S.stiff_slip, 0.0) == 0:
         return 0
     for i in range(n):
         w[S.impact_new + i] += h * w[slope + i]
-    for j in range(m):
+    for j in range(stiff):
         change = h * w[S.stiff_slip + j]
         for i in range(n):
             w[S.impact_new + i] += change * w[S.stiff_slopes + j * n + i]

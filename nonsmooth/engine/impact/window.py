@@ -42,18 +42,19 @@ _LAYERS = 4
 _FAINT = 30.0
 """Rates and deformations of the error of so many steps are not told from rest behind the wave."""
 _MOST_WINDOWS = 1000000
-_SIDES = 2
-"""Entries of a contact in the chains of its articulations."""
 
 
 @kernel("void(S, F, I)")
 def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
-    """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their articulations."""
+    """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their articulations.
+
+    An articulation has a list of entries: first ones of all contacts, and second ones behind those of all slots.
+    """
     S.n_colliding = S.n_active
     for number in range(S.n_articulations):
         articulation_at(S, w, k, number).head = -1
     for i in range(S.n_u):
-        w[S.u_impact + i] = w[S.own + i]
+        w[S.u_impact + i] = w[S.free_velocities + i]
     for i in range(S.n_colliding):
         c = k[S.active + i]
         contact = contact_at(S, w, k, c)
@@ -65,8 +66,9 @@ def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
             contact.total[j] = 0.0
         for side in range(2):
             articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
-            k[S.chain + _SIDES * c + side] = articulation.head
-            articulation.head = _SIDES * c + side
+            entry = side * S.n_slots + c
+            k[S.chain + entry] = articulation.head
+            articulation.head = entry
 
 
 @kernel("void(S, F, I, f8)")
@@ -93,7 +95,7 @@ def _draw(S: Scalars, w: Floats, k: Integers, fastest: float) -> None:
                 articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
                 entry = articulation.head if articulation.nu > 0 else -1
                 while entry >= 0:
-                    other = entry // _SIDES
+                    other = entry if entry < S.n_slots else entry - S.n_slots
                     neighbour = contact_at(S, w, k, other)
                     if neighbour.depth < 0:
                         neighbour.depth = layer

@@ -15,7 +15,8 @@ from nonsmooth.engine.memory.blocks import (
     TANGENT,
     TURN_MATRIX,
 )
-from nonsmooth.engine.memory.fields import Field, Fields, geometry, one, row, rows, stride_of, vector, without
+from nonsmooth.engine.memory.fields import Field, Fields, geometry, one, packed, row, rows, stride_of, vector, without
+from nonsmooth.engine.memory.layout import PART_END
 
 CONTACT: Fields = {
     **rows(
@@ -91,15 +92,10 @@ CONTACT: Fields = {
         "gap_rate_end",
         "gap_first",
         "gap_end",
-        "rate_end",
         "past_first",
         "past_end",
         "speed_first",
         "speed_end",
-        "fall_first",
-        "fall_end",
-        "arm_first",
-        "arm_end",
         "feature",
         # how its events crowd
         "crowd_start",
@@ -141,6 +137,15 @@ CONTACT: Fields = {
     "slip_of_tangents": vector("slip"),
     "skew_1": vector("skew", 0),
     "skew_2": vector("skew", 2),
+    "fall_first": vector("fall_first", 0, 3),
+    "fall_end": vector("fall_end", 0, 3),
+    "rate_end": vector("rate_end", 0, 3),
+    "slip_end": vector("rate_end", 1),
+    "event_friction": vector("event_impulse", 1),
+    "turning_first": one("fall_first", 2),
+    "turning_end": one("fall_end", 2),
+    "arm_first": vector("arm_first", 0, 3),
+    "arm_end": vector("arm_end", 0, 3),
     "direction": vector("direction"),
     "direction_agreed": vector("direction_agreed"),
     "total": row("impact_total"),
@@ -174,21 +179,21 @@ ACTIVE: Fields = {
         "freed",
         "acceleration",
     ),
-    "force": row("f"),
-    "normal_force": one("f"),
-    "friction": vector("f", 1),
-    "free": row("b"),
+    "force": row("active_forces"),
+    "normal_force": one("active_forces"),
+    "friction": vector("active_forces", 1),
+    "free": row("free_accelerations"),
     "normal_acceleration": one("acceleration"),
     "slip_acceleration": vector("acceleration", 1),
-    "direction": vector("d"),
-    "direction_found": vector("d_found"),
-    "direction_closed": vector("d_closed"),
+    "direction": vector("active_directions"),
+    "direction_found": vector("active_directions_found"),
+    "direction_closed": vector("active_directions_closed"),
     # its rows of the matrices: unknowns, and blocks of the Delassus matrix
     "first_unknown": Field("first_unknown", 1),
     "end_unknown": Field("first_unknown", 1, 1),
     "first_block": Field("block_start", 1, behind="first_grouped"),
     "end_block": Field("block_start", 1, 1, behind="first_grouped"),
-    "own_block": Field("own_block", 1, behind="first_grouped"),
+    "diagonal_block": Field("diagonal_block", 1, behind="first_grouped"),
     "block_count": one("block_count"),
     "block_mark": one("block_mark"),
     "rank": one("rank"),
@@ -227,7 +232,26 @@ GUARD: Fields = {
     "armed": Field("guard_armed", 1),
     "deflated": Field("guard_deflated", 1),
 }
-"""Of a guard of the flow, three of each contact, then those of the scenario."""
+"""Of a guard of the flow (:mod:`nonsmooth.engine.flow.guard_numbers`)."""
+
+UNKNOWN: Fields = {
+    "contact": Field("unknown_contact", 1),
+    "direction": Field("unknown_direction", 1),
+    "turn": Field("unknown_turn", 1),
+}
+"""Of an unknown of the contact problem: the active contact, 0 for n, 1 for t1, 2 for t2, and whether it is a turn."""
+
+STIFF_SLIP: Fields = {"contact": Field("stiff_contact", 1), "direction": Field("stiff_direction", 1)}
+"""Of a component of slip that a step of an impact treats implicitly: the active contact, 1 for t1, 2 for t2."""
+
+PART_OF_STEP: Fields = {
+    "theta": packed(0, 1, PART_END),
+    "gap": packed(1, 1, PART_END),
+    "rate": packed(2, 1, PART_END),
+    "past": packed(3, 1, PART_END),
+    "arm": packed(4, 3, PART_END),
+}
+"""Of an end of a part of a step: fraction, gap, its rate, how far past the end of the features, witness arm."""
 
 IMPACT_STATE: Fields = {
     "impulse": Field("", 8, 0, 3),

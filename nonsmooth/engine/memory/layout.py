@@ -1,8 +1,8 @@
 """The engine's memory: one table of scalars, one of float arrays, one of integer arrays.
 
 Everything that the engine knows stands in one record ``S`` of scalars and two heaps.  An entry of
-``S`` named after an array holds the offset of that array in its heap, so ``w[S.gap + c]`` is the gap
-of contact ``c`` and ``k[S.mode + c]`` its mode.  All sizes are run-time counts: another number of
+``S`` named after an array holds the offset of that array in its heap, so ``w[S.gap_rate + c]`` is the gap
+rate of contact ``c`` and ``k[S.mode + c]`` its mode.  All sizes are run-time counts: another number of
 bodies or contacts is another set of offsets, never another compilation.
 
 What plug-ins write stands in blocks of their own (:mod:`nonsmooth.engine.memory.blocks`).
@@ -57,12 +57,10 @@ CONTACT_TIME, DIRECTION, REACH, CLOSING_RATE, LEVERS, SIZE = 0, 1, 3, 4, 5, 7
 """Where these floats of a declared contact stand: slip direction, levers of both bodies, size of the smaller one."""
 CATALOGUE_FLOATS = 8
 """How many they are."""
-SECTORS = 48
+PARTS = 48
 """Halvings of a step in search of a gap that closes: as many as its fractions can be told apart."""
-SECTOR = 7
-"""Floats of an end of a part of a step: fraction, gap, gap rate, how far past the end of the features, witness arm."""
-FALL = 3
-"""Floats of how fast the rate of a gap can fall: now, by how much more each second, and the turning [rad/s]."""
+PART_END = 7
+"""Floats of an end of a part of a step."""
 ORIENTED = 7
 """Numbers of an anisotropic law: side of the body, its axis, friction forward, backward and across."""
 DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
@@ -75,8 +73,8 @@ MOST_BLOCKS = 2**22
 """Pairs of contacts that act on one another, of which a system has room for all up to so many."""
 MOST_ENTRIES = 2**26
 """Entries of a matrix of the contacts' unknowns, of which there is room for all up to so many."""
-STIFF = 8
-"""Contacts of an impact, at most, whose stiff slips are integrated implicitly."""
+STIFF_SLIPS = 16
+"""Components of slip, two to each contact, at most that a step of an impact treats implicitly."""
 N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair;"""
 LAST_STAGE = N_STAGES - 1

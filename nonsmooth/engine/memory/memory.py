@@ -139,15 +139,15 @@ class Memory:
 
 
 ALWAYS = ("bodies", "numerics", "events")
-"""Rooms whose arrays every engine needs: where things are, coefficients, and what is recorded."""
+"""Layers whose arrays every engine needs: where things are, coefficients, and what is recorded."""
 
 
-def allocate(counts: Mapping[str, int], rooms: Collection[str]) -> Memory:
-    """Lay out the arrays of some rooms for the given counts, all of ``COUNTS``; others have no length.
+def allocate(counts: Mapping[str, int], layers: Collection[str]) -> Memory:
+    """Lay out the arrays of some layers for the given counts, all of ``COUNTS``; others have no length.
 
     Blocks are appended by :class:`Heap`.
     """
-    laid = {*ALWAYS, *rooms}
+    laid = {*ALWAYS, *layers}
     values: dict[str, float] = dict.fromkeys(SCALARS.names or (), 0)
     totals: list[int] = []
     for table in (FLOAT_ARRAYS, INTEGER_ARRAYS):

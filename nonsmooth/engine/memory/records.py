@@ -21,7 +21,17 @@ from nonsmooth.engine.memory.body_records import (
     UNIT,
     WRENCH_OF_LOAD,
 )
-from nonsmooth.engine.memory.contact_records import ACTIVE, CONTACT, DELASSUS_BLOCK, GUARD, IMPACT_STATE, OWN_GUARD
+from nonsmooth.engine.memory.contact_records import (
+    ACTIVE,
+    CONTACT,
+    DELASSUS_BLOCK,
+    GUARD,
+    IMPACT_STATE,
+    OWN_GUARD,
+    PART_OF_STEP,
+    STIFF_SLIP,
+    UNKNOWN,
+)
 from nonsmooth.engine.memory.fields import Fields
 
 RECORDS: Mapping[str, Fields] = {
@@ -35,10 +45,13 @@ RECORDS: Mapping[str, Fields] = {
     "pool": POOL,
     "own_guard": OWN_GUARD,
     "guard": GUARD,
+    "unknown": UNKNOWN,
+    "stiff_slip": STIFF_SLIP,
 }
 """Records whose fields stand in arrays, by kind."""
 PACKED: Mapping[str, Fields] = {
     "impact_state": IMPACT_STATE,
+    "part_end": PART_OF_STEP,
     "delassus_block": DELASSUS_BLOCK,
     "joint_row": ROW_OF_JOINT,
     "frame": FRAME_OF_BODY,

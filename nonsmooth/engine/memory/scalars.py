@@ -15,7 +15,7 @@ INTEGER_SCALARS = (
     "n_loads",
     "n_joints",
     "n_articulations",
-    "own",
+    "free_velocities",
     "n_q",
     "n_u",
     "n_y",

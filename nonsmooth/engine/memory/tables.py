@@ -1,4 +1,4 @@
-"""The tables of the memory: all arrays of all rooms in order, the record of scalars, and the counts that size them.
+"""The tables of the memory: all arrays of all layers in order, the record of scalars, and the counts that size them.
 
 Everything that the engine knows stands in one record ``S`` of scalars and two heaps.  An entry of ``S`` named after an
 array holds the offset of that array in its heap.
@@ -23,7 +23,7 @@ ARRAYS_OF: dict[str, Arrays] = {
     "impact": impact.ARRAYS,
     "flow": flow.ARRAYS,
 }
-"""The arrays by the room of the engine that owns them."""
+"""The arrays by the layer of the engine that owns them."""
 FLOAT_ARRAYS: dict[str, Size] = {
     **{name: size for arrays in ARRAYS_OF.values() for name, size in arrays.floats.items()},
     **{name: size for arrays in ARRAYS_OF.values() for name, size in arrays.later_floats.items()},
@@ -33,12 +33,12 @@ INTEGER_ARRAYS: dict[str, Size] = {
     **{name: size for arrays in ARRAYS_OF.values() for name, size in arrays.later_integers.items()},
 }
 OWNER = {
-    name: room
-    for room, arrays in ARRAYS_OF.items()
+    name: layer
+    for layer, arrays in ARRAYS_OF.items()
     for table in (arrays.floats, arrays.integers, arrays.later_floats, arrays.later_integers)
     for name in table
 }
-"""The room of the engine that an array belongs to."""
+"""The layer of the engine that an array belongs to."""
 
 SCALARS = np.dtype(
     [(name, "i8") for name in INTEGER_SCALARS]

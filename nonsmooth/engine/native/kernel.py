@@ -57,6 +57,10 @@ load_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["load"]
 """a load,"""
 unit_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unit"]
 """a unit,"""
+unknown_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unknown"]
+"""an unknown of the contact problem,"""
+stiff_slip_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["stiff_slip"]
+"""a stiff component of slip in an impact,"""
 pool_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pool"]
 """a pool,"""
 guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["guard"]
@@ -106,6 +110,9 @@ forget_watch: Callable[[int], None] = _half.forget_watch
 """Give up an address of :func:`watch_address`."""
 call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _half.call_support
 """Call ``support(direction, parameters, point)`` at the address at a place of a heap, the parameters behind it."""
+
+part_end: Callable[[Floats, int, int], Any] = _half.records["part_end"]
+"""``part_end(w, S.part_ends, n)``: an end of a part of a step by name."""
 
 block_at: Callable[[Floats, int], Floats] = _half.block_at
 """What stands in a block from a place on, for the functions of plug-ins."""
@@ -160,9 +167,12 @@ __all__ = [
     "load_at",
     "load_wrench",
     "own_guard_at",
+    "part_end",
     "pool_at",
     "shared",
+    "stiff_slip_at",
     "unit_at",
+    "unknown_at",
     "unshared",
     "watch_address",
 ]

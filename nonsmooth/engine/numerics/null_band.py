@@ -70,7 +70,7 @@ def _remove_null(S: Scalars, w: Floats, n: int, v: int) -> None:
 
 
 @kernel("f8(S, F, i8, i8, i8)")
-def _lay_residual(S: Scalars, w: Floats, n: int, x: int, out: int) -> float:
+def _write_residual(S: Scalars, w: Floats, n: int, x: int, out: int) -> float:
     """Write what ``x`` leaves of ``right`` to ``out``; return the largest of it."""
     worst = 0.0
     for i in range(n):
@@ -94,7 +94,7 @@ def _is_symmetric(S: Scalars, w: Floats, n: int) -> int:
 
 
 @kernel("void(S, F, i8)")
-def _lay_square(S: Scalars, w: Floats, n: int) -> None:
+def _write_square(S: Scalars, w: Floats, n: int) -> None:
     """Write H, of half band ``null_half``, to ``basis``."""
     half = S.half_band
     if _is_symmetric(S, w, n) == 1:
@@ -123,7 +123,7 @@ def least_norm_in_band(S: Scalars, w: Floats, n: int) -> None:
     if n * band_width(n, 2 * S.half_band) > MOST_ENTRIES:
         S.crowded = 1
         return
-    _lay_square(S, w, n)
+    _write_square(S, w, n)
     largest = largest_diagonal(w, S.basis, n, S.null_half)
     S.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
     copy_shifted(w, S.basis, n, S.null_half, S.null, S.null_shift)
@@ -134,7 +134,7 @@ def least_norm_in_band(S: Scalars, w: Floats, n: int) -> None:
         w[total + i] = w[S.x + i] = 0.0
         size = max(size, abs(w[S.right + i]))
     for _round in range(_ROUNDS):
-        left = _lay_residual(S, w, n, total, S.sigma + n)
+        left = _write_residual(S, w, n, total, S.sigma + n)
         if not left <= before:
             for i in range(n):
                 w[total + i] -= w[S.x + i]

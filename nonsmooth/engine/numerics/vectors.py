@@ -31,6 +31,12 @@ def opposite(a: Vector) -> Vector:
     return -a[0], -a[1], -a[2]
 
 
+@kernel("v3(f8, v3)")
+def scaled(factor: float, a: Vector) -> Vector:
+    """Return factor a."""
+    return factor * a[0], factor * a[1], factor * a[2]
+
+
 @kernel("f8(v3, v3)")
 def dot(a: Vector, b: Vector) -> float:
     """Return a . b."""

@@ -1,1 +1,1 @@
-"""The arrays of the memory, room by room: whose a scratch array is, and how long."""
+"""The arrays of the memory, layer by layer: whose a scratch array is, and how long."""

@@ -1,4 +1,4 @@
-"""Arrays: what one room of the engine works with, and functions that give lengths."""
+"""Arrays: what one layer of the engine works with, and functions that give lengths."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Size: TypeAlias = Callable[[Counts], int]
 @final
 @dataclass(frozen=True)
 class Arrays:
-    """The arrays of a room: the length of each as a function of the counts of a system.
+    """The arrays of a layer: the length of each as a function of the counts of a system.
 
     Attributes
     ----------

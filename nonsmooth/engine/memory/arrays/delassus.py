@@ -19,7 +19,7 @@ ARRAYS = Arrays(
         "group_start": ends("n_slots"),
         "block_count": per(1, "n_slots"),
         "block_mark": per(1, "n_slots"),
-        "own_block": per(1, "n_slots"),
+        "diagonal_block": per(1, "n_slots"),
         "order": per(1, "n_slots"),
         "rank": per(1, "n_slots"),
     },

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, guards, per
-from nonsmooth.engine.memory.layout import FALL, N_STAGES, SECTOR, SECTORS
+from nonsmooth.engine.memory.layout import N_STAGES, PART_END, PARTS
 
 ARRAYS = Arrays(
     floats={
@@ -27,14 +27,13 @@ ARRAYS = Arrays(
         "past_first": per(1, "n_slots"),
         "speed_end": per(1, "n_slots"),
         "speed_first": per(1, "n_slots"),
-        "fall_end": per(FALL, "n_slots"),
-        "fall_first": per(FALL, "n_slots"),
+        "fall_end": per(3, "n_slots"),
+        "fall_first": per(3, "n_slots"),
         "arm_end": per(3, "n_slots"),
         "arm_first": per(3, "n_slots"),
         "small_force_of": per(1, "n_slots"),
         "mobility": per(1, "n_slots"),
-        "relative": fixed(24),
-        "sectors": fixed(SECTOR * (SECTORS + 1)),
+        "part_ends": fixed(PART_END * (PARTS + 1)),
         "guard_end": guards,
         "rate_end": per(3, "n_slots"),
         "static_margin": per(1, "n_slots"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per
 from nonsmooth.engine.memory.blocks import GUARD
-from nonsmooth.engine.memory.layout import N_STAGES, STIFF, TOTALS
+from nonsmooth.engine.memory.layout import N_STAGES, STIFF_SLIPS, TOTALS
 
 ARRAYS = Arrays(
     floats={
@@ -22,9 +22,9 @@ ARRAYS = Arrays(
         "impact_f_scale": per(1, "n_slots"),
         "impact_energy_scale": per(1, "n_slots"),
         "impulse_scale": per(1, "n_slots"),
-        "stiff_rates": fixed(4 * STIFF**2),
-        "stiff_matrix": fixed(4 * STIFF**2),
-        "stiff_slip": fixed(2 * STIFF),
+        "stiff_rates": fixed(STIFF_SLIPS**2),
+        "stiff_matrix": fixed(STIFF_SLIPS**2),
+        "stiff_slip": fixed(STIFF_SLIPS),
         "impact_kept": per(8, "n_slots"),
         "books_kept": per(5, "n_slots"),
         "impact_mark": per(1, "n_slots"),
@@ -39,7 +39,8 @@ ARRAYS = Arrays(
         "impacting": per(1, "n_slots"),
         "released": per(1, "n_slots"),
         "phase": per(1, "n_slots"),
-        "stiff": fixed(STIFF),
+        "stiff_contact": fixed(STIFF_SLIPS),
+        "stiff_direction": fixed(STIFF_SLIPS),
         "phase_kept": per(1, "n_slots"),
         "held_kept": per(1, "n_slots"),
         "colliding": per(1, "n_slots"),
@@ -52,6 +53,6 @@ ARRAYS = Arrays(
         "armed": per(3, "n_slots"),
     },
     later_floats={
-        "stiff_slopes": per(8 * 2 * STIFF, "n_slots"),
+        "stiff_slopes": per(8 * STIFF_SLIPS, "n_slots"),
     },
 )
