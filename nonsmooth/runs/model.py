@@ -81,6 +81,10 @@ class Model:
         warn_of_overlaps(system, made._laid.places())
         return made
 
+    def __repr__(self) -> str:
+        """Return what it runs, and by what."""
+        return f"Model({self.system!r}, {type(self._engine).__name__})"
+
     @property
     def system(self) -> System:
         """What it was made from."""
@@ -166,8 +170,8 @@ class Model:
             that was made alike in another process, goes on as if that run had not stopped: with the same events to
             the last bit.  Any other is a start, which may be at any time.
         sample_interval : float, optional
-            Time between stored samples [s], the first at the start; a 2000th of the run by default.  Events are stored
-            exactly in any case.
+            Time between stored samples [s], the first at the start and a last one where the run ends; a 2000th of the
+            run by default.  Events are stored exactly in any case.
         until : callable, optional
             ``until(run)`` is asked after each step and each event whether the run is to end there; it gets a
             :class:`~nonsmooth.runs.so_far.RunSoFar`.  What it raises ends the run and is raised.  Where a function of

@@ -35,6 +35,7 @@ def test_what_is_printed_is_short(build: Any) -> None:
         assert len(repr(thing)) < 130
     assert repr(history).endswith("told by exact 2001)")
     assert repr(ns.System([plate])) == "System(bodies 1)"
+    assert repr(ns.assemble(ns.System([plate]))) == "Model(System(bodies 1), EventDriven)"
 
 
 def test_the_version_is_that_of_the_package() -> None:
