@@ -1,8 +1,9 @@
 """Many short runs of one model: ``python -m tests.benchmarks.short_runs [RUNS]``.
 
 The dumbbell runs for eight periods of its plate, again and again: from its own start, from other velocities, and on
-from where it was; last by `simulate`.  Printed are, per run, the time [ms], that of it which the engine takes, and
-their ratio, of the quickest of batches of 20 runs, as what else the machine does counts least there.
+from where it was; then by `simulate`.  Printed are, per run, the time [ms], that of it which the engine takes, and
+their ratio, of the quickest of batches of 20 runs, as what else the machine does counts least there; last how many
+times as many runs two threads make in the same time as one, each with a copy of the model, of 200 runs each.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import functools
 import sys
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import nonsmooth as ns
@@ -20,6 +22,8 @@ from nonsmooth.plugins import registry
 
 PERIODS = 8.0
 BATCH = 20
+THREADED = 200
+REPETITIONS = 10
 
 
 def timed(runs: int, way: Callable[[int], object]) -> tuple[float, float]:
@@ -47,6 +51,24 @@ def timed(runs: int, way: Callable[[int], object]) -> tuple[float, float]:
     finally:
         calls["call_entry"] = engine
     return 1e3 * least[0] / BATCH, 1e3 * least[1] / BATCH
+
+
+def threads(model: ns.Model, t_end: float, interval: float) -> float:
+    """Return how many times as many runs two threads make as one, least times of both."""
+
+    def runs(one: ns.Model) -> None:
+        for _ in range(THREADED):
+            one.run(t_end, sample_interval=interval)
+
+    def seconds(models: list[ns.Model]) -> float:
+        with ThreadPoolExecutor(len(models)) as pool:
+            began = time.perf_counter()
+            list(pool.map(runs, models))
+            return time.perf_counter() - began
+
+    models = [model.copy(), model.copy()]
+    alone, both = (min(seconds(models[:n]) for _ in range(REPETITIONS)) for n in (1, 2))
+    return 2.0 * alone / both
 
 
 def main() -> None:
@@ -77,6 +99,7 @@ def main() -> None:
     for name, way in ways.items():
         whole, engine = timed(runs, way)
         print(f"{name:18s}{whole:9.3f}{engine:9.3f}{whole / engine:9.3f}", flush=True)
+    print(f"two threads make {threads(model, t_end, scenario.sample_interval):.2f} times the runs of one")
 
 
 if __name__ == "__main__":
