@@ -169,6 +169,24 @@ def test_let_go_upright_it_tips_a_little_early(build: Any, turned: float, feet: 
         assert abs(account.change + account.loss) < 1e-8 * body.total_mass * GRAVITY * LONG
 
 
+@pytest.mark.parametrize("turned", [0.0, 0.8, math.pi / 3.0])
+def test_on_feet_of_a_millionth_of_its_radius_it_settles(build: Any, turned: float) -> None:
+    """Let go upright next to tipping, it drops by some ten nanometres from feet to rim and comes to rest."""
+    slope, feet = math.atan(THIN / LONG) * (1.0 - 1.5e-3), 1e-6
+    body = CylinderBody(THIN, LONG, foot_height=feet * THIN)
+    system = build.over(body, Rest(slope), friction=0.8)
+    upright = Rotation.from_rotvec([0.0, slope, 0.0]) * Rotation.from_rotvec([0.0, 0.0, turned])
+    system.place(
+        body,
+        position=LONG * np.array([math.sin(slope), 0.0, math.cos(slope)]),
+        orientation=tuple(np.roll(upright.as_quat(), 1).tolist()),
+    )
+    solution = ns.simulate(system, 0.6)
+    assert abs(float(_lean(solution.q_end)) - math.sin(slope)) < 1e-5
+    assert np.max(np.abs(solution.u_end)) < 1e-4
+    assert solution.counters.steps < 10000
+
+
 @pytest.mark.parametrize("tilt", [0.02, 0.3])
 def test_feet_do_not_touch_while_it_rolls(build: Any, tilt: float) -> None:
     """With feet and without, a nodding disc rolls in the same way to the last bit."""

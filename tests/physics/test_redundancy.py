@@ -21,7 +21,7 @@ from nonsmooth.engine.memory.modes import IMPACT, STICK_TO_SLIP
 from tests.physics.moved_systems import quaternion
 
 G = 9.81
-TIGHT = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
+TIGHT = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12, velocity_tolerance=1e-10)
 HALF_X, HALF_Y, HEIGHT, FOOT = 0.08, 0.05, 0.02, 0.005
 CORNERS = ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
 FEET: dict[int, Any] = {
@@ -209,3 +209,31 @@ def test_order_of_the_feet_changes_nothing(
     ]
     assert len(runs[0].events) == len(runs[1].events)
     np.testing.assert_allclose(_end(runs[1]), _end(runs[0]), rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("count", FEET)
+@pytest.mark.parametrize("heading", [0.0, 0.7])
+def test_next_to_the_angle_of_friction_it_slides_as_in_closed_form(build: Any, count: int, heading: float) -> None:
+    """Slip so slow that its direction is stiff, of forces that are not unique: g (sin - mu cos), or rest."""
+    friction, seconds, start = 0.5, 0.2, {"orientation": quaternion((0.0, 0.0, 1.0), heading)}
+    for excess in (1e-3, 1e-4, 1e-5, 1e-7, -1e-7):
+        slope = math.atan(friction) + excess
+        solution = _run(build, FEET[count], seconds, angle=slope, start=start, friction=friction)
+        speed = seconds * max(0.0, G * (math.sin(slope) - friction * math.cos(slope)))
+        along = np.array([math.cos(slope), 0.0, -math.sin(slope)])
+        np.testing.assert_allclose(solution.u_end[:3], speed * along, rtol=0, atol=1e-6 * speed + 1e-12)
+        assert solution.counters.steps < 100
+
+
+@pytest.mark.parametrize("count", [4, 8])
+def test_order_and_place_of_the_feet_change_no_force(build: Any, count: int) -> None:
+    """Next to the bound, where the forces of least norm would leave their cones: to 1e-10 of the weight."""
+    slope, start = math.atan(0.79), {"orientation": quaternion((0.0, 0.0, 1.0), 0.7)}
+    found = []
+    for order in (range(count), np.random.default_rng(count).permutation(count)):
+        solution = _run(build, [FEET[count][i] for i in order], 0.01, angle=slope, start=start, friction=0.8)
+        forces = solution.contact_forces(np.array([0.005]))
+        lines = np.column_stack([forces.normal_force.ravel(), forces.friction_force.reshape(-1, 3)])
+        found.append(lines[np.argsort(order)])
+        assert np.all(np.linalg.norm(lines[:, 1:], axis=1) < 0.8 * lines[:, 0])
+    np.testing.assert_allclose(found[1], found[0], rtol=0, atol=1e-10 * G)

@@ -11,10 +11,10 @@ from nonsmooth.engine.numerics.vectors import length
 
 _STEPS = 60
 _NO_GAIN = 1e-9
-_FLOOR = 1e-9
-"""Added to the Hessian, whose largest eigenvalue is 1, so that it can be inverted;"""
+_FLOOR = 1e-6
+"""Added to the Hessian, whose largest eigenvalue is 1: the shortest move that does is made, not one of round-off."""
 _FLOOR_IN_BAND = 1e-3
-"""more where what leaves the null space has to stay far above it:"""
+"""More where what leaves the null space has to stay far above it:"""
 _CHEAP = 1e-7
 """the Hessian counts by this, relative to H."""
 

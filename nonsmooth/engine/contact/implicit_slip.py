@@ -8,7 +8,8 @@ accelerations without forces that is the problem of incipient slip, and stopping
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
-from nonsmooth.engine.contact.forces import reduced_coefficient
+from nonsmooth.engine.contact.distribution import distribute
+from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
@@ -18,6 +19,10 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at,
 from nonsmooth.engine.numerics.vectors import length
 
 _INCIPIENT = 1e-300
+_FAINT = 1e-13
+"""What is held by this part of the largest force more than the bound of friction stays: it is round-off."""
+_ARRIVED = 1e-10
+"""Forces that are not unique may be so much out of their cones."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -29,7 +34,8 @@ def _lay(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     contact.turned = 0.0
     speed = max(length(contact.slip), _INCIPIENT) if contact.mode == SLIDE else 0.0
     active.mu = active.mu_static = friction_coefficient(S, w, k, c, speed)
-    active.mode_tried = contact.mode
+    active.mode_tried = active.mode_past = contact.mode
+    active.given = 0
     active.at_rest = 1 if active.mu > 0.0 else 0
     active.direction = contact.direction
     for r in range(3):
@@ -43,15 +49,25 @@ def _lay(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 @kernel("i8(S, F, I)")
 def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
     """Hold the slips that friction would turn round, and let go those that it cannot hold; return how many."""
+    largest = 0.0
+    for i in range(3 * S.n_active):
+        largest = max(largest, abs(w[S.active_forces + i]))
+    small = _FAINT * largest
+    if S.deficient == 1:
+        small = 2.0 * _ARRIVED * largest
+        distribute(S, w, k, 0.0, _ARRIVED * largest)
+        for a in range(S.n_active):
+            if active_at(S, w, k, a).mode_tried == SLIDE:
+                friction_of_slip(S, w, k, a)
     changed = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        if contact_at(S, w, k, active.slot).mode != SLIDE or active.at_rest == 0:
+        if active.mode_past != SLIDE or active.at_rest == 0:
             continue
         if active.mode_tried == STICK:
             t1, t2 = active.friction
             norm = length(active.friction)
-            if norm > active.mu * active.normal_force:
+            if norm > active.mu * active.normal_force + small:
                 active.mode_tried = SLIDE
                 active.direction = -t1 / norm, -t2 / norm
                 changed += 1
@@ -62,6 +78,29 @@ def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
             active.mode_tried = STICK
             changed += 1
     return changed
+
+
+@kernel("i8(S, F, I)")
+def oppose_slips(S: Scalars, w: Floats, k: Integers) -> int:
+    """Find forces whose friction opposes the slip of all that slides, or holds it at zero; return 1 if found.
+
+    Of what slides ``mode_past`` is that and ``at_rest`` 1; the accelerations at which it would end without forces are
+    laid, and the given normal forces.  Directions that lead nowhere are looked for from those in which slips that are
+    held break away.
+    """
+    held = 0
+    for _round in range(2 * (2 + S.n_active)):
+        if polish(S, w, k) == 0:
+            if held == 1:
+                return 0
+            held = 1
+            for a in range(S.n_active):
+                active = active_at(S, w, k, a)
+                active.mode_tried = STICK if active.at_rest == 1 else active.mode_past
+        hold_tried(S, w, k)
+        if _stop_and_go(S, w, k) == 0:
+            return 1
+    return 0
 
 
 @kernel()
@@ -84,8 +123,8 @@ def _note(S: Scalars, w: Floats, k: Integers) -> None:
 def hold_at_end(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the ``active_forces`` of the active contacts with which a stage ends, and add what they do to ``du``.
 
-    Geometry and rates are those of the state that the accelerations at ``guess`` lead to.  Where no forces are found,
-    or they are not unique, ``unsettled`` is raised.
+    Geometry and rates are those of the state that the accelerations at ``guess`` lead to.  Where no forces are found
+    ``unsettled`` is raised.
     """
     S.acceleration_scale = 0.0
     for a in range(S.n_active):
@@ -93,14 +132,6 @@ def hold_at_end(S: Scalars, w: Floats, k: Integers) -> None:
     assemble_delassus(S, w, k)
     for a in range(S.n_active):
         _lay(S, w, k, a)
-    settled = 0
-    for _round in range(2 + S.n_active):
-        if polish(S, w, k) == 0:
-            break
-        hold_tried(S, w, k)
-        if _stop_and_go(S, w, k) == 0:
-            settled = 1
-            break
-    if settled == 0 or S.deficient == 1:
+    if oppose_slips(S, w, k) == 0:
         S.unsettled = 1
     _note(S, w, k)

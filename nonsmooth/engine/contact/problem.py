@@ -51,6 +51,7 @@ def friction_coefficient(S: Scalars, w: Floats, k: Integers, c: int, speed: floa
 def follow_slip(S: Scalars, w: Floats, k: Integers, a: int, slip: tuple[float, float], still: float) -> None:
     """Write slip direction and coefficient of the active contact ``a``, continued smoothly through a reversal.
 
+    Within an implicit step of an impact, which stops slips itself, the direction is that of the slip.
     Where its ``slip`` is no faster than ``still`` it has no direction of its own: that at the start of the step holds.
     """
     active = active_at(S, w, k, a)
@@ -60,7 +61,7 @@ def follow_slip(S: Scalars, w: Floats, k: Integers, a: int, slip: tuple[float, f
     v1, v2 = slip
     speed = length(slip)
     if speed > still:
-        inverse = (1.0 if v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+        inverse = (1.0 if S.turning == 1 or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
         d1, d2 = inverse * v1, inverse * v2
     active.direction = d1, d2
     active.mu = friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
@@ -92,6 +93,7 @@ def write_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     contact = contact_at(S, w, k, c)
     v1, v2 = contact.slip
     speed = length(contact.slip)
+    active.given = 0
     active.mu_static = friction_coefficient(S, w, k, c, 0.0)
     if speed > S.velocity_tolerance:
         active.at_rest = 0

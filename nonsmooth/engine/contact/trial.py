@@ -23,7 +23,7 @@ def hold_tried(S: Scalars, w: Floats, k: Integers) -> None:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         mode = active.mode_tried
-        active.normal_held = 0 if mode == OPEN else 1
+        active.normal_held = 0 if mode == OPEN or active.given == 1 else 1
         # nothing holds what has no friction: it is at rest by chance
         active.tangent_held = 1 if mode == STICK and active.mu_static > 0.0 else 0
         if mode == OPEN:

@@ -14,7 +14,7 @@ from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
-from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes
+from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
 
 _STIFF = 2.0
 """Relaxations within a step that an explicit one bears."""
@@ -161,21 +161,10 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             return _UNUSABLE
     weigh_slopes(S, w, S.implicit_errors, S.slopes, n, h, S.y_stage)
     error = _relative_error(S, w)
-    weigh_slopes(S, w, S.implicit_bend, S.slopes, n, 2.0, S.y_stage)
     S.replaced = 1
     for i in range(n):
         w[S.slope_kept + i], w[S.slopes + i] = w[S.slopes + i], w[S.slopes + n + i]
-    last = S.slopes + LAST_STAGE * n
-    for stage in range(1, LAST_STAGE):
-        c = tableau.NODES[stage]
-        for i in range(n):
-            rise = (w[S.y_new + i] - w[S.y + i]) / h
-            w[S.slopes + stage * n + i] = (
-                6.0 * c * (1.0 - c) * rise
-                + (1.0 - c) * (1.0 - 3.0 * c) * w[S.slopes + i]
-                + c * (3.0 * c - 2.0) * w[last + i]
-                + c * (1.0 - c) * (1.0 - 2.0 * c) * w[S.y_stage + i]
-            )
+    write_implicit_interpolant(S, w, S.y, S.y_new, S.slopes, n, h, S.y_stage)
     return error
 
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
+from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, evaluate_impact_rates, normal_force
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
@@ -42,6 +45,25 @@ def _stop_slips(S: Scalars, w: Floats, k: Integers) -> None:
         for r in range(1, 3):
             state.impulse[r] += active.force[r]
     evaluate_impact_rates(S, w, k, S.impact_y)
+
+
+@kernel("void(S, F, I)")
+def _polish(S: Scalars, w: Floats, k: Integers) -> None:
+    """Make the directions of slips that start exact: next to the bound they decide whether and where these go."""
+    S.acceleration_scale = 0.0
+    for a in range(S.n_active):
+        active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a)
+        active.given = 1 if active.phase == COMPRESSION or active.phase == EXPANSION else 0
+        active.mode_tried = STICK if active.tangent_held == 1 else SLIDE
+        if active.normal_force <= 0.0:
+            active.mode_tried = OPEN
+        active.direction_found = active.direction
+        S.acceleration_scale = max(S.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force))
+    if polish(S, w, k) == 0:
+        for a in range(S.n_active):
+            active = active_at(S, w, k, a)
+            active.direction = active.direction_found
+        hold_tried(S, w, k)
 
 
 @kernel("void(S, F, I)")
@@ -107,6 +129,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         for i in range(3 * S.n_active):
             w[S.free_accelerations + i] = 0.0
         gauss_seidel(S, w, k, SWEEPS)
+        _polish(S, w, k)
         _hold_idle(S, w, k)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)

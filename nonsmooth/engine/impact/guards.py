@@ -36,6 +36,7 @@ from nonsmooth.engine.native.kernel import (
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.roots import weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
+from nonsmooth.engine.numerics.vectors import length
 
 _SLACK = 1e-9
 """A compression that comes to nothing, of round-off, ends at this deformation below zero, relative to a full one."""
@@ -53,7 +54,11 @@ _SMALL = 1e-3
 """But it must be small next to what the guard was before, which may be next to nothing, too."""
 _FAINT = 1e-4
 """Start values below this part of the end value are no help to the secant."""
+TRUSTED = 2.0
+"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 _CORRECTIONS = 8
+_APART = 1e-7
+"""Fractions of a step that are nearer to each other tell no slope of a guard: round-off does."""
 _SHORT = 1e-7
 """Corrections below this part of a step are made along the tangent; their error is its square."""
 
@@ -95,6 +100,8 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
             active.friction_guard = 1.0
         elif active.tangent_held == 1:
             active.friction_guard = NOISE + active.margin / force_scale
+        elif S.turning == 1:
+            active.friction_guard = NOISE + length(active.slip) / S.speed_scale
         else:
             slip = active.rate[1] * contact.direction[0] + active.rate[2] * contact.direction[1]
             active.friction_guard = NOISE + slip / S.speed_scale
@@ -158,10 +165,11 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: flo
         high, g_high = 0.5 * high, g
     theta, largest = high, g_low
     theta_before, g_before = high, g_high
+    S.guard_slope = (g_high - g_low) / ((high - low) * h)
     for _iteration in range(60):
         theta = high - g_high * (high - low) / (g_high - g_low)
         g = _guard_at(S, w, k, h, theta, i)
-        if theta != theta_before:
+        if abs(theta - theta_before) > _APART:
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
         largest = max(largest, g)
@@ -202,7 +210,7 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         error = try_impact_step(S, w, k, step)
         S.impact_steps += 1
         write_impact_guards(S, w, k, S.impact_new)
-        if not S.guard_slope < 0.0 or iteration == _CORRECTIONS - 1:
+        if not (S.guard_slope < 0.0 and error <= TRUSTED) or iteration == _CORRECTIONS - 1:
             break
         correction = min(0.2 * theta * h, max(-0.2 * theta * h, -w[S.impact_guard + i] / S.guard_slope))
         if abs(correction) <= _SHORT * h:

@@ -17,6 +17,7 @@ from nonsmooth.engine.impact.guards import (
     GUARDS,
     RATE_GUARD,
     TOGETHER,
+    TRUSTED,
     aim,
     arm_impact_guards,
     fired_guard,
@@ -36,7 +37,7 @@ from nonsmooth.engine.impact.rates import (
     write_impact_slope,
 )
 from nonsmooth.engine.impact.scales import scale_impact
-from nonsmooth.engine.impact.step import try_impact_step, try_linear_step
+from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -62,8 +63,6 @@ _PATIENCE = 20
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
 _UNUSED = 1e300
-_TRUSTED = 2.0
-"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 PROBE = 1e-2
 """Where no force has built up yet, forces are compared after this part of the shortest compression."""
 _SHORTEST = 1e-12
@@ -303,6 +302,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
             finish(S, w, k)
             return FINISHED
         S.aimed = -1
+        let_go(S, w, k)
         h = aim(S, w, k, h) if S.lone >= 0 else _graded(S, w, k, h)
         linear = try_linear_step(S, w, k, h) if S.aimed >= 0 else 0
         error = try_impact_step(S, w, k, h) if linear == 0 else 0.0
@@ -313,13 +313,14 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
             h *= step_factor(error) if error < _UNUSED else 0.1
             continue
         located = _step_to_switch(S, w, k, h, linear)
-        if not located <= _TRUSTED:
+        if not located <= TRUSTED:
             if not located < _UNUSED and h < _SHORTEST * shortest:
                 return INVALID
             h *= 0.25
             continue
         for i in range(STRIDE * S.n_active):
             w[S.impact_y + i] = w[S.impact_new + i]
+        _stop(S, w, k)
         if S.trigger < 0:
             h = min(h * step_factor(error), _LARGEST * shortest)
             _go_on(S, w, k, shortest)
@@ -330,6 +331,18 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
             return MOVED
         write_impact_slope(S, w, k, S.impact_slopes)
     return ENDLESS
+
+
+@kernel("void(S, F, I)")
+def _stop(S: Scalars, w: Floats, k: Integers) -> None:
+    """Let stick what the step has stopped; an implicit one leaves slips in any direction."""
+    if S.turning == 1:
+        S.turning = 0
+        _orient(S, w, k)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        S.phases += active.halted
+        active.halted = 0
 
 
 @kernel("f8(S, F, I, f8, i8)")

@@ -2,27 +2,46 @@
 
 A contact that leaves its bound slowly, or slips on little more than friction takes, stays near rest for long.  The
 direction of its slip v follows the forces within an impulse of the order of |v|, and explicit steps may be no longer.
-Linearly implicit Euler steps, 1 to 6 in one of ``h``, have no such bound; their results are extrapolated to the limit
-(Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.9).
+The stages of an implicit one end with friction against their own slip (:mod:`nonsmooth.engine.contact.implicit_slip`),
+as in the flow: a slip that keeps its direction, as the terminal one, is exact in a step of any length.
 """
 
 from __future__ import annotations
 
+import math
+
+from nonsmooth.engine.contact.implicit_slip import oppose_slips
+from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.impact.rates import DEFORMATION, STRIDE, evaluate_impact_rates, impact_slope
-from nonsmooth.engine.memory import tableau
-from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES, STIFF_SLIPS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, impact_state, kernel, stiff_slip_at
-from nonsmooth.engine.numerics.linear import eliminate
-from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes
+from nonsmooth.engine.impact.rates import (
+    COMPRESSION,
+    DEFORMATION,
+    EXPANSION,
+    IDLE,
+    STRIDE,
+    evaluate_impact_rates,
+    impact_slope,
+    normal_force,
+    write_impact_slope,
+)
+from nonsmooth.engine.memory import implicit_tableau
+from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
+from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
 from nonsmooth.engine.numerics.vectors import length
 
-_EXTRAPOLATED = 6
-"""Results that are extrapolated; they lie where the stages of the explicit step do, behind the first."""
 _STIFF = 1.0
 """Relaxations of a direction within a step that an explicit one bears."""
-_NEAR = 1e-3
-"""The Jacobian is one of differences over this part of the slip; it need not be exact."""
+_SETTLING = 10.0
+"""Relaxations of a direction while its slip changes by as much as it is, with which it is settled."""
+_CAREFUL = 4.0
+"""Errors of implicit steps count so many times: the estimate is of low order, and they add up."""
+_ITERATIONS = 12
+"""Of a stage: deformations are iterated on,"""
+_SETTLED = 0.01
+"""up to this part of the tolerance."""
+_INCIPIENT = 1e-300
 _UNUSABLE = 1e300
 _STRAIGHT = 1e-13
 """Second differences of slopes below this, relative to the slopes, count as zero."""
@@ -30,154 +49,173 @@ _STRAIGHT = 1e-13
 
 @kernel("f8(S, F, I, f8)")
 def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance."""
+    """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance.
+
+    A slip that an implicit step stops is held from there on, unless it is tried anew.
+    """
+    let_go(S, w, k)
     n = STRIDE * S.n_active
     for stage in range(1, N_STAGES):
         out = S.impact_new if stage == LAST_STAGE else S.impact_stage
         stage_state(S, w, S.stages, S.impact_y, S.impact_slopes, n, stage, h, out)
         impact_slope(S, w, k, out, S.impact_slopes + stage * n)
     weigh_slopes(S, w, S.error_weights, S.impact_slopes, n, h, S.impact_stage)
-    error = _relative_error(S, w, k)
+    error = _relative_error(S, w, k, S.impact_stage)
     if not error <= 1.0:
-        stiff = _find_stiff(S, w, k, h)
-        if stiff > 0:
-            return _try_implicit_step(S, w, k, h, stiff)
+        if _is_stiff(S, w, k, h) == 1:
+            return min(_try_implicit_step(S, w, k, h), error)
         evaluate_impact_rates(S, w, k, S.impact_new)
     return error
 
 
-@kernel("f8(S, F, I)")
-def _relative_error(S: Scalars, w: Floats, k: Integers) -> float:
-    """Return the largest of the errors in ``impact_stage``, relative to the tolerance."""
-    worst = 0.0
+@kernel("void(S, F, I)")
+def let_go(S: Scalars, w: Floats, k: Integers) -> None:
+    """Forget the slips that the last try of a step has stopped, and that it was implicit."""
+    S.turning = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        inverse = 1.0 / active.impulse_scale
-        for r in range(STRIDE):
+        if active.halted == 1:
+            active.halted = active.tangent_held = 0
+
+
+@kernel("f8(S, F, I, i8)")
+def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
+    """Return the largest of the ``errors`` of a state, relative to the tolerance.
+
+    Impulses count by the energy of what they move.  Energies are known to a part of what they are: where friction
+    blocks the way of a light point, a contact takes up more than its approach alone would bring.
+    """
+    worst = 0.0
+    for a in range(S.n_active):
+        active, state, own = active_at(S, w, k, a), impact_state(w, S.impact_y, a), diagonal_block(S, w, k, a).entries
+        line = errors + STRIDE * a
+        energy = max(active.energy_scale, abs(state.work), state.rubbed, state.energy)
+        moved = 0.0
+        for r in range(3):
+            for s in range(3):
+                moved += own[3 * r + s] * w[line + r] * w[line + s]
+        for r in range(2, STRIDE):
+            error = math.sqrt(abs(moved) / energy)
             if r >= DEFORMATION:
-                inverse = 1.0 / (active.deformation_scale if r == DEFORMATION else active.energy_scale)
-            error = inverse * abs(w[S.impact_stage + STRIDE * a + r])
+                error = abs(w[line + r]) / (active.deformation_scale if r == DEFORMATION else energy)
             if error > worst or error != error:
                 worst = error
     return worst / float(S.impact_rtol)
 
 
 @kernel("i8(S, F, I, f8)")
-def _find_stiff(S: Scalars, w: Floats, k: Integers, h: float) -> int:
-    """List the components of slips that turn too fast for an explicit step of ``h``; return how many."""
-    evaluate_impact_rates(S, w, k, S.impact_y)
-    stiff = 0
+def _is_stiff(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Return 1 if a slip turns too fast for an explicit step of ``h``, and faster than it changes.
+
+    One that passes close by rest does both at once, and where it goes hangs on every digit: that is for explicit steps.
+    """
+    evaluate_impact_rates(S, w, k, S.impact_slopes)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        speed = length(active.slip)
-        if active.tangent_held == 1 or not speed > active.rest_slip or stiff == STIFF_SLIPS:
-            continue
-        friction, own = impact_state(w, S.impact_slopes, a).friction, diagonal_block(S, w, k, a)
-        if h * length(friction) * max(own.t11, own.t22) > _STIFF * speed:
-            for r in range(1, 3):
-                slip = stiff_slip_at(S, w, k, stiff)
-                slip.contact, slip.direction = a, r
-                stiff += 1
-    return stiff
+        for r in range(2):
+            active.acceleration[1 + r] = active.slip[r] - active.rate_before[1 + r]
+    evaluate_impact_rates(S, w, k, S.impact_y)
+    for a in range(S.n_active):
+        active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a)
+        turning = length(impact_state(w, S.impact_slopes, a).friction) * max(own.t11, own.t22)
+        settled = active.tangent_held == 0 and turning > _SETTLING * length(active.slip_acceleration)
+        if settled and h * turning > _STIFF * length(active.slip):
+            return 1
+    return 0
 
 
-@kernel("f8(S, F, I, f8, i8)")
-def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int) -> float:
-    """Take one step of ``h`` to ``impact_new``, implicit in so many components of slip; return its relative error.
+@kernel("void(S, F, I, f8, i8, i8, i8)")
+def _lay_stage(S: Scalars, w: Floats, k: Integers, ahead: float, y: int, n: int, guess: int) -> None:
+    """Write what is held, and what pushes, at the end of a stage that goes ``ahead`` from ``y``, its slope a guess."""
+    for i in range(n):
+        w[y + i] += ahead * w[guess + i]
+    evaluate_impact_rates(S, w, k, y)
+    S.acceleration_scale = 0.0
+    for a in range(S.n_active):
+        active, state, own = active_at(S, w, k, a), impact_state(w, y, a), diagonal_block(S, w, k, a)
+        loaded = active.phase == COMPRESSION or active.phase == EXPANSION
+        active.given, active.mode_tried, active.at_rest = 1 if loaded else 0, active.mode_past, 0
+        if loaded:
+            active.normal_force = normal_force(S, w, k, a, state.deformation)
+        if active.mode_past == SLIDE:
+            active.mu = friction_coefficient(S, w, k, active.slot, max(length(active.slip), _INCIPIENT))
+            active.at_rest = 1 if active.mu > 0.0 else 0
+            t1, t2 = impact_state(w, guess, a).friction
+            friction = length((t1, t2))
+            if friction > 0.0:
+                active.direction = -t1 / friction, -t2 / friction
+        S.acceleration_scale = max(S.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force))
+    for i in range(n):
+        w[y + i] -= ahead * w[guess + i]
+    evaluate_impact_rates(S, w, k, y)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        moves = active.mode_past == SLIDE and length(active.slip) > active.rest_slip
+        active.free[0] = 0.0
+        for r in range(1, 3):
+            active.free[r] = active.rate[r] / ahead if moves else 0.0
 
-    Leaves slopes from which the dense output of the explicit step makes the cubic through both ends.
+
+@kernel("i8(S, F, I, f8, i8)")
+def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> int:
+    """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
+
+    Friction of slips, which is stiff, is solved for; deformations are iterated.
     """
     n = STRIDE * S.n_active
-    _differentiate(S, w, k, stiff)
-    for j in range(_EXTRAPOLATED):
-        for i in range(n):
-            w[S.impact_new + i] = w[S.impact_y + i]
-        slope = S.impact_slopes
-        for part in range(j + 1):
-            if part > 0:
-                slope = S.impact_stage
-                impact_slope(S, w, k, S.impact_new, slope)
-            if _euler_step(S, w, k, h / (j + 1), stiff, slope) == 0:
-                return _UNUSABLE
-        for i in range(n):
-            value = w[S.impact_new + i]
-            for q in range(j):
-                row = S.impact_slopes + (q + 1) * n + i
-                before, w[row] = w[row], value
-                value += (value - before) * (j - q) / (q + 1)
-            w[S.impact_slopes + (j + 1) * n + i] = value
-    last = S.impact_slopes + _EXTRAPOLATED * n
+    out = S.impact_new if stage == LAST_STAGE else S.impact_stage
+    here, guess, ahead = S.impact_slopes + stage * n, S.impact_guess, implicit_tableau.DIAGONAL * h
     for i in range(n):
-        w[S.impact_new + i] = w[last + i]
-        w[S.impact_stage + i] = w[last + i] - w[last - n + i]
-    error = _relative_error(S, w, k)
-    impact_slope(S, w, k, S.impact_new, last)
-    for stage in range(1, 6):
-        c = tableau.NODES[stage]
+        w[here + i] = w[here - n + i]
+    for _iteration in range(_ITERATIONS):
+        stage_state(S, w, S.implicit_stages, S.impact_y, S.impact_slopes, n, stage, h, out)
         for i in range(n):
-            rise = (w[S.impact_new + i] - w[S.impact_y + i]) / h
-            w[S.impact_slopes + stage * n + i] = (
-                6.0 * c * (1.0 - c) * rise
-                + (1.0 - c) * (1.0 - 3.0 * c) * w[S.impact_slopes + i]
-                + c * (3.0 * c - 2.0) * w[last + i]
-            )
+            w[guess + i] = w[here + i]
+        _lay_stage(S, w, k, ahead, out, n, guess)
+        if oppose_slips(S, w, k) == 0:
+            return 0
+        for a in range(S.n_active):
+            active, state = active_at(S, w, k, a), impact_state(w, out, a)
+            for r in range(3):
+                state.impulse[r] += ahead * active.force[r]
+        evaluate_impact_rates(S, w, k, out)
+        write_impact_slope(S, w, k, here)
+        for i in range(n):
+            # of energies nothing depends
+            change = w[here + i] - w[guess + i] if i % STRIDE <= DEFORMATION else 0.0
+            w[guess + i] = ahead * change
+            if i % STRIDE >= DEFORMATION:
+                w[out + i] += ahead * w[here + i]
+        if _relative_error(S, w, k, guess) <= _SETTLED:
+            return 1
+    return 0
+
+
+@kernel("f8(S, F, I, f8)")
+def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Take one step of ``h`` to ``impact_new`` whose stages end with friction against their own slip; return its error.
+
+    Leaves slopes from which the dense output of the explicit step makes the interpolant of this one.
+    """
+    n = STRIDE * S.n_active
+    S.turning = 1
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        active.mode_past = OPEN if active.phase == IDLE else STICK if active.tangent_held == 1 else SLIDE
+    for i in range(n):
+        w[S.impact_slopes + n + i] = w[S.impact_slopes + i]
+    stage = 2
+    while stage < N_STAGES and _solve_stage(S, w, k, h, stage) == 1:
+        stage += 1
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        active.halted = 1 if active.mode_past == SLIDE and active.tangent_held == 1 else 0
+    if stage < N_STAGES:
+        return _UNUSABLE
+    weigh_slopes(S, w, S.implicit_errors, S.impact_slopes, n, h, S.impact_stage)
+    error = _CAREFUL * _relative_error(S, w, k, S.impact_stage)
+    write_implicit_interpolant(S, w, S.impact_y, S.impact_new, S.impact_slopes, n, h, S.impact_stage)
     return error
-
-
-@kernel("void(S, F, I, i8)")
-def _differentiate(S: Scalars, w: Floats, k: Integers, stiff: int) -> None:
-    """Write the derivatives of the slope by the ``stiff`` components of slip, and the slips that those make."""
-    n = STRIDE * S.n_active
-    for j in range(stiff):
-        slip = stiff_slip_at(S, w, k, j)
-        active = active_at(S, w, k, slip.contact)
-        column = S.stiff_slopes + j * n
-        evaluate_impact_rates(S, w, k, S.impact_y)
-        kept, change = active.rate_before[slip.direction], _NEAR * length(active.slip)
-        active.rate_before[slip.direction] += change
-        change = active.rate_before[slip.direction] - kept
-        impact_slope(S, w, k, S.impact_y, column)
-        active.rate_before[slip.direction] = kept
-        for i in range(n):
-            w[column + i] = (w[column + i] - w[S.impact_slopes + i]) / change
-        for i in range(stiff):
-            w[S.stiff_rates + stiff * i + j] = _slip_of(S, w, k, i, column)
-
-
-@kernel("f8(S, F, I, i8, i8)")
-def _slip_of(S: Scalars, w: Floats, k: Integers, i: int, impulses: int) -> float:
-    """Return the stiff component ``i`` of slip that the impulses make, which lie in a state."""
-    slip = stiff_slip_at(S, w, k, i)
-    active = active_at(S, w, k, slip.contact)
-    total = 0.0
-    for block in range(active.first_block, active.end_block):
-        g = at(w, S.delassus + 9 * block + 3 * slip.direction)
-        p = impact_state(w, impulses, k[S.block_column + block]).impulse
-        total += g[0] * p[0] + g[1] * p[1] + g[2] * p[2]
-    return total
-
-
-@kernel("i8(S, F, I, f8, i8, i8)")
-def _euler_step(S: Scalars, w: Floats, k: Integers, h: float, stiff: int, slope: int) -> int:
-    """Move ``impact_new`` by one linearly implicit Euler step; return 0 if that is singular.
-
-    The change is h (slope + D v) with the derivatives D by the slips and their changes v = V change, which is
-    (1 - h V D) v = h V slope.
-    """
-    n = STRIDE * S.n_active
-    for i in range(stiff):
-        for j in range(stiff):
-            w[S.stiff_matrix + stiff * i + j] = (1.0 if i == j else 0.0) - h * w[S.stiff_rates + stiff * i + j]
-        w[S.stiff_slip + i] = h * _slip_of(S, w, k, i, slope)
-    if eliminate(w, S.stiff_matrix, stiff, stiff, S.stiff_slip, 0.0) == 0:
-        return 0
-    for i in range(n):
-        w[S.impact_new + i] += h * w[slope + i]
-    for j in range(stiff):
-        change = h * w[S.stiff_slip + j]
-        for i in range(n):
-            w[S.impact_new + i] += change * w[S.stiff_slopes + j * n + i]
-    return 1
 
 
 @kernel("i8(S, F, I, f8)")

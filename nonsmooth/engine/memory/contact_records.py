@@ -177,6 +177,7 @@ ACTIVE: Fields = {
         "at_rest",
         "redundant",
         "freed",
+        "given",
         "acceleration",
     ),
     "force": row("active_forces"),
@@ -198,7 +199,7 @@ ACTIVE: Fields = {
     "block_mark": one("block_mark"),
     "rank": one("rank"),
     # an impact
-    **rows("phase", "rest_slip", "impulse_scale", "stored", "returned", "rubbed", "impulse"),
+    **rows("phase", "halted", "rest_slip", "impulse_scale", "stored", "returned", "rubbed", "impulse"),
     "rate": row("impact_z"),
     "gap_rate": one("impact_z"),
     "slip": vector("impact_z", 1),
@@ -240,9 +241,6 @@ UNKNOWN: Fields = {
     "turn": Field("unknown_turn", 1),
 }
 """Of an unknown of the contact problem: the active contact, 0 for n, 1 for t1, 2 for t2, and whether it is a turn."""
-
-STIFF_SLIP: Fields = {"contact": Field("stiff_contact", 1), "direction": Field("stiff_direction", 1)}
-"""Of a component of slip that a step of an impact treats implicitly: the active contact, 1 for t1, 2 for t2."""
 
 PART_OF_STEP: Fields = {
     "theta": packed(0, 1, PART_END),

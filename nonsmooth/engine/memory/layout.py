@@ -73,8 +73,6 @@ MOST_BLOCKS = 2**22
 """Pairs of contacts that act on one another, of which a system has room for all up to so many."""
 MOST_ENTRIES = 2**26
 """Entries of a matrix of the contacts' unknowns, of which there is room for all up to so many."""
-STIFF_SLIPS = 16
-"""Components of slip, two to each contact, at most that a step of an impact treats implicitly."""
 N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair;"""
 LAST_STAGE = N_STAGES - 1

@@ -29,7 +29,6 @@ from nonsmooth.engine.memory.contact_records import (
     IMPACT_STATE,
     OWN_GUARD,
     PART_OF_STEP,
-    STIFF_SLIP,
     UNKNOWN,
 )
 from nonsmooth.engine.memory.fields import Fields
@@ -46,7 +45,6 @@ RECORDS: Mapping[str, Fields] = {
     "own_guard": OWN_GUARD,
     "guard": GUARD,
     "unknown": UNKNOWN,
-    "stiff_slip": STIFF_SLIP,
 }
 """Records whose fields stand in arrays, by kind."""
 PACKED: Mapping[str, Fields] = {

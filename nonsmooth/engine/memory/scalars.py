@@ -71,6 +71,7 @@ INTEGER_SCALARS = (
     "phases_kept",
     "truncated",
     "slow_steps",
+    "turning",
     "fresh",
     "suspect",
     "guess",

@@ -59,8 +59,6 @@ unit_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unit"]
 """a unit,"""
 unknown_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unknown"]
 """an unknown of the contact problem,"""
-stiff_slip_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["stiff_slip"]
-"""a stiff component of slip in an impact,"""
 pool_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pool"]
 """a pool,"""
 guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["guard"]
@@ -170,7 +168,6 @@ __all__ = [
     "part_end",
     "pool_at",
     "shared",
-    "stiff_slip_at",
     "unit_at",
     "unknown_at",
     "unshared",

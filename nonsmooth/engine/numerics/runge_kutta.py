@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.layout import N_STAGES
+from nonsmooth.engine.memory import tableau
+from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES
 from nonsmooth.engine.native.kernel import Floats, Scalars, kernel
 
 SAFETY, SHRINK, GROW = 0.92, 0.2, 8.0
@@ -57,6 +58,26 @@ def weigh_slopes(S: Scalars, w: Floats, weights: int, slopes: int, n: int, h: fl
         weight = h * w[weights + j]
         for i in range(n):
             w[out + i] += weight * w[slopes + j * n + i]
+
+
+@kernel("void(S, F, i8, i8, i8, i8, f8, i8)")
+def write_implicit_interpolant(
+    S: Scalars, w: Floats, start: int, end: int, slopes: int, n: int, h: float, bend: int
+) -> None:
+    """Write slopes from which the dense output of the explicit pair makes the interpolant of an implicit step of ``h``.
+
+    The first and the last are those at ``start`` and ``end``, and stay; ``bend`` is overwritten.
+    """
+    weigh_slopes(S, w, S.implicit_bend, slopes, n, 2.0, bend)
+    for stage in range(1, LAST_STAGE):
+        c = tableau.NODES[stage]
+        for i in range(n):
+            w[slopes + stage * n + i] = (
+                6.0 * c * (1.0 - c) * (w[end + i] - w[start + i]) / h
+                + (1.0 - c) * (1.0 - 3.0 * c) * w[slopes + i]
+                + c * (3.0 * c - 2.0) * w[slopes + LAST_STAGE * n + i]
+                + c * (1.0 - c) * (1.0 - 2.0 * c) * w[bend + i]
+            )
 
 
 @kernel("f8(f8)")

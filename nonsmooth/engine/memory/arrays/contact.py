@@ -31,6 +31,7 @@ ARRAYS = Arrays(
         "at_rest": per(1, "n_slots"),
         "redundant": per(1, "n_slots"),
         "freed": per(1, "n_slots"),
+        "given": per(1, "n_slots"),
         "mode_past": per(1, "n_slots"),
         "mode_found": per(1, "n_slots"),
         "mode_closed": per(1, "n_slots"),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per
+from nonsmooth.engine.memory.arrays.arrays import Arrays, per
 from nonsmooth.engine.memory.blocks import GUARD
-from nonsmooth.engine.memory.layout import N_STAGES, STIFF_SLIPS, TOTALS
+from nonsmooth.engine.memory.layout import N_STAGES, TOTALS
 
 ARRAYS = Arrays(
     floats={
@@ -12,6 +12,7 @@ ARRAYS = Arrays(
         "impact_y": per(8, "n_slots"),
         "impact_new": per(8, "n_slots"),
         "impact_stage": per(8, "n_slots"),
+        "impact_guess": per(8, "n_slots"),
         "impact_slopes": per(8 * N_STAGES, "n_slots"),
         "impact_z0": per(3, "n_slots"),
         "impact_z": per(3, "n_slots"),
@@ -22,9 +23,6 @@ ARRAYS = Arrays(
         "impact_f_scale": per(1, "n_slots"),
         "impact_energy_scale": per(1, "n_slots"),
         "impulse_scale": per(1, "n_slots"),
-        "stiff_rates": fixed(STIFF_SLIPS**2),
-        "stiff_matrix": fixed(STIFF_SLIPS**2),
-        "stiff_slip": fixed(STIFF_SLIPS),
         "impact_kept": per(8, "n_slots"),
         "books_kept": per(5, "n_slots"),
         "impact_mark": per(1, "n_slots"),
@@ -39,8 +37,7 @@ ARRAYS = Arrays(
         "impacting": per(1, "n_slots"),
         "released": per(1, "n_slots"),
         "phase": per(1, "n_slots"),
-        "stiff_contact": fixed(STIFF_SLIPS),
-        "stiff_direction": fixed(STIFF_SLIPS),
+        "halted": per(1, "n_slots"),
         "phase_kept": per(1, "n_slots"),
         "held_kept": per(1, "n_slots"),
         "colliding": per(1, "n_slots"),
@@ -51,8 +48,5 @@ ARRAYS = Arrays(
         "articulation_head": per(1, "n_articulations"),
         "kept": per(2, "n_slots"),
         "armed": per(3, "n_slots"),
-    },
-    later_floats={
-        "stiff_slopes": per(8 * STIFF_SLIPS, "n_slots"),
     },
 )
