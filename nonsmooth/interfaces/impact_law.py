@@ -56,11 +56,11 @@ class ImpactMap(ImpactLaw, ABC):
     rates before [m/s, 3 n] and the impulses to be written [N s, 3 n]; ``friction`` and its further
     arguments, parameters of the law, are vectors over the contacts.
 
-    A closed form of one contact whose slip keeps to a line sets ``one_planar_contact`` and raises in its function where
-    it is given another impact; the conformance kit then asks it for no other.
+    A law of one contact sets ``one_contact`` and raises in its function where it is given more; the conformance kit
+    then asks it for no more.
     """
 
-    one_planar_contact: ClassVar[bool] = False
+    one_contact: ClassVar[bool] = False
 
     @property
     @abstractmethod

@@ -14,13 +14,13 @@ from nonsmooth.testing.component import accepted, component_rows, numbers_of, va
 from nonsmooth.testing.draws import Case, Variable
 from nonsmooth.testing.examine import FEWEST, Trial, examine
 from nonsmooth.testing.functions import Function, Functions, scalar_function
-from nonsmooth.testing.impact_map import is_planar, map_function, map_rows
+from nonsmooth.testing.impact_map import is_alone, map_function, map_rows
 from nonsmooth.testing.impact_process import process_rows
 from nonsmooth.testing.property import Broken, NotChecked, Property, Row, properties
-from nonsmooth.testing.reference import Problem, planar_space, point, problem, problem_space
+from nonsmooth.testing.reference import Problem, point, problem, problem_space
 from nonsmooth.testing.respond import Response, respond
 
-_ONE, _TWO, _PLANE = problem_space(1), problem_space(2), planar_space()
+_ONE, _TWO = problem_space(1), problem_space(2)
 _MU = Variable("friction", 0.02, 0.6, 0.2)
 _ROUGH = Variable("friction", 0.02, 1.2, 0.2)
 _DRAWS = 10
@@ -55,7 +55,7 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
             raise NotChecked(f"{type(law).__name__}: it has no parameter {restitution!r}")
         examine(name, [at], [Variable("speed", 1e-2, 1e2, 1.0, log=True), _MU], trial, _DRAWS)
 
-    one, two = (_PLANE, _PLANE) if is_planar(law) else (_ONE, _TWO)
+    one, two = _ONE, _ONE if is_alone(law) else _TWO
     speed = Variable("factor", 1e-2, 1e2, 2.0, log=True)
     rows = [
         row("no approach after", "after the impact no contact approaches", _parts, [*two, _MU]),
@@ -200,7 +200,7 @@ def _turned(law: ImpactLaw, case: Case) -> str:
 
 
 def _permuted(law: ImpactLaw, case: Case) -> str:
-    if is_planar(law):
+    if is_alone(law):
         raise NotChecked(f"{type(law).__name__}: it is a law of one contact")
     p, mu = _problem(case), (case["friction"], case["other_friction"])
     swapped = Problem(p.mass, p.normal[:, ::-1].copy(), p.tangential[:, ::-1].copy(), p.velocity)

@@ -16,7 +16,7 @@ from nonsmooth.testing.draws import Case, Variable, draws
 from nonsmooth.testing.examine import examine
 from nonsmooth.testing.functions import OLD, ROOM, Function
 from nonsmooth.testing.property import Row
-from nonsmooth.testing.reference import Problem, planar_space, problem, problem_space
+from nonsmooth.testing.reference import Problem, problem, problem_space
 from nonsmooth.testing.respond import vectors_of
 
 Array = NDArray[np.float64]
@@ -25,14 +25,14 @@ _OBEYS = 1e-6
 """Deviation of velocities that counts as zero, relative to the largest."""
 
 
-def is_planar(law: ImpactLaw) -> bool:
-    """Tell whether a law is one of a single contact whose slip stays in a plane, and of no other."""
-    return isinstance(law, ImpactMap) and law.one_planar_contact
+def is_alone(law: ImpactLaw) -> bool:
+    """Tell whether a law is one of a single contact, and of no more."""
+    return isinstance(law, ImpactMap) and law.one_contact
 
 
 def _spaces(law: ImpactLaw) -> dict[int, list[Variable]]:
     """Return the numbers that make problems that the law takes, by the number of contacts."""
-    return {1: planar_space()} if is_planar(law) else {1: problem_space(1), 2: problem_space(2)}
+    return {n: problem_space(n) for n in ((1,) if is_alone(law) else (1, 2))}
 
 
 def map_function(law: ImpactMap) -> Function:

@@ -133,12 +133,6 @@ def problem_space(contacts: int) -> list[Variable]:
     return space
 
 
-def planar_space() -> list[Variable]:
-    """Return the numbers of :func:`problem_space` for one contact whose slip stays in the plane of x and z."""
-    out_of_plane = ("velocity_y", "spin_x", "spin_z", "arm_y_1", "lean_y_1")
-    return [Variable(v.name, 0.0, 0.0) if v.name in out_of_plane else v for v in problem_space(1)]
-
-
 def problem(case: Case, contacts: int) -> Problem:
     """Return the problem of an input."""
     normal, tangential = np.zeros((6, contacts)), np.zeros((6, contacts, 2))

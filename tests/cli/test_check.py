@@ -36,7 +36,7 @@ from nonsmooth.parameters import parameter
 
 @dataclass(frozen=True)
 class Lone(ImpactMap):
-    one_planar_contact: ClassVar[bool] = True
+    one_contact: ClassVar[bool] = True
     departures: ClassVar[Mapping[str, str]] = {"force and impact level": "it has no friction"}
     restitution: float = parameter(0.5, doc="ratio of the rates", minimum=0.0, maximum=1.0)
     contact_time: float = parameter(2e-5, doc="contact time", unit="s", minimum=0.0)

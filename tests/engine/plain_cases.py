@@ -28,6 +28,7 @@ from bodies import (
     Plate,
     Point,
     Spring,
+    SuperellipsoidBody,
     TriangleMesh,
     Triangles,
 )
@@ -231,6 +232,15 @@ def _border(rate: float, way: float) -> Numbers:
     return _numbers(system, 1e-4)
 
 
+def _flat() -> Numbers:
+    """Let a boxy body roll over the middle of its face, where its contact point has no bound in speed."""
+    plate, body = Plate(), SuperellipsoidBody(0.01, 0.012, 0.009, exponent_along=0.6, exponent_across=0.6)
+    system = ns.System([plate, body])
+    system.contact(plate, body, **_rigid(NewtonImpact(0.0)))
+    system.place(body, position=(0.0, 0.0, 0.009), angular_velocity=(8.0, 0.0, 0.0))
+    return _numbers(system, 2e-3)
+
+
 def _contact_problem(seed: int, n: int, n_u: int, solver: str, sliding: bool) -> Numbers:
     """Solve for random contacts, more of them than the velocities need where n_u is small."""
     rng = np.random.default_rng(seed)
@@ -301,6 +311,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "cloud": lambda: _cloud(13),
     "hills": _hills,
     "border": lambda: _border(60.0, 1e-9),
+    "flat": _flat,
     "slow border": lambda: _border(12.0, 3e-9),
     **{
         f"contact problem, {solver}, {n} contacts, {n_u} velocities, sliding {sliding}": (

@@ -8,6 +8,7 @@ stay what they are.  The geometry keeps its own tangents, of unit length; ``skew
 
 from __future__ import annotations
 
+from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, contact_at, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Pair, Vector, dot, length
 
@@ -47,7 +48,8 @@ def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, t1: Vector, t2:
     e1, e2 = p1 / size, p2 / size
     v1, v2 = contact.slip_of_tangents
     forward = e1 * v1 + e2 * v2
-    if abs(forward) > S.velocity_tolerance:
+    # one that sticks faces against what holds it: in the stages of a step its slip is not quite none
+    if contact.mode != STICK and abs(forward) > S.velocity_tolerance:
         contact.facing = 1 if forward > 0.0 else -1
     along, across = law[_FORWARD] if contact.facing == 1 else law[_BACKWARD], law[_ACROSS]
     contact.skew_1, contact.skew_2 = (along * e1, along * e2), (-across * e2, across * e1)
@@ -75,6 +77,15 @@ def along_tangents(S: Scalars, w: Floats, k: Integers, c: int, friction: Pair) -
     contact = contact_at(S, w, k, c)
     (s11, s12), (s21, s22), (f1, f2) = contact.skew_1, contact.skew_2, friction
     return s11 * f1 + s21 * f2, s12 * f1 + s22 * f2
+
+
+@kernel("void(S, F, I)")
+def face_slips(S: Scalars, w: Floats, k: Integers) -> None:
+    """Let contacts that stuck before an impact face against the slip that it leaves."""
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.oriented == 1 and contact.mode == STICK:
+            contact.mode = SLIDE
 
 
 @kernel("f8(S, F, I, i8, f8)")

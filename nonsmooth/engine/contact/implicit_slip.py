@@ -7,6 +7,7 @@ accelerations without forces that is the problem of incipient slip, and stopping
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
@@ -119,6 +120,29 @@ def _note(S: Scalars, w: Floats, k: Integers) -> None:
             S.driven_power += active.force[r] * (row(S, w, k, c, r, S.free_velocities) - contact.rate[r])
 
 
+@kernel("i8(S, F, I)")
+def _solve(S: Scalars, w: Floats, k: Integers) -> int:
+    """Find the ``active_forces`` with which a stage ends, as the contacts face; return 1 if they are found."""
+    S.acceleration_scale = 0.0
+    for a in range(S.n_active):
+        evaluate_contact(S, w, k, active_at(S, w, k, a).slot, 3)
+    assemble_delassus(S, w, k)
+    for a in range(S.n_active):
+        _lay(S, w, k, a)
+    return oppose_slips(S, w, k)
+
+
+@kernel("i8(S, F, I)")
+def _face(S: Scalars, w: Floats, k: Integers) -> int:
+    """Let slips that are held face against what holds them; return how many had another bound than it seemed."""
+    turned = 0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        if contact_at(S, w, k, active.slot).mode == SLIDE and active.mode_tried == STICK:
+            turned += turn_facing(S, w, k, active.slot, active.force[1])
+    return turned
+
+
 @kernel()
 def hold_at_end(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the ``active_forces`` of the active contacts with which a stage ends, and add what they do to ``du``.
@@ -126,12 +150,13 @@ def hold_at_end(S: Scalars, w: Floats, k: Integers) -> None:
     Geometry and rates are those of the state that the accelerations at ``guess`` lead to.  Where no forces are found
     ``unsettled`` is raised.
     """
-    S.acceleration_scale = 0.0
-    for a in range(S.n_active):
-        evaluate_contact(S, w, k, active_at(S, w, k, a).slot, 3)
-    assemble_delassus(S, w, k)
-    for a in range(S.n_active):
-        _lay(S, w, k, a)
-    if oppose_slips(S, w, k) == 0:
+    settled = 0
+    for _facing in range(1 + S.n_active):
+        if _solve(S, w, k) == 0:
+            break
+        if _face(S, w, k) == 0:
+            settled = 1
+            break
+    if settled == 0:
         S.unsettled = 1
     _note(S, w, k)

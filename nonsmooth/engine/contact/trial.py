@@ -9,7 +9,8 @@ from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_TOLERANCE = 1e-9
+NO_FORCE = 1e-9
+"""Part of the accelerations, and of the forces, that counts as zero among them."""
 _SOLVED = 1e-5
 """Part of what counts as zero in an island that round-off of its largest forces leaves in all of them."""
 _ARRIVED = 0.1
@@ -55,7 +56,7 @@ def set_scales(S: Scalars, w: Floats, k: Integers) -> None:
                     total += part
                     scale = max(scale, abs(part))
             active.acceleration[r] = total
-    S.small_acceleration, S.small_force = _TOLERANCE * scale, _TOLERANCE * force_scale
+    S.small_acceleration, S.small_force = NO_FORCE * scale, NO_FORCE * force_scale
 
 
 @kernel("f8(S, F, I, i8)")
@@ -67,7 +68,7 @@ def small_force(S: Scalars, w: Floats, k: Integers, a: int) -> float:
         size = max(size, abs(active.force[r]))
     if own > 0.0:
         size = max(size, S.acceleration_scale / own)
-    return float(_TOLERANCE * size + _SOLVED * S.small_force)
+    return float(NO_FORCE * size + _SOLVED * S.small_force)
 
 
 @entry_point("i8(S, F, I, i8)")

@@ -30,6 +30,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     normal_guard,
 )
 from nonsmooth.engine.flow.guards import arm_guards, keep_end, watch_features, write_guards
+from nonsmooth.engine.flow.leap import leap, measure_noise
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (
     normalise_quaternions,
@@ -303,6 +304,8 @@ def _cause_at_start(S: Scalars, w: Floats, k: Integers, which: int) -> int:
 def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
     S.limit = NO_STEP
+    if status == STEP_TOO_SMALL and leap(S, w, k, S.time_tolerance) == 1:
+        return _after_leap(S, w, k)
     if status == STEP_TOO_SMALL:
         which = _hardest_pressed(S, w, k)
         if which >= 0:
@@ -310,6 +313,23 @@ def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
             if outcome != NO_CONTACT_SOLUTION:
                 return int(outcome)
     return _up_to_end(S, status)
+
+
+@kernel("i8(S, F, I)")
+def _after_leap(S: Scalars, w: Floats, k: Integers) -> int:
+    """Take over the instant in which contact points ran along bodies, and what it let go; return the status."""
+    S.h, S.fresh = S.time_tolerance, 0
+    _take_over(S, w, k, S.h)
+    cause, which = 0, -1
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN and contact.released != 0 and which < 0:
+            cause, which = contact.released, c
+        contact.released = 0
+    if which >= 0:
+        return _carry_out(S, w, k, cause, which)
+    measure_noise(S, w, k)
+    return RUNNING
 
 
 @kernel("i8(S, F, I)")
@@ -408,10 +428,13 @@ def _break_direction(S: Scalars, w: Floats, k: Integers, which: int) -> None:
     contact = contact_at(S, w, k, which)
     t1 = contact.force[1] - contact.null_space_force[1] * contact.redundant
     t2 = contact.force[2] - contact.null_space_force[2] * contact.redundant
-    norm = length((t1, t2))
+    norm, speed = length((t1, t2)), length(contact.slip)
     if norm > 0.0:
         turn_facing(S, w, k, which, t1)
         contact.direction = -t1 / norm, -t2 / norm
+    elif speed > 0.0:
+        # nothing held it: it slips as it does
+        contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
 @entry_point("i8(S, F, I, i8, i8)")

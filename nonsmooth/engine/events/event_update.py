@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.anisotropy import along_tangents, turn_facing
+from nonsmooth.engine.bodies.anisotropy import along_tangents, face_slips, turn_facing
 from nonsmooth.engine.bodies.compliance import (
     begin_contact,
     push_compliant,
@@ -136,6 +136,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
     S.restitution_loss += w[S.event_head + RESTITUTION_LOSS]
     S.friction_loss += w[S.event_head + FRICTION_LOSS]
     # until the instant is settled: apart is open, the rest goes by its slip
+    face_slips(S, w, k)
     touch(S, w, k)
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)

@@ -30,6 +30,7 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.vectors import length
 
+_INCIPIENT = 1e-300
 WRONG_FORCE = -2.0
 """A force below so many times what its contact problem took for zero violates its mode."""
 
@@ -159,8 +160,11 @@ def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     contact = contact_at(S, w, k, c)
     if contact.traction_function != 0:
         return 1.0
+    speed = length(contact.slip)
+    if contact.normal_function != 0 and friction_coefficient(S, w, k, c, max(speed, _INCIPIENT)) == 0.0:
+        return 1.0
     if S.stage_time > 0.0:
-        return length(contact.slip)
+        return speed
     return float(contact.slip[0] * contact.direction[0] + contact.slip[1] * contact.direction[1])
 
 

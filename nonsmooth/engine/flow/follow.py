@@ -13,6 +13,7 @@ from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope
 from nonsmooth.engine.flow.guard_numbers import friction_guard
+from nonsmooth.engine.flow.leap import leap
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.self_check import energy_of_bodies
 from nonsmooth.engine.flow.step import relaxation, try_length
@@ -143,6 +144,8 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
         S.relaxation = relaxation(S, w, k)
         left = t - S.t
         h = _found_step(S, w, k, min(wanted, left))
+        if h < 0.0 and S.stopped == 0 and leap(S, w, k, S.time_tolerance) == 1:
+            h = S.time_tolerance
         if h < 0.0:
             return NOT_FINITE if S.stopped == 1 else STEP_TOO_SMALL
         S.h = h

@@ -55,6 +55,8 @@ _SHORTEST = 1e-4
 """Part of a step in which nothing is looked at twice: the step itself resolves no more."""
 _JUMP = 1e-3
 """A guard of which this part of the start value is left next to its root jumps."""
+_NEARER = 0.5
+"""Next to a root no more than this part of the start value is left."""
 _WAYS = 14
 """So often the way behind a jump is doubled, from a part of the time tolerance on, until the jump is passed."""
 _FINE = 0.01
@@ -298,7 +300,9 @@ def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, for
             S.guard_slope = contact_at(S, w, k, contact_of(S, i)).gap_rate
             if guard_at(S, w, k, i).deflated == 1:
                 S.guard_slope = (S.guard_slope - g) / (theta * h)
-        if g == 0.0 or (high - low) * h <= fine or abs(g) <= -fine * S.guard_slope:
+        # the slope across a jump says nothing of a value that is as it was at the start
+        near = abs(g) <= -fine * S.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(S, w, k, i) == 1)
+        if g == 0.0 or (high - low) * h <= fine or near:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
             if left <= _JUMP * g_first or span * h > S.time_tolerance or is_gap(S, w, k, i) == 1:
                 return float(theta)

@@ -73,13 +73,13 @@ def _unseen(S: Scalars, w: Floats, h: float) -> float:
 def relaxation(S: Scalars, w: Floats, k: Integers) -> float:
     """Return how fast slip directions relax where the step starts [1/s]; 0 where an implicit step is none.
 
-    For that some closed contact must slide, and all must be rigid and rub alike in all directions.
+    For that some closed contact must slide, and all must be rigid.
     """
     fastest = 0.0
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
-        if contact.normal_function != 0 or contact.oriented == 1:
+        if contact.normal_function != 0:
             return 0.0
         if contact.mode == SLIDE:
             friction = math.hypot(contact.force[1], contact.force[2])

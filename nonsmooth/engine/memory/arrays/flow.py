@@ -31,6 +31,8 @@ ARRAYS = Arrays(
         "fall_first": per(3, "n_slots"),
         "arm_end": per(3, "n_slots"),
         "arm_first": per(3, "n_slots"),
+        "leap_start": per(6, "n_slots"),
+        "leap_way": per(6, "n_slots"),
         "small_force_of": per(1, "n_slots"),
         "mobility": per(1, "n_slots"),
         "part_ends": fixed(PART_END * (PARTS + 1)),

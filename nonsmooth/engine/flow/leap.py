@@ -1,0 +1,183 @@
+"""The instant in which a contact point runs along a body: a flat place rolls over another surface.
+
+Where a body has no curvature its point of contact is infinitely fast, and so is its acceleration: next to the middle of
+a boxy face or of a flat line steps shrink to nothing.  What the contact gives to the bodies stays finite.  While they
+stand still the point runs from where it was to where it is, and as it stays closed all the way its impulse neither
+stores nor gives energy.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.bodies import evaluate_bodies
+from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_jacobian, evaluate_rates
+from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.trial import NO_FORCE, small_force
+from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
+from nonsmooth.engine.delassus.islands import activate_group
+from nonsmooth.engine.flow.flow import right_hand_side
+from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS
+from nonsmooth.engine.memory.modes import LIFT_OFF, STICK, STICK_TO_SLIP
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, frame_at, kernel
+from nonsmooth.engine.numerics.vectors import dot, length, minus
+
+_PART = 0.01
+"""Way of a contact point in one stretch, in units of the smaller body;"""
+_MOST = 100
+"""so many stretches at most."""
+_FASTER = 3.0
+"""A point that runs is so many times as fast as the bodies at least."""
+_INCIPIENT = 1e-300
+
+
+@kernel("i8(S, F, I)")
+def _stretches(S: Scalars, w: Floats, k: Integers) -> int:
+    """Keep the ways of the contact points from where they were to where they are; return in how many stretches."""
+    longest = 0.0
+    for i in range(S.n_grouped):
+        contact = contact_at(S, w, k, k[S.grouped + i])
+        way_a = minus(contact.point_a, contact.start_a)
+        way_b = minus(contact.point_b, contact.start_b)
+        contact.way_a, contact.way_b = way_a, way_b
+        longest = max(longest, dot(way_a, way_a) / contact.size**2, dot(way_b, way_b) / contact.size**2)
+    return min(_MOST, 1 + int(longest**0.5 / _PART))
+
+
+@kernel("void(S, F, I, f8)")
+def _set_up(S: Scalars, w: Floats, k: Integers, part: float) -> None:
+    """Put the active contacts at a ``part`` of their ways, and write what they hold, how they rub, and the rates."""
+    S.acceleration_scale = 0.0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        c = active.slot
+        contact = contact_at(S, w, k, c)
+        (ax, ay, az), (bx, by, bz) = contact.way_a, contact.way_b
+        contact.point_a = contact.start_a[0] + part * ax, contact.start_a[1] + part * ay, contact.start_a[2] + part * az
+        contact.point_b = contact.start_b[0] + part * bx, contact.start_b[1] + part * by, contact.start_b[2] + part * bz
+        evaluate_rates(S, w, k, c)
+        evaluate_jacobian(S, w, k, c)
+        speed = length(contact.slip)
+        active.mu_static = friction_coefficient(S, w, k, c, 0.0)
+        active.mu = friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
+        sticks = contact.mode == STICK and contact.released == 0
+        active.normal_held = 0 if contact.released == LIFT_OFF else 1
+        active.tangent_held = 1 if sticks and active.mu_static > 0.0 else 0
+        active.direction = contact.direction
+        if speed > S.velocity_tolerance:
+            active.direction = contact.slip[0] / speed, contact.slip[1] / speed
+        for r in range(3):
+            active.free[r] = contact.rate[r]
+            S.acceleration_scale = max(S.acceleration_scale, abs(contact.rate[r]))
+    assemble_delassus(S, w, k)
+
+
+@kernel("i8(S, F, I)")
+def _release(S: Scalars, w: Floats, k: Integers) -> int:
+    """Release the contacts that pull from all, and those past their static bound from sticking; return how many."""
+    released = 0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        faint = small_force(S, w, k, a)
+        if active.normal_held == 1 and active.normal_force < -faint:
+            contact.released, active.normal_held, active.tangent_held = LIFT_OFF, 0, 0
+            released += 1
+        elif active.tangent_held == 1 and length(active.friction) > active.mu_static * active.normal_force + faint:
+            (t1, t2), norm = active.friction, length(active.friction)
+            contact.released, active.tangent_held = STICK_TO_SLIP, 0
+            contact.direction = active.direction = -t1 / norm, -t2 / norm
+            released += 1
+    return released
+
+
+@kernel("void(S, F, I, f8)")
+def _reflect(S: Scalars, w: Floats, k: Integers, part: float) -> None:
+    """Let the active contacts act at a ``part`` of their ways, without loss but by friction.
+
+    What they hold of the velocities changes its sign in the middle of a stretch, at whose ends nothing is left of it.
+    """
+    _set_up(S, w, k, part)
+    for _round in range(2 * S.n_active + 1):
+        for i in range(3 * S.n_active):
+            w[S.active_forces + i] = 0.0
+        resolve(S, w, k)
+        if _release(S, w, k) == 0:
+            break
+    for i in range(3 * S.n_active):
+        w[S.active_forces + i] *= 2.0
+    add_response(S, w, k, S.active_forces, S.y_new + S.n_q)
+    powers = S.y_new + S.n_q + S.n_u
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        for r in range(3):
+            impulse = active.force[r]
+            w[powers + DRIVEN] -= impulse * contact.prescribed_rate[r]
+            w[powers + EXCHANGED] += abs(impulse * contact.prescribed_rate[r])
+            if r > 0 and active.tangent_held == 0:
+                lost = -impulse * 0.5 * add_product(S, w, k, 2.0 * contact.rate[r], a, r, S.active_forces)
+                w[powers + FRICTION_LOSS] += lost
+                w[powers + EXCHANGED] += abs(lost)
+
+
+@kernel("i8(S, F, I, f8)")
+def _runs(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Return 1 if a contact point has run in the time ``h``, faster than the bodies go, to where they approach."""
+    runs = 0
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        evaluate_geometry(S, w, k, c)
+        evaluate_rates(S, w, k, c)
+        contact = contact_at(S, w, k, c)
+        spin_a, spin_b = frame_at(w, contact.frame_a).spin, frame_at(w, contact.frame_b).spin
+        turning, way = minus(spin_b, spin_a), minus(contact.point_b, contact.start_b)
+        speed = length(contact.slip) + contact.size * math.sqrt(dot(turning, turning))
+        if contact.rate[0] < 0.0 and dot(way, way) > (_FASTER * h * speed) ** 2:
+            runs = 1
+    return runs
+
+
+@kernel()
+def measure_noise(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write what counts as no force behind a leap: before it, next to the flat place, forces may have had no bound."""
+    right_hand_side(S, w, k, S.t, S.y, 0)
+    largest = 0.0
+    for i in range(S.n_grouped):
+        contact = contact_at(S, w, k, k[S.grouped + i])
+        largest = max(largest, abs(contact.force[0]))
+        if contact.mobility > 0.0:
+            largest = max(largest, abs(contact.bias[0]) / contact.mobility)
+    for i in range(S.n_grouped):
+        contact_at(S, w, k, k[S.grouped + i]).small_force_of = NO_FORCE * largest
+
+
+@kernel("i8(S, F, I, f8)")
+def leap(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Write the state after the time ``h``, too short for steps, to ``y_new``; return 1 if contact points run in it.
+
+    ``slopes`` must hold the slope at ``y``, and the closed contacts be grouped.  What the impulses let go is
+    ``released``, by the cause that it means.
+    """
+    evaluate_bodies(S, w, k, S.t, S.y)
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        contact = contact_at(S, w, k, c)
+        if contact.normal_function != 0:
+            return 0
+        evaluate_geometry(S, w, k, c)
+        contact.start_a, contact.start_b = contact.point_a, contact.point_b
+        contact.released = 0
+    for i in range(S.n_y):
+        w[S.y_new + i] = w[S.y + i] + (h * w[S.slopes + i] if i < S.n_q else 0.0)
+    evaluate_bodies(S, w, k, S.t + h, S.y_new)
+    if _runs(S, w, k, h) == 0:
+        return 0
+    n = _stretches(S, w, k)
+    for stretch in range(n):
+        for group in range(S.n_groups):
+            activate_group(S, w, k, group)
+            _reflect(S, w, k, (stretch + 0.5) / n)
+        evaluate_bodies(S, w, k, S.t + h, S.y_new)
+    return 1
