@@ -15,10 +15,11 @@ from nonsmooth.binding import interpreted
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.kernel import call_entry, forget_watch, watch_address
 
-_FIRST = 256
-"""Work that the engine does before it lets the watch look for the first time, in evaluations of a contact,"""
+_FIRST = 8192
+"""Work that the engine does before it lets the watch look for the first time, in evaluations of a contact: some
+milliseconds.  Threads wait for each other at every look."""
 _SECONDS = 5e-3
-"""and the time that it shall take later [s]: what follows may be dearer than what came before."""
+"""Time that it shall take later [s]: what follows may be dearer than what came before."""
 _REPORTED_EVERY = 0.1
 """Time between two reports [s]."""
 

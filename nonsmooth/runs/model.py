@@ -12,6 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import final
 
+from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
@@ -37,6 +38,9 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.system.system import System
 
+_T_END, _INTERVAL, _FIRST, _NEXT, _LONGEST, _INDEX, _CAPACITY = places(
+    "t_end", "sample_interval", "sample_start", "next_sample", "h_sampled", "sample_index", "sample_capacity"
+).tolist()
 _DEFAULT_SAMPLES = 2000
 _SAMPLES_AT_ONCE = 0.5
 _HELD = 1 << 20
@@ -292,7 +296,7 @@ class Model:
     ) -> Solution:
         laid = self._laid
         records = self._records = Records(laid)
-        record, begun = laid.memory.record, None
+        (floats, integers), begun = laid.memory.cells, None
         if state is self._start:
             begun = self._begun
             begun.put(laid.memory)
@@ -306,11 +310,10 @@ class Model:
             check_closed(laid, state)
             check_start(laid, self._guards)
             energy = laid.energy()
-        record["t_end"], record["sample_interval"], record["sample_index"] = t_end, interval, 0
-        record["sample_start"] = record["next_sample"] = state.time
+        floats[_T_END], floats[_INTERVAL], integers[_INDEX] = t_end, interval, 0
+        floats[_FIRST] = floats[_NEXT] = state.time
         # where a run ends is not to change its steps: all samples by default are fewer than those at once
-        room = _SAMPLES_AT_ONCE * float(record["sample_capacity"])
-        record["h_sampled"] = math.inf if is_default else room * interval
+        floats[_LONGEST] = math.inf if is_default else _SAMPLES_AT_ONCE * integers.item(_CAPACITY) * interval
         keeper: Keeper = KeepsNothing()
         if begun is None or output is not None:
             # takes milliseconds where there are many contacts

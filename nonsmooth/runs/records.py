@@ -11,6 +11,7 @@ from nonsmooth.engine.events.record import EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
+from nonsmooth.engine.memory.tables import places
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.events import Events
@@ -21,10 +22,13 @@ from nonsmooth.solution.track import row_of
 _BEFORE_THE_FIRST, _BEHIND_THE_LAST = -1, -2
 _ROUND_OFF = 1e-9
 """Part of the time between two samples below which a time is that of a sample."""
-_BOOKED = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
+_BOOKED = places("driven_work", "restitution_loss", "friction_loss", "closing_loss")
 _CODES = 1 + 8 + 64
 """Before, during and after an event."""
-_FILLED = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats")
+_FILLED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats").tolist()
+_EVENTS, _SAMPLES, _FLOATS, _INTEGERS, _ = _FILLED
+_CALLS, _TOLD, _INDEX = places("calls", "told", "sample_index").tolist()
+_T, _INTERVAL, _NEXT = places("t", "sample_interval", "next_sample").tolist()
 
 
 @final
@@ -55,9 +59,9 @@ class Records:
     @property
     def n_passed(self) -> int:
         """Events that the engine has recorded, less those that it has still to pass as told."""
-        record = self.model.memory.record
+        _, integers = self.model.memory.cells
         earlier = 0 if self.earlier is None else len(self.earlier[0])
-        return earlier + self._events + int(record["n_events"]) - int(record["told"])
+        return earlier + self._events + int(integers.item(_EVENTS) - integers.item(_TOLD))
 
     def drain(self) -> None:
         """Empty the engine's buffers.
@@ -65,18 +69,18 @@ class Records:
         An interrupt may fall anywhere in here, and the next call then neither repeats nor loses anything.
         """
         memory, width = self.model.memory, self._width
-        record = memory.record
-        key, n_events, n_samples = int(record["calls"]), int(record["n_events"]), int(record["n_samples"])
+        _, integers = memory.cells
+        key, n_events, n_samples = integers.item(_CALLS), integers.item(_EVENTS), integers.item(_SAMPLES)
         if key not in self._parts:
             part = (
-                memory.array("events", int(record["floats_used"])).copy(),
-                memory.array("event_codes", int(record["integers_used"])).copy(),
+                memory.array("events", integers.item(_FLOATS)).copy(),
+                memory.array("event_codes", integers.item(_INTEGERS)).copy(),
                 memory.array("samples", n_samples * width).reshape(n_samples, width).copy(),
             )
             self._events += n_events
             self._parts[key] = part
-        for name in _FILLED:
-            record[name] = 0
+        for place in _FILLED:
+            integers[place] = 0
 
     def begin_with(self, state: State) -> None:
         """Record the start of a run that goes on: its modes are those of the state."""
@@ -95,11 +99,11 @@ class Records:
 
     def end(self) -> None:
         """Add a sample of where the run ends, unless there is one."""
-        memory, record = self.model.memory, self.model.memory.scalars[0]
-        t, interval = float(record["t"]), float(record["sample_interval"])
-        if record["sample_index"] > 0 and t - (float(record["next_sample"]) - interval) <= _ROUND_OFF * interval:
+        memory, (floats, integers) = self.model.memory, self.model.memory.cells
+        t, interval = floats.item(_T), floats.item(_INTERVAL)
+        if integers.item(_INDEX) > 0 and t - (floats.item(_NEXT) - interval) <= _ROUND_OFF * interval:
             return
-        row = np.concatenate([[t], memory.array("y", self.model.n_y), [float(record[name]) for name in _BOOKED]])
+        row = np.concatenate([[t], memory.array("y", self.model.n_y), floats[_BOOKED]])
         self._parts[_BEHIND_THE_LAST] = np.zeros(0), np.zeros(0, np.int64), row[None]
 
     @property

@@ -117,6 +117,14 @@ class Memory:
         return cast(np.void, self.scalars[0])
 
     @functools.cached_property
+    def cells(self) -> tuple[np.ndarray, np.ndarray]:
+        """All scalars as floats, and as integers, each at its place (:func:`nonsmooth.engine.memory.tables.places`).
+
+        Views, through which short runs read and set a number at a fifth of the time that its name takes.
+        """
+        return self.scalars.view(np.float64), self.scalars.view(np.int64)
+
+    @functools.cached_property
     def _places(self) -> dict[str, tuple[np.ndarray, int]]:
         heaps = (self.floats, FLOAT_ARRAYS), (self.integers, INTEGER_ARRAYS)
         return {name: (heap, int(self.scalars[name][0])) for heap, names in heaps for name in names}
