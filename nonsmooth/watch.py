@@ -56,7 +56,8 @@ class Watch:
         if inspect.getgeneratorstate(self._looks) == inspect.GEN_CLOSED:
             # a second Ctrl-C has ended it
             self._begin_to_look()
-        self._began, self._patience, self._settled = time.perf_counter(), float(_FIRST), False
+        self._began = self._last = self._reported = time.perf_counter()
+        self._patience, self._settled = float(_FIRST), False
         record = self._memory.record
         record["watch"], record["patience"] = self._address, _FIRST
         return self

@@ -3,7 +3,7 @@
 The dumbbell runs for eight periods of its plate, again and again: from its own start, from other velocities, and on
 from where it was; then by `simulate`.  Printed are, per run, the time [ms], that of it which the engine takes, and
 their ratio, of the quickest of batches of 20 runs, as what else the machine does counts least there; last how many
-times as many runs two threads make in the same time as one, each with a copy of the model, of 200 runs each.
+times as many runs two threads make in the same time as one, each with a copy of the model, of 400 runs each.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from nonsmooth.plugins import registry
 
 PERIODS = 8.0
 BATCH = 20
-THREADED = 200
-REPETITIONS = 10
+THREADED = 400
+REPETITIONS = 5
 
 
 def timed(runs: int, way: Callable[[int], object]) -> tuple[float, float]:

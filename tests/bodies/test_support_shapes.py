@@ -192,7 +192,7 @@ def test_the_run_of_an_ellipsoid_that_is_not_known(build: Any, ground: Shape) ->
         )
         events.append(
             ns.simulate(
-                system, 0.05 if PLAIN else 0.3, engine=ns.EventDriven(tolerance=1e-12, velocity_tolerance=1e-9)
+                system, 0.05 if PLAIN else 0.3, engine=ns.EventDriven(tolerance=1e-12, velocity_tolerance=1e-10)
             ).events
         )
     np.testing.assert_array_equal(events[0].cause, events[1].cause)
