@@ -139,7 +139,7 @@ def _told(events: Events) -> np.ndarray:
     """Return which events are more than the handing over from one feature to the next."""
     of_features = np.isin(events.cause, [FEATURE_END, FEATURE_CHANGE])
     since = events.time[:, None] - events.time[events.cause == FEATURE_END]
-    return ~(of_features | np.any((since > 0.0) & (since < 1e-6), axis=1))
+    return np.asarray(~(of_features | np.any((since > 0.0) & (since < 1e-6), axis=1)))
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
