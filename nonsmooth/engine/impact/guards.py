@@ -99,7 +99,9 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
         if phase == IDLE or (active.tangent_held == 0 and active.mu == 0.0):
             active.friction_guard = 1.0
         elif active.tangent_held == 1:
-            active.friction_guard = NOISE + active.margin / force_scale
+            # one that the step has stopped may have slipped in the part before
+            margin = max(0.0, active.margin) if active.halted == 1 else active.margin
+            active.friction_guard = NOISE + margin / force_scale
         elif S.turning == 1:
             active.friction_guard = NOISE + length(active.slip) / S.speed_scale
         else:

@@ -36,7 +36,7 @@ from nonsmooth.engine.impact.rates import (
     evaluate_impact_forces,
     write_impact_slope,
 )
-from nonsmooth.engine.impact.scales import scale_impact
+from nonsmooth.engine.impact.scales import grow_scales, scale_impact
 from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import (
@@ -320,6 +320,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
             continue
         for i in range(STRIDE * S.n_active):
             w[S.impact_y + i] = w[S.impact_new + i]
+        grow_scales(S, w, k)
         _stop(S, w, k)
         if S.trigger < 0:
             h = min(h * step_factor(error), _LARGEST * shortest)

@@ -5,12 +5,24 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_scalar, contact_at, kernel
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    active_at,
+    at,
+    call_scalar,
+    contact_at,
+    impact_state,
+    kernel,
+)
 
 REST = 1e-9
 """Slip velocities below this, relative to the impact speed, count as none; so do those within the tolerance."""
 _CIRCLING = 30.0
 """A slip that circles round zero does so within the error of so many steps."""
+_GROWN = 2.0
+"""Impulses that grow by less have the same scale."""
 _MET = 1e-6
 """So close, relative to it, the deformation that takes up an energy need be known: it is a scale."""
 _UNUSED = 1e300
@@ -56,10 +68,39 @@ def scale_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> float:
         active.deformation_scale = x
         active.force_scale = energy / x
         shortest = min(shortest, (energy if a == S.lone else x) / S.speed_scale)
-    for a in range(m):
-        active = active_at(S, w, k, a)
-        active.rest_slip = _slip_at_rest(S, w, k, a)
+    _set_rest_slips(S, w, k)
     return shortest
+
+
+@kernel("f8(S, F, I, i8)")
+def reached_energy(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+    """Return the energy to which errors of the active contact ``a`` are relative: its scale, or what it has taken up.
+
+    Where friction blocks the way of a light point, or slip presses bodies together, that is far more than its approach
+    alone would bring.
+    """
+    active, state = active_at(S, w, k, a), impact_state(w, S.impact_y, a)
+    return float(max(active.energy_scale, abs(state.work), state.rubbed, state.energy))
+
+
+@kernel("void(S, F, I)")
+def grow_scales(S: Scalars, w: Floats, k: Integers) -> None:
+    """Let the slips that count as none grow with the energies, as the errors do."""
+    grown = 0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        impulse = math.sqrt(reached_energy(S, w, k, a) / diagonal_block(S, w, k, a).nn)
+        if impulse > _GROWN * active.impulse_scale:
+            active.impulse_scale = impulse
+            grown = 1
+    if grown == 1:
+        _set_rest_slips(S, w, k)
+
+
+@kernel()
+def _set_rest_slips(S: Scalars, w: Floats, k: Integers) -> None:
+    for a in range(S.n_active):
+        active_at(S, w, k, a).rest_slip = _slip_at_rest(S, w, k, a)
 
 
 @kernel("f8(S, F, I, i8)")

@@ -24,6 +24,7 @@ from nonsmooth.engine.impact.rates import (
     normal_force,
     write_impact_slope,
 )
+from nonsmooth.engine.impact.scales import reached_energy
 from nonsmooth.engine.memory import implicit_tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
@@ -82,14 +83,12 @@ def let_go(S: Scalars, w: Floats, k: Integers) -> None:
 def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
     """Return the largest of the ``errors`` of a state, relative to the tolerance.
 
-    Impulses count by the energy of what they move.  Energies are known to a part of what they are: where friction
-    blocks the way of a light point, a contact takes up more than its approach alone would bring.
+    Impulses count by the energy of what they move, energies are known to a part of what they are.
     """
     worst = 0.0
     for a in range(S.n_active):
-        active, state, own = active_at(S, w, k, a), impact_state(w, S.impact_y, a), diagonal_block(S, w, k, a).entries
-        line = errors + STRIDE * a
-        energy = max(active.energy_scale, abs(state.work), state.rubbed, state.energy)
+        active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a).entries
+        line, energy = errors + STRIDE * a, reached_energy(S, w, k, a)
         moved = 0.0
         for r in range(3):
             for s in range(3):
