@@ -11,6 +11,7 @@ from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
+from nonsmooth.engine.contact.null_space_forces import shift_forces
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
@@ -48,6 +49,16 @@ def _lay(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 
 
 @kernel("i8(S, F, I)")
+def _halts(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a slip is held: whether others share its load, forces that are not unique tell."""
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        if active.mode_past == SLIDE and active.mode_tried == STICK:
+            return 1
+    return 0
+
+
+@kernel("i8(S, F, I)")
 def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
     """Hold the slips that friction would turn round, and let go those that it cannot hold; return how many."""
     largest = 0.0
@@ -55,6 +66,8 @@ def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
         largest = max(largest, abs(w[S.active_forces + i]))
     small = _FAINT * largest
     if S.deficient == 1:
+        shift_forces(S, w, k)
+    if S.deficient == 1 and _halts(S, w, k) == 1:
         small = 2.0 * _ARRIVED * largest
         distribute(S, w, k, 0.0, _ARRIVED * largest)
         for a in range(S.n_active):

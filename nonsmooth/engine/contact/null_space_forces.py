@@ -110,3 +110,13 @@ def add_null_space_force(S: Scalars, w: Floats, k: Integers) -> None:
     for i in range(n):
         for j in range(n):
             w[S.x + i] += w[S.null + i * n + j] * w[S.sigma + j]
+
+
+@kernel()
+def shift_forces(S: Scalars, w: Floats, k: Integers) -> None:
+    """Add what of the null-space force lies in the present null space to the ``active_forces``, those of least norm."""
+    for i in range(S.n_unknown):
+        w[S.x + i] = force_of(S, w, k, i)
+    add_null_space_force(S, w, k)
+    for i in range(S.n_unknown):
+        set_force(S, w, k, i, w[S.x + i])

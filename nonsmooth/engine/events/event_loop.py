@@ -18,6 +18,7 @@ from nonsmooth.engine.events.record import (
 )
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
+from nonsmooth.engine.events.stopping import stopping
 from nonsmooth.engine.flow.clearance import UNKNOWN_FALL, bound_speeds
 from nonsmooth.engine.flow.flow import is_violated, right_hand_side, slope
 from nonsmooth.engine.flow.follow import orient_slips
@@ -25,7 +26,6 @@ from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_end_guard,
     first_own_guard,
-    friction_guard,
     is_friction_guard,
     normal_guard,
 )
@@ -80,8 +80,6 @@ from nonsmooth.engine.numerics.vectors import length
 _DRIFT = 0.3
 _SPACINGS = 4.0 * 2.0**-52
 """Times closer than this part of the time are not told apart."""
-_HELD = 1e-3
-"""Part of the tolerance of velocities below which a slip is what solving leaves of none."""
 _NO_STEP = 1e-3
 """A step below this part of the time tolerance in which guards crowd or the error grows leads nowhere."""
 
@@ -182,33 +180,6 @@ def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> in
     if stalls(S, w, k, which) == 1:
         return STALLED
     return update_at_event(S, w, k, cause, which)
-
-
-@kernel("i8(S, F, I)")
-def _stopped_within(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if an implicit step holds a slip at its end that moved at its start: when it stopped is not told."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.mode == SLIDE and contact.traction_function == 0:
-            held = length(contact.slip_end) <= _HELD * S.velocity_tolerance
-            if held and guard_at(S, w, k, friction_guard(S, c)).first > S.velocity_tolerance:
-                return 1
-    return 0
-
-
-@kernel("i8(S, F, I)")
-def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return a contact whose slip has come next to rest in the step that ended and slows down, or -1.
-
-    So close to rest the direction of the slip is stiff, and what is left of it below the tolerance.
-    """
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.mode == SLIDE and contact.traction_function == 0:
-            speed = length(contact.slip_end)
-            if speed <= S.velocity_tolerance and speed < guard_at(S, w, k, friction_guard(S, c)).first:
-                return c
-    return -1
 
 
 @kernel("i8(S, F, I)")
@@ -352,11 +323,8 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     if S.h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
-    if S.stage_time > 0.0 and _stopped_within(S, w, k) == 1:
-        S.fresh = 0
-        return _shorten(S)
     _commit(S, w, k, S.h)
-    which = _stopping(S, w, k)
+    which = stopping(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, SLIP_TO_STICK, which)
     S.fresh = 1

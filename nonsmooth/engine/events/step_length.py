@@ -6,6 +6,7 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
+from nonsmooth.engine.events.stopping import share_before_stop
 from nonsmooth.engine.flow.clearance import foresee
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.step import relaxation, try_length
@@ -17,10 +18,11 @@ from nonsmooth.engine.memory.limits import (
     BY_LIST,
     BY_SAMPLES,
     BY_SINGULARITY,
+    BY_STOP,
 )
 from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel
-from nonsmooth.engine.numerics.runge_kutta import step_factor
+from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import dot
 
 _BEGINS = 10.0
@@ -117,6 +119,7 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     S.relaxation = relaxation(S, w, k)
     h = _first_attempt(S, w, k, wanted)
     S.limit = _limit(S, wanted, h)
+    explained = 0.0
     for _attempt in range(_ATTEMPTS):
         if S.stopped == 1:
             return NOT_FINITE
@@ -129,6 +132,10 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         elif error <= 1.0 and _overran(S, w, k, h) == 1:
             h *= 0.5
             S.limit = BY_LIST
+        elif error <= 1.0 and S.stage_time > 0.0 and share_before_stop(S, w, k, h) < 1.0:
+            h *= share_before_stop(S, w, k, h)
+            wanted = 0.0
+            S.limit = BY_STOP
         elif error <= 1.0:
             _remember_step(S, w, k, h, error, wanted)
             return RUNNING
@@ -138,7 +145,11 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             wanted = 0.0
             if not error < 1e300 and 0.1 * h < S.time_tolerance:
                 return NOT_FINITE
-            h *= step_factor(error) if error < 1e300 else 0.1
+            factor = step_factor(error) if error < 1e300 else 0.1
+            if error > explained > 0.0:
+                factor = max(SHRINK, SAFETY / error)
+            explained = factor * factor * error
+            h *= factor
         if h < S.time_tolerance:
             return STEP_TOO_SMALL
     return STEP_TOO_SMALL

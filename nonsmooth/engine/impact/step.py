@@ -28,7 +28,7 @@ from nonsmooth.engine.impact.scales import reached_energy
 from nonsmooth.engine.memory import implicit_tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, impact_state, kernel
 from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
 from nonsmooth.engine.numerics.vectors import length
 
@@ -201,6 +201,9 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         active.mode_past = OPEN if active.phase == IDLE else STICK if active.tangent_held == 1 else SLIDE
+        for r in range(3):
+            # what the motion keeps of forces that are not unique is chosen anew behind the impact
+            contact_at(S, w, k, active.slot).null_space_force[r] = 0.0
     for i in range(n):
         w[S.impact_slopes + n + i] = w[S.impact_slopes + i]
     stage = 2

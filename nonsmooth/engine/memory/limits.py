@@ -10,10 +10,11 @@ from __future__ import annotations
     BY_SAMPLES,
     BY_FIRST,
     BY_SINGULARITY,
+    BY_STOP,
     BY_EVENT,
     BY_CROWD,
     BY_END,
-) = range(10)
+) = range(11)
 
 LIMITS = (
     "no step",
@@ -23,6 +24,7 @@ LIMITS = (
     "samples",
     "first step in contact",
     "Painleve singularity",
+    "slip that stops",
     "event",
     "crowded events",
     "end of the run",
