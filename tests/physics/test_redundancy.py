@@ -21,7 +21,7 @@ from nonsmooth.engine.memory.modes import IMPACT, STICK_TO_SLIP
 from tests.physics.moved_systems import quaternion
 
 G = 9.81
-TIGHT = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12, velocity_tolerance=1e-10)
+TIGHT = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 HALF_X, HALF_Y, HEIGHT, FOOT = 0.08, 0.05, 0.02, 0.005
 CORNERS = ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
 FEET: dict[int, Any] = {

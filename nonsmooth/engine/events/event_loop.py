@@ -227,7 +227,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("void(S, F, I)")
 def _evaluate_start(S: Scalars, w: Floats, k: Integers) -> None:
     """Write slope and guards where the step begins; behind a step without an event they are at hand."""
-    S.follows = 1 if S.fresh == 1 and S.stage_time > 0.0 else 0
+    S.follows = S.fresh
     S.replaced = 0
     if S.fresh == 1:
         watch_features(S, w, k)

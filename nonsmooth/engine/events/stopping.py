@@ -4,39 +4,60 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.flow.guard_numbers import friction_guard
+from nonsmooth.engine.flow.step import STIFF
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _HELD = 1e-3
 """Part of the tolerance of velocities below which a slip is what solving leaves of none."""
+_BEYOND = 1.5
+"""Of the way to a stop, as its deceleration foretells it, an explicit step goes so much, and the stop is located;"""
 _ALMOST = 0.98
-"""Part of the way to its stop, as its deceleration foretells it, that a slip is followed,"""
+"""where none will do an implicit one goes so much, and all of it from within the tolerance of velocities on."""
+_MET = 1e-3
+"""A step ends at the stop if that is so near its end, in steps."""
 _SHARES = 1e-3, 0.9
-"""and what the step may be cut to for that,"""
+"""What a step may be cut to for that,"""
 _BLIND = 0.25
-"""or is where nothing is foretold."""
+"""and is where nothing is foretold."""
+
+
+@kernel("f8(S, F, I, i8, f8)")
+def _share(S: Scalars, w: Floats, k: Integers, c: int, h: float) -> float:
+    """Return to what part the implicit step of ``h`` is cut in which the slip of contact ``c`` stops."""
+    contact = contact_at(S, w, k, c)
+    first = length(contact.slip_end)
+    v1, v2 = contact.slip_end
+    du = S.slopes + S.n_q
+    a1, a2 = row(S, w, k, c, 1, du) + contact.bias[1], row(S, w, k, c, 2, du) + contact.bias[2]
+    slowing = -h * (v1 * a1 + v2 * a2) / first
+    part, least = _BLIND, 2.0 * S.time_tolerance
+    if slowing > 0.0:
+        part = first / slowing
+        if _BEYOND * part * h * S.relaxation <= STIFF:
+            part *= _BEYOND
+        elif first > S.velocity_tolerance:
+            part *= _ALMOST
+        elif abs(part - 1.0) * h <= _MET * h + least:
+            S.halting = c
+            return 1.0
+    return float(max(_SHARES[0], least / h, min(_SHARES[1], part)))
 
 
 @kernel("f8(S, F, I, f8)")
 def share_before_stop(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return to what part an implicit step of ``h`` is cut as it holds a slip at its end that moved at its start, or 1.
 
-    When the slip stopped within the step is not told: from next to rest on steps are short, and tell it.
+    When the slip stopped within the step is not told.  What stops where it ends is ``halting``.
     """
-    share = 1.0
+    S.halting = -1
+    share, none = 1.0, _HELD * S.velocity_tolerance
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        if contact.mode != SLIDE or contact.traction_function != 0:
-            continue
-        first = guard_at(S, w, k, friction_guard(S, c)).first
-        if first <= S.velocity_tolerance or length(contact.slip) > _HELD * S.velocity_tolerance:
-            continue
-        d1, d2 = contact.direction
-        du = S.slopes + S.n_q
-        slowing = -h * (d1 * row(S, w, k, c, 1, du) + d2 * row(S, w, k, c, 2, du))
-        way = _ALMOST * first / slowing if slowing > 0.0 else _BLIND
-        share = min(share, max(_SHARES[0], min(_SHARES[1], way)))
+        stops = contact.mode == SLIDE and contact.traction_function == 0 and length(contact.slip) <= none
+        if stops and length(contact.slip_end) > none:
+            share = min(share, _share(S, w, k, c, h))
     return share
 
 
@@ -44,8 +65,11 @@ def share_before_stop(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 def stopping(S: Scalars, w: Floats, k: Integers) -> int:
     """Return a contact whose slip has come next to rest in the step that ended and slows down, or -1.
 
-    So close to rest the direction of the slip is stiff, and what is left of it below the tolerance.
+    So close to rest the direction of the slip is stiff, and what is left of it below the tolerance; implicit steps
+    follow it up to its stop.
     """
+    if S.stage_time > 0.0:
+        return int(S.halting)
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode == SLIDE and contact.traction_function == 0:

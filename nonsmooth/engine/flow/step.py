@@ -16,7 +16,7 @@ from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
 
-_STIFF = 2.0
+STIFF = 2.0
 """Relaxations within a step that an explicit one bears."""
 _ITERATIONS = 12
 """Of a stage: what is not stiff is iterated on,"""
@@ -144,36 +144,6 @@ def _settle(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("f8(S, F, I, f8)")
-def _damped_error(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Return the relative error of an implicit step less what friction has taken of it at its end.
-
-    A slip that starts away from where it settles does so within the step, and the estimate counts the way.  The error
-    is taken as what the last stage starts with, and what that makes of it is left (Hairer and Wanner, Solving Ordinary
-    Differential Equations II, IV.8).
-    """
-    n, last = S.n_y, S.slopes + LAST_STAGE * S.n_y
-    for i in range(n):
-        w[S.y_stage + i] += w[S.y_new + i]
-    _slope_at_end(S, w, k, h, S.y_stage, S.slope_damped)
-    for i in range(n):
-        change = w[S.slope_damped + i] - w[last + i]
-        w[S.y_stage + i] += S.stage_time * change - w[S.y_new + i]
-    error = _UNUSABLE if S.unsettled == 1 else _relative_error(S, w)
-    # forces and guards are those of the step's end again
-    _slope_at_end(S, w, k, h, S.y_new, S.slope_damped)
-    return error
-
-
-@kernel("void(S, F, I, f8, i8, i8)")
-def _slope_at_end(S: Scalars, w: Floats, k: Integers, h: float, y: int, out: int) -> None:
-    """Write the slope at the end ``y`` of an implicit step with friction against its own slip."""
-    S.unsettled = 0
-    S.ahead, S.guess = S.stage_time, S.slopes + LAST_STAGE * S.n_y + S.n_q
-    slope(S, w, k, S.t + h, y, out, 0)
-    S.ahead = 0.0
-
-
-@kernel("f8(S, F, I, f8)")
 def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` whose stages end with friction against their own slip; return its relative error.
 
@@ -191,8 +161,6 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             return _UNUSABLE
     weigh_slopes(S, w, S.implicit_errors, S.slopes, n, h, S.y_stage)
     error = _relative_error(S, w)
-    if error > 1.0:
-        error = min(error, _damped_error(S, w, k, h))
     S.replaced = 1
     for i in range(n):
         w[S.slope_kept + i], w[S.slopes + i] = w[S.slopes + i], w[S.slopes + n + i]
@@ -232,7 +200,7 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         error = _try_implicit_step(S, w, k, h)
         return error if error < _UNUSABLE else _try_explicit_step(S, w, k, h)
     error = _try_explicit_step(S, w, k, h)
-    if error > 1.0 and h * S.relaxation > _STIFF:
+    if error > 1.0 and h * S.relaxation > STIFF:
         implicit = _try_implicit_step(S, w, k, h)
         return implicit if implicit < _UNUSABLE else _try_explicit_step(S, w, k, h)
     return error
@@ -241,6 +209,6 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 @kernel("f8(S, F, I, f8)")
 def try_length(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h``, implicit where an explicit one does not do; return its relative error."""
-    if h * S.relaxation <= _STIFF:
+    if h * S.relaxation <= STIFF:
         S.stage_time = 0.0
     return float(try_step(S, w, k, h))

@@ -77,6 +77,7 @@ INTEGER_SCALARS = (
     "guess",
     "follows",
     "replaced",
+    "halting",
     "unsettled",
     "recorded",
     "jammed",

@@ -12,7 +12,6 @@ ARRAYS = Arrays(
         "y_scale": per(1, "n_y"),
         "slopes": per(N_STAGES, "n_y"),
         "y_guess": per(1, "n_y"),
-        "slope_damped": per(1, "n_y"),
         "slope_kept": per(1, "n_y"),
         "guard": guards,
         "least_force": per(1, "n_slots"),
