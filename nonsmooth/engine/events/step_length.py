@@ -123,6 +123,7 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     for _attempt in range(_ATTEMPTS):
         if S.stopped == 1:
             return NOT_FINITE
+        S.halting = -1
         error = try_length(S, w, k, h)
         if error <= 1.0 and S.singular >= 0:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further

@@ -51,7 +51,6 @@ def share_before_stop(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 
     When the slip stopped within the step is not told.  What stops where it ends is ``halting``.
     """
-    S.halting = -1
     share, none = 1.0, _HELD * S.velocity_tolerance
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
@@ -63,12 +62,12 @@ def share_before_stop(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 
 @kernel("i8(S, F, I)")
 def stopping(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return a contact whose slip has come next to rest in the step that ended and slows down, or -1.
+    """Return a contact whose slip has stopped where an implicit step ends, or -1.
 
-    So close to rest the direction of the slip is stiff, and what is left of it below the tolerance; implicit steps
-    follow it up to its stop.
+    Where none can be made, one that has come next to rest and slows down: its direction is stiff, and what is left of
+    it below the tolerance.
     """
-    if S.stage_time > 0.0:
+    if S.relaxation > 0.0:
         return int(S.halting)
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
