@@ -147,7 +147,8 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             if not error < 1e300 and 0.1 * h < S.time_tolerance:
                 return NOT_FINITE
             factor = step_factor(error) if error < 1e300 else 0.1
-            if error > explained > 0.0:
+            if S.stage_time > 0.0 and error > explained > 0.0:
+                # a slip that settles within the step leaves an error of low order
                 factor = max(SHRINK, SAFETY / error)
             explained = factor * factor * error
             h *= factor

@@ -42,12 +42,16 @@ def closed_twin(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 @kernel("i8(S, F, I, i8)")
 def has_replaced(S: Scalars, w: Floats, k: Integers, c: int) -> int:
-    """Return 1 if a contact has taken the place of one that was closed before the event, without a collision."""
+    """Return 1 if ``c``, or another at its place, is closed in place of one that was so before, without a collision."""
+    gone = stands = 0
     for other in range(S.n_contacts):
-        before = contact_at(S, w, k, other)
-        if before.code_before != 0 and before.mode == OPEN and _is_twin(S, w, k, c, other) == 1:
-            return 1 if contact_at(S, w, k, c).mode != OPEN else 0
-    return 0
+        contact = contact_at(S, w, k, other)
+        if other == c or _is_twin(S, w, k, c, other) == 1:
+            if contact.mode != OPEN:
+                stands = 1
+            elif contact.code_before != 0:
+                gone = 1
+    return gone * stands
 
 
 @kernel("i8(S, F, I, i8)")
