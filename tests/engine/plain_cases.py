@@ -302,6 +302,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "tower": lambda: _tower(2),
     "rocking box": lambda: _box(0.1, 0.0, 0.12),
     "sliding box": lambda: _box(0.0, 0.0, 0.05, 0.2),
+    "stopping box": lambda: _box(0.0, 0.3, 5e-3, 3e-3),
     "spinning box": lambda: _box(0.3, 3.0, 0.08),
     "pendulum": _pendulum,
     "shaken": _shaken,
