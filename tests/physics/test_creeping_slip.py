@@ -13,7 +13,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from bodies import Ball, FunctionLoad, Plate
+from bodies import Ball, EllipsoidBody, FunctionLoad, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import SLIP_TO_STICK, START, STICK_TO_SLIP
 from tests.runs.continued import lost_by_stopping
@@ -127,3 +127,19 @@ def test_a_creeping_run_is_cut_looked_into_and_turned() -> None:
     np.testing.assert_allclose(turned.events.time, whole.events.time, rtol=0.0, atol=6e-4)
     c, s = math.cos(1.0), math.sin(1.0)
     np.testing.assert_allclose(turned.u[:, :2], whole.u[:, :2] @ np.array([[c, s], [-s, c]]), rtol=0.0, atol=1e-6)
+
+
+def test_the_instant_of_a_stop_hangs_on_no_tolerance() -> None:
+    """Of an ellipsoid, whose slip turns as it slows down, far better than the tolerance of velocities would have it."""
+    stops = []
+    for tolerance in (1e-12, 1e-13):
+        ground, body = Plate(), EllipsoidBody(8e-3, 14e-3, 11e-3)
+        system = ns.System([ground, body], GRAVITY)
+        system.contact(ground, body, normal=Unilateral(), friction=Coulomb(MU), impact=EnergeticImpact(0.6))
+        system.place(
+            body, position=(0.0, 0.0, 0.03), orientation=(0.5, 0.5, 0.5, 0.5), angular_velocity=(3.0, 2.0, 1.0)
+        )
+        events = ns.simulate(system, 0.3, engine=ns.EventDriven(tolerance=tolerance)).events
+        stops.append(events.time[events.cause == SLIP_TO_STICK])
+    assert len(stops[0]) == 2
+    np.testing.assert_allclose(stops[0], stops[1], rtol=0.0, atol=2e-10)

@@ -125,6 +125,7 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             return NOT_FINITE
         S.halting = -1
         error = try_length(S, w, k, h)
+        share = share_before_stop(S, w, k, h) if error <= 1.0 and S.stage_time > 0.0 else 1.0
         if error <= 1.0 and S.singular >= 0:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
             h *= 0.5
@@ -133,8 +134,8 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
         elif error <= 1.0 and _overran(S, w, k, h) == 1:
             h *= 0.5
             S.limit = BY_LIST
-        elif error <= 1.0 and S.stage_time > 0.0 and share_before_stop(S, w, k, h) < 1.0:
-            h *= share_before_stop(S, w, k, h)
+        elif share < 1.0:
+            h *= share
             wanted = 0.0
             S.limit = BY_STOP
         elif error <= 1.0:
