@@ -3,17 +3,20 @@
 The dumbbell runs for eight periods of its plate, again and again: from its own start, from other velocities, and on
 from where it was; then by `simulate`.  Printed are, per run, the time [ms], that of it which the engine takes, and
 their ratio, of the quickest of batches of 20 runs, as what else the machine does counts least there; last how many
-times as many runs two threads make in the same time as one, each with a copy of the model, of 400 runs each.
+times as many runs two threads make in the same time as one, each with a copy of the model, of 400 runs each, and how
+many times as many two processes make, which share no interpreter: what the machine gives.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import functools
+import multiprocessing
 import sys
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from multiprocessing.connection import Connection
 from typing import Any
 
 import nonsmooth as ns
@@ -24,7 +27,7 @@ from nonsmooth.plugins import registry
 PERIODS = 8.0
 BATCH = 20
 THREADED = 400
-REPETITIONS = 5
+REPETITIONS = 10
 
 
 def timed(runs: int, way: Callable[[int], object]) -> tuple[float, float]:
@@ -56,22 +59,55 @@ def timed(runs: int, way: Callable[[int], object]) -> tuple[float, float]:
     return 1e3 * least[0] / BATCH, 1e3 * least[1] / BATCH
 
 
-def threads(model: ns.Model, t_end: float, interval: float) -> float:
-    """Return how many times as many runs two threads make as one, least times of both."""
+def _worker(pipe: Connection, t_end: float, interval: float) -> None:
+    """Assemble the dumbbell; make the runs whenever told to, and tell when they are made."""
+    model = ns.assemble(registry.load("scenarios", "dumbbell")().build())
+    while pipe.recv():
+        _runs(model, t_end, interval)
+        pipe.send(True)
 
-    def runs(one: ns.Model) -> None:
-        for _ in range(THREADED):
-            one.run(t_end, sample_interval=interval)
 
-    def seconds(models: list[ns.Model]) -> float:
+def _runs(model: ns.Model, t_end: float, interval: float) -> None:
+    for _ in range(THREADED):
+        model.run(t_end, sample_interval=interval)
+
+
+def at_once(model: ns.Model, t_end: float, interval: float) -> tuple[float, float]:
+    """Return how many times as many runs two threads and two processes make as one thread, least times of all."""
+    spawning = multiprocessing.get_context("spawn")
+    pipes, processes = [], []
+    for _ in range(2):
+        ours, theirs = spawning.Pipe()
+        pipes.append(ours)
+        processes.append(spawning.Process(target=_worker, args=(theirs, t_end, interval)))
+        processes[-1].start()
+
+    def in_threads(models: list[ns.Model]) -> None:
         with ThreadPoolExecutor(len(models)) as pool:
-            began = time.perf_counter()
-            list(pool.map(runs, models))
-            return time.perf_counter() - began
+            list(pool.map(lambda one: _runs(one, t_end, interval), models))
+
+    def in_processes() -> None:
+        for pipe in pipes:
+            pipe.send(True)
+        for pipe in pipes:
+            pipe.recv()
 
     models = [model.copy(), model.copy()]
-    alone, both = (min(seconds(models[:n]) for _ in range(REPETITIONS)) for n in (1, 2))
-    return 2.0 * alone / both
+    ways: tuple[Callable[[], object], ...] = (
+        lambda: in_threads(models[:1]),
+        lambda: in_threads(models),
+        in_processes,
+    )
+    least = [float("inf")] * len(ways)
+    for _ in range(REPETITIONS):
+        for i, way in enumerate(ways):
+            began = time.perf_counter()
+            way()
+            least[i] = min(least[i], time.perf_counter() - began)
+    for pipe, process in zip(pipes, processes, strict=True):
+        pipe.send(False)
+        process.join()
+    return 2.0 * least[0] / least[1], 2.0 * least[0] / least[2]
 
 
 def main() -> None:
@@ -102,7 +138,8 @@ def main() -> None:
     for name, way in ways.items():
         whole, engine = timed(runs, way)
         print(f"{name:18s}{whole:9.3f}{engine:9.3f}{whole / engine:9.3f}", flush=True)
-    print(f"two threads make {threads(model, t_end, scenario.sample_interval):.2f} times the runs of one")
+    by_threads, by_processes = at_once(model, t_end, scenario.sample_interval)
+    print(f"two threads make {by_threads:.2f} times the runs of one, two processes {by_processes:.2f}")
 
 
 if __name__ == "__main__":
