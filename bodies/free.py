@@ -158,9 +158,9 @@ class FreeBody(Body):
     def shapes(self) -> tuple[Shape, ...]:
         """The shapes that the body carries."""
 
-    @property
+    @functools.cached_property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
-        """One frame with all shapes."""
+        """One frame with all shapes, which are made once."""
         return (self.shapes,)
 
     @property
@@ -192,7 +192,7 @@ class FreeBody(Body):
     def scales(self) -> tuple[Vector, Vector]:
         """The length of the body, at least its radius of gyration, and the speed of a fall through it."""
         gyration = math.sqrt(max(self.inertia) / self.total_mass)
-        length = max([gyration, *(shape.length for shape in self.shapes)])
+        length = max([gyration, *(shape.length for shape in self.frames[0])])
         speed = math.sqrt(9.81 * length)
         return np.array([length] * 3 + [1.0] * 4), np.array([speed] * 3 + [speed / length] * 3)
 

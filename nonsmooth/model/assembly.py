@@ -12,6 +12,7 @@ from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.checks import check_guards, check_start
+from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
@@ -76,8 +77,8 @@ def lay(system: System, engine: Engine) -> LaidOut:
     kinds = by_kind(contacts)
     n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in kinds)
     groups = articulations(system)
-    extents = np.array([contact.extents for contact in contacts]).reshape(-1, 2)
-    units = find_units(contacts, extents)
+    table = ContactTable.of(bodies, contacts)
+    units = find_units(contacts, table)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     head = EVENT_HEAD + n_u + n_y + BOOKED
     counts = {
@@ -111,9 +112,9 @@ def lay(system: System, engine: Engine) -> LaidOut:
     places = lay_bodies(system, memory, heap)
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)
-    lay_contacts(memory, heap, contacts, extents, kinds, places)
-    lay_units(memory, units, {(i, f): at for i, place in places.items() for f, at in enumerate(place.frames)})
-    lay_pools(memory, heap, units.pools, units.frames)
+    lay_contacts(memory, heap, contacts, table, kinds, places)
+    lay_units(memory, units, {(p.number, f): at for p in places.values() for f, at in enumerate(p.frames)})
+    lay_pools(memory, heap, units.pools, table, units.frames)
     lay_guards(system, memory, heap)
     model = LaidOut(system, heap.close(), n_q, n_u, n_states)
     for name, value in engine.settings(system.time_scale).items():

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from operator import itemgetter
+from operator import attrgetter, itemgetter
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -27,10 +28,10 @@ from nonsmooth.interfaces import (
     TangentialLaw,
     TractionLaw,
 )
+from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import Places
 from nonsmooth.parameters import Table, Value
 from nonsmooth.system.contact import Contact
-from nonsmooth.types import Array
 
 COLUMN = {name: number for number, name in enumerate(CATALOGUE)}
 """Where the entries of the catalogue stand in its rows."""
@@ -69,9 +70,9 @@ class Kind:
 
 
 def lay_contacts(
-    memory: Memory, heap: Heap, contacts: Sequence[Contact], extents: Array, kinds: Kinds, places: Places
+    memory: Memory, heap: Heap, contacts: Sequence[Contact], table: ContactTable, kinds: Kinds, places: Places
 ) -> None:
-    """Lay the contacts with such extents [m, n, 2], and reserve the Jacobians of the slots."""
+    """Lay the contacts, and reserve the Jacobians of the slots."""
     n = len(contacts)
     rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
     tried = set[tuple[Any, ...]]()
@@ -84,14 +85,13 @@ def lay_contacts(
         for name, offset in kind.offsets.items():
             row[COLUMN[name]], leads[COLUMN[name]] = offset, 1
         rows[numbers] = row + leads * starts[:, None]
-        for place, start, table in kind.tables:
+        for place, start, shared in kind.tables:
             for begin in starts.tolist():
-                heap.refer(begin + place, begin + start, table)
+                heap.refer(begin + place, begin + start, shared)
     _lay_states(memory, contacts, kinds, rows)
-    size = 3 * _lay_sides(rows, contacts, places)
-    levers = np.reshape([contact.levers for contact in contacts], (n, 2))
+    size = 3 * _lay_sides(rows, table, places)
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
-    floats[:, DIRECTION], floats[:, LEVERS : LEVERS + 2], floats[:, SIZE] = 1.0, levers, extents.min(axis=1)
+    floats[:, DIRECTION], floats[:, LEVERS : LEVERS + 2], floats[:, SIZE] = 1.0, table.levers, table.extents.min(axis=1)
     lay_law_floats(memory, contacts, kinds)
     slots = int(memory.scalars["n_slots"][0])
     for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):
@@ -100,10 +100,10 @@ def lay_contacts(
 
 def by_kind(contacts: Sequence[Contact]) -> Kinds:
     """Return the numbers of the contacts of each kind: those of the same geometry and laws."""
-    same: dict[tuple[int, int, int, int], list[int]] = {}
-    for number, contact in enumerate(contacts):
-        key = id(contact.kinematics), id(contact.normal), id(contact.friction), id(contact.impact)
-        same.setdefault(key, []).append(number)
+    same = defaultdict[tuple[int, ...], list[int]](list)
+    parts = [map(id, map(attrgetter(part), contacts)) for part in ("kinematics", "normal", "friction", "impact")]
+    for number, key in enumerate(zip(*parts, strict=True)):
+        same[key].append(number)
     return list(same.values())
 
 
@@ -119,9 +119,9 @@ def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds, rows:
     memory.array("y_scale", n_y)[n_y - len(scales) :] = scales
 
 
-def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) -> int:
+def _lay_sides(rows: np.ndarray, table: ContactTable, places: Places) -> int:
     """Say on which bodies and frames the contacts are; return the most velocities of an articulation among these."""
-    numbers, stand, most = {body: place.number for body, place in places.items()}, [*places.values()], 0
+    stand, most = [*places.values()], 0
     # a mechanism need not have a frame, nor a contact then
     first = np.array([next(iter(place.frames), 0) for place in stand], np.int64)
     sizes = np.array([place.articulation_nu for place in stand], np.int64)
@@ -131,8 +131,7 @@ def _lay_sides(rows: np.ndarray, contacts: Sequence[Contact], places: Places) ->
         "articulation": np.array([place.articulation for place in stand]),
     }
     for side, which in (("a", 0), ("b", 1)):
-        body = np.array([numbers[id((contact.first, contact.second)[which])] for contact in contacts], np.int64)
-        frame = np.array([contact.frames[which] for contact in contacts], np.int64)
+        body, frame = table.bodies[:, which], table.frames[:, which]
         rows[:, COLUMN[f"body_{side}"]] = body
         rows[:, COLUMN[f"frame_{side}"]] = first[body] + (FRAME + 6 * said["nu"][body]) * frame
         for name, values in said.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
@@ -81,17 +82,18 @@ def solid_pairs(
         key = (*map(id, (contact.first, contact.second, *contact.shapes)), *contact.frames)
         pairs.setdefault(key, []).append(number)
     for same in pairs.values():
-        contact, frames = contacts[same[0]], frames_of(model, same[0])
-        apart = float(np.linalg.norm(frames[0][:3] - frames[1][:3]))
-        if apart - sum(contact.extents) > within:
+        contact = contacts[same[0]]
+        solids = [solid for shape in contact.shapes if (solid := shape.solid) is not None]
+        if len(solids) < len(contact.shapes):
             continue
-        first, second = (shape.solid for shape in contact.shapes)
-        if first is not None and second is not None:
-            one, two = (
-                Placed(solid, frame[:3].copy(), frame[3:].reshape(3, 3).copy())
-                for solid, frame in zip((first, second), frames, strict=True)
-            )
-            yield same, one, two
+        frames = frames_of(model, same[0])
+        if math.dist(frames[0][:3], frames[1][:3]) - sum(contact.extents) > within:
+            continue
+        one, two = (
+            Placed(solid, frame[:3].copy(), frame[3:].reshape(3, 3).copy())
+            for solid, frame in zip(solids, frames, strict=True)
+        )
+        yield same, one, two
 
 
 def frames_of(model: LaidOut, number: int) -> tuple[Vector, Vector]:

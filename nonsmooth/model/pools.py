@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 
 from nonsmooth.binding import interpreted
 from nonsmooth.binding.bounds import try_out
@@ -15,6 +16,7 @@ from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch
+from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.parameters import Table
 from nonsmooth.system.contact import Contact
 
@@ -29,15 +31,12 @@ class Pool:
         The search.
     contacts : range
         Their numbers.
-    sides : tuple
-        (id of body, frame) of either.
     owner : str
         What messages call it.
     """
 
     search: CandidateSearch
     contacts: range
-    sides: tuple[tuple[int, int], tuple[int, int]]
     owner: str
 
     @property
@@ -55,7 +54,7 @@ def find_pools(contacts: Sequence[Contact]) -> list[Pool]:
         If a shape is unbounded: nobody could say when its features have to be looked for again.
     """
     found = []
-    searches = [contact.kinematics.candidates for contact in contacts]
+    searches = list(map(attrgetter("kinematics.candidates"), contacts))
     numbers = [number for number, search in enumerate(searches) if search is not None]
     for _, group in itertools.groupby(numbers, lambda number: id(searches[number])):
         first, *more = group
@@ -69,37 +68,40 @@ def find_pools(contacts: Sequence[Contact]) -> list[Pool]:
                     extent,
                     "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                 )
-        sides = (id(one.first), one.frames[0]), (id(one.second), one.frames[1])
         name = f"{type(one.kinematics).__name__} ({one})"
-        found.append(Pool(search, range(first, first + 1 + len(more)), sides, name))
+        found.append(Pool(search, range(first, first + 1 + len(more)), name))
     return found
 
 
-def lay_pools(memory: Memory, heap: Heap, pools: Sequence[Pool], units: Mapping[tuple[int, int], int]) -> None:
+def lay_pools(
+    memory: Memory, heap: Heap, pools: Sequence[Pool], table: ContactTable, units: Mapping[tuple[int, int], int]
+) -> None:
     """Lay the pools; ``units`` says which unit each frame is.  The units of a pool move as their farthest points."""
     for number, pool in enumerate(pools):
         function, values = pool.search.function, pool.search.values
         tables = {name: value for name, value in values.items() if isinstance(value, Table)}
         address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, pool.owner)
-        places = {parameter_place(function, "pair", name): table for name, table in tables.items()}
+        places = {parameter_place(function, "pair", name): shared for name, shared in tables.items()}
         whole = bind(function, "pair", values, pool.owner)[1] if tables else numbers
         try_out(function, "pair", values, whole, pool.size, pool.owner)
         start = heap.store(numbers)
-        for place, table in places.items():
-            heap.refer(start + place, start, table)
+        for place, shared in places.items():
+            heap.refer(start + place, start, shared)
+        first = pool.contacts.start
+        sides = zip(table.bodies[first].tolist(), table.frames[first].tolist(), strict=True)
+        one, two = (units[side] for side in sides)
         row = {
             "function": address,
             "parameters": start,
             "out": heap.output(pool.size),
-            "first": pool.contacts.start,
+            "first": first,
             "contacts": len(pool.contacts),
-            "unit_a": units[pool.sides[0]],
-            "unit_b": units[pool.sides[1]],
+            "unit_a": one,
+            "unit_b": two,
         }
         for name, value in row.items():
             memory.array(f"pool_{name}", number + 1)[number] = value
-        for side in pool.sides:
-            unit = units[side]
+        for unit in (one, two):
             memory.array("unit_lever", unit + 1)[unit] = memory.array("unit_radius", unit + 1)[unit]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.pools import Pool, find_pools
 from nonsmooth.system.contact import Contact
 from nonsmooth.types import Array
@@ -31,7 +31,7 @@ class Units:
     Attributes
     ----------
     frames : dict
-        (id of body, frame) -> number of the unit.
+        (number of the body, frame) -> number of the unit.
     radii : array
         Radius of every unit about its frame's origin [m].
     pairs : array
@@ -59,21 +59,19 @@ class Units:
         return len(self.contacts) - bounded + min(bounded, each * len(self.frames))
 
 
-def find_units(contacts: Sequence[Contact], extents: Array) -> Units:
-    """Return the units of many contacts with such extents [m, n, 2]; none for few, which need no list."""
+def find_units(contacts: Sequence[Contact], table: ContactTable) -> Units:
+    """Return the units of many contacts; none for few, which need no list."""
     pools = find_pools(contacts)
-    bounded = np.isfinite(extents[:, 0]) & np.isfinite(extents[:, 1])
+    bounded = np.all(np.isfinite(table.extents), axis=1)
     if len(contacts) <= SMALL and not pools:
         bounded[:] = False
-    numbers, frames = np.flatnonzero(bounded), dict[tuple[int, int], int]()
-    sides = [
-        frames.setdefault((id(body), frame), len(frames))
-        for contact in itertools.compress(contacts, bounded.tolist())
-        for body, frame in ((contact.first, contact.frames[0]), (contact.second, contact.frames[1]))
-    ]
+    numbers = np.flatnonzero(bounded)
+    many = int(table.frames.max(initial=0)) + 1
+    known, sides = np.unique(many * table.bodies[numbers] + table.frames[numbers], return_inverse=True)
+    frames = {divmod(key, many): unit for unit, key in enumerate(known.tolist())}
     radii = np.zeros(len(frames))
-    np.maximum.at(radii, sides, extents[numbers].ravel())
-    one, two = np.sort(np.reshape(sides, (-1, 2)), axis=1).astype(np.int64).T
+    np.maximum.at(radii, sides.ravel(), table.extents[numbers].ravel())
+    one, two = np.sort(sides.reshape(-1, 2), axis=1).T
     places = one * len(frames) + two
     order = np.argsort(places, kind="stable")
     _, first, counts = np.unique(places[order], return_index=True, return_counts=True)

@@ -38,11 +38,12 @@ def near_bodies(
     low, high = low - margins[:, None], high + margins[:, None]
     order = np.argsort(low[:, 0], kind="stable")
     ends = np.searchsorted(low[order, 0], high[order, 0], side="right")
+    movable = np.array([body.n_u > 0 for body in bodies])
     found = []
     for rank, i in enumerate(order.tolist()):
         others = order[rank + 1 : ends[rank]]
         meet = np.all((low[others, 1:] <= high[i, 1:]) & (low[i, 1:] <= high[others, 1:]), axis=1)
-        found += [(min(i, j), max(i, j)) for j in others[meet].tolist() if bodies[i].n_u + bodies[j].n_u > 0]
+        found += [(min(i, j), max(i, j)) for j in others[meet & (movable[others] | movable[i])].tolist()]
     yield from sorted(found)
 
 

@@ -87,8 +87,7 @@ def proximity(system: System, within: float | None = None) -> tuple[NearPair, ..
         if gap.gap > max(_PART * size if within is None else within, touching):
             continue
         state = NEAR if gap.gap > touching else TOUCHING if gap.gap >= -touching else OVERLAPPING
-        key = frozenset((i, j))
-        said = key in ties.declared, ties.same_mechanism(i, j), key in ties.excluded
+        said = (i, j) in ties.declared, ties.same_mechanism(i, j), (i, j) in ties.excluded
         found.append(NearPair((bodies[i], bodies[j]), (i, j), state, *said, gap))
     return tuple(sorted(found, key=lambda one: one.distance.gap))
 

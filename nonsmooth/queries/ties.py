@@ -9,8 +9,8 @@ from typing import final
 from nonsmooth.interfaces import Body
 from nonsmooth.system.system import System
 
-Pairs = frozenset[frozenset[int]]
-"""Pairs of numbers of bodies."""
+Pairs = frozenset[tuple[int, int]]
+"""Pairs of numbers of bodies, the lower one first."""
 
 
 @final
@@ -37,7 +37,8 @@ class Ties:
         number = {id(body): i for i, body in enumerate(system.bodies)}
 
         def pairs(bodies: Iterable[tuple[Body, Body]]) -> Pairs:
-            return frozenset([frozenset((number[id(one)], number[id(two)])) for one, two in bodies])
+            numbers = [(number[id(one)], number[id(two)]) for one, two in bodies]
+            return frozenset([(i, j) if i < j else (j, i) for i, j in numbers])
 
         joined = pairs((tie.first, tie.second) for tie in system.joints)
         return cls(

@@ -31,14 +31,17 @@ def warn_of_overlaps(system: System, places: Sequence[Sequence[Place]]) -> None:
     those that the user excluded; planes, on whose wrong side a body may well be meant to start; and all of a system
     without any contact, in which nothing is meant to touch.
     """
-    if not system.declarations:
+    bodies = system.bodies
+    solid = [any(shape.solid is not None for shapes in body.frames for shape in shapes) for body in bodies]
+    near = [(i, j) for i, j in near_bodies(bodies, places, np.zeros(len(bodies))) if solid[i] and solid[j]]
+    if not system.declarations or not near:
         return
-    bodies, ties = system.bodies, Ties.of(system)
+    ties = Ties.of(system)
     said = ties.declared | ties.excluded
     found = [
         (i, j, depth)
-        for i, j in near_bodies(bodies, places, np.zeros(len(bodies)))
-        if frozenset((i, j)) not in said and not ties.same_mechanism(i, j)
+        for i, j in near
+        if (i, j) not in said and not ties.same_mechanism(i, j)
         if (depth := _overlap(bodies[i], places[i], bodies[j], places[j])) > 0.0
     ]
     if not found:

@@ -12,6 +12,7 @@ import nonsmooth as ns
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.model import units
 from nonsmooth.model.assembly import assemble
+from nonsmooth.model.contact_table import ContactTable
 from scenarios.ball_box.scenario import BallBox
 
 
@@ -94,8 +95,8 @@ def test_near_pairs_give_what_all_pairs_give(monkeypatch: pytest.MonkeyPatch) ->
     for small in (64, 200):
         monkeypatch.setattr(units, "SMALL", small)
         system = scenario.build()
-        extents = np.array([contact.extents for contact in system.contacts])
-        assert (len(units.find_units(system.contacts, extents).radii) == 0) == (small == 200)
+        table = ContactTable.of(system.bodies, system.contacts)
+        assert (len(units.find_units(system.contacts, table).radii) == 0) == (small == 200)
         ends.append(ns.simulate(system, scenario.t_end))
     listed, every = ends
     assert listed.counters.impacts == every.counters.impacts > 30
