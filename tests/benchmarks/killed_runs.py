@@ -1,9 +1,9 @@
 """Runs that are killed and go on: ``python -m tests.benchmarks.killed_runs [KILLS] [SCENARIO] [T_END]``.
 
 A scenario runs once undisturbed.  Then it runs once more in a process that is killed (SIGKILL) at a random moment, and
-again in every process that goes on with it, so many times (10 by default), until the last one comes to the end.  For
-every kill are printed how long the process had run [s], the time that the file has reached [s], its events, and how
-much of the run's wall time was lost [s]; then whether the end differs from that of the undisturbed run in any bit.
+again in every process that goes on with it, at so many moments (10 by default) of the time that the first run took.
+For every kill are printed how long the process had run [s], the time that the file has reached [s], its events, and
+how much of the run's wall time was lost [s]; then whether the end differs from that of the undisturbed run in any bit.
 """
 
 from __future__ import annotations
@@ -76,8 +76,8 @@ def look(kills: int, name: str, t_end: float, folder: str) -> None:
     wall = time.perf_counter() - began
     print(f"undisturbed: {whole!r} in {wall:.1f} s")
     print(f"{'killed after':>14}{'time reached':>14}{'events':>10}{'lost':>8}")
-    for _ in range(kills):
-        after = draw.uniform(0.0, 2.0 * wall / (kills + 1))
+    moments = sorted(draw.uniform(0.0, wall) for _ in range(kills))
+    for after in np.diff(moments, prepend=0.0).tolist():
         told = _killed([_CHILD, folder, name, repr(t_end)], after)
         with xarray.open_zarr(Path(folder, "solution.zarr")) as saved:
             reached, status, events = saved.attrs["t_end"], saved.attrs["status"], saved.sizes["event"]
