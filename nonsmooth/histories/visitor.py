@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
-from nonsmooth.engine.memory.modes import OPEN, REASONS, RUNNING, SLIDE, STICK
+from nonsmooth.engine.memory.modes import AFTER, CODE, OPEN, REASONS, RUNNING, SLIDE, STICK
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.histories.arrays import Floats, Integers
@@ -158,7 +158,7 @@ class Visitor:
         rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
         floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
         rows[:, _MODE] = OPEN
-        rows[numbers, _MODE] = _MODES[events.codes[listed] >> 6 & 7]
+        rows[numbers, _MODE] = _MODES[events.codes[listed] >> AFTER & CODE]
         floats[numbers, DIRECTION : DIRECTION + 2], floats[numbers, CLOSING_RATE] = kept[:, :2], kept[:, 2]
         # which features the contacts of a pool have is found anew, but for the closed ones
         places = rows[:, _PLACE]

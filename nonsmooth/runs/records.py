@@ -7,10 +7,16 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.engine.events.record import EVENT_HEAD, LISTED
-from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.events.record import (
+    CLOSED_WITH,
+    EVENT_HEAD,
+    FACING,
+    FEATURES,
+    LISTED,
+    SLIP_DIRECTION,
+)
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, START
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, OPEN, SLIDE, START
 from nonsmooth.engine.memory.tables import places
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
@@ -23,8 +29,7 @@ _BEFORE_THE_FIRST, _BEHIND_THE_LAST = -1, -2
 _ROUND_OFF = 1e-9
 """Part of the time between two samples below which a time is that of a sample."""
 _BOOKED = places("driven_work", "restitution_loss", "friction_loss", "closing_loss")
-_CODES = 1 + 8 + 64
-"""Before, during and after an event."""
+_CODES = 1 << BEFORE | 1 << DURING | 1 << AFTER
 _FILLED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats").tolist()
 _EVENTS, _SAMPLES, _FLOATS, _INTEGERS, _ = _FILLED
 _CALLS, _TOLD, _INDEX = places("calls", "told", "sample_index").tolist()
@@ -89,8 +94,9 @@ class Records:
         head = np.zeros(EVENT_HEAD)
         head[0] = state.time
         kept = np.zeros((len(closed), LISTED))
-        kept[:, 3:5], kept[:, 5], kept[:, 6] = state.slip_directions[closed], state.closing_rates[closed], 1.0
-        kept[:, 7 : 7 + CANDIDATE] = state.features[closed]
+        kept[:, SLIP_DIRECTION:CLOSED_WITH] = state.slip_directions[closed]
+        kept[:, CLOSED_WITH], kept[:, FACING] = state.closing_rates[closed], 1.0
+        kept[:, FEATURES:] = state.features[closed]
         rest = row_of(state)[1 + len(state.q) + len(state.u) :]
         floats = np.concatenate([head, state.q, state.u, state.u, rest, kept.ravel()])
         listed = np.column_stack([closed, codes]).ravel()

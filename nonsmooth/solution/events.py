@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import CAUSES, word
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, word
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -148,7 +148,7 @@ class Events:
     def _bits(self, shift: int) -> Integers:
         """Return the bits of every contact at every event, shape [n, n_contacts]."""
         bits = np.zeros((len(self), self.n_contacts), dtype=np.int64)
-        bits[self._event_of_entry(), self.listed] = self.codes >> shift & 7
+        bits[self._event_of_entry(), self.listed] = self.codes >> shift & CODE
         return bits
 
     def _event_of_entry(self) -> Integers:
@@ -157,17 +157,17 @@ class Events:
     @functools.cached_property
     def before(self) -> Integers:
         """Bits a + 2 b + 4 c of Eq. (29) per contact before the event, shape [n, n_contacts]."""
-        return self._bits(0)
+        return self._bits(BEFORE)
 
     @functools.cached_property
     def during(self) -> Integers:
         """The bits during the event; they differ from ``before`` in an impact, where they show who collides."""
-        return self._bits(3)
+        return self._bits(DURING)
 
     @functools.cached_property
     def after(self) -> Integers:
         """The bits after the event."""
-        return self._bits(6)
+        return self._bits(AFTER)
 
     @functools.cached_property
     def impulse(self) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING
 from nonsmooth.solution.files import replacing
 from nonsmooth.solution.solution import Solution
 
@@ -31,7 +32,7 @@ def save_events(solution: Solution, path: Path) -> None:
         table.writerow(_HEAD)
         for i, (time, trigger) in enumerate(zip(events.time.tolist(), solution.triggers(), strict=True)):
             modes = [
-                f"{names[listed[j]]} {' '.join(_bits(codes[j] >> shift) for shift in (0, 3, 6))}"
+                f"{names[listed[j]]} {' '.join(_bits(codes[j] >> shift) for shift in (BEFORE, DURING, AFTER))}"
                 for j in range(first[i], first[i + 1])
                 if codes[j] not in _UNCHANGED
             ]
@@ -39,7 +40,7 @@ def save_events(solution: Solution, path: Path) -> None:
             table.writerow([repr(time), causes[i], trigger, int(events.phases[i]), *numbers, "; ".join(modes)])
 
 
-_UNCHANGED = {bits * (1 + 8 + 64) for bits in range(8)}
+_UNCHANGED = {bits << BEFORE | bits << DURING | bits << AFTER for bits in range(CODE + 1)}
 
 
 def _bits(code: int) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from nonsmooth.engine.memory.modes import START, word
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING, START, word
 from nonsmooth.solution.events import Events
 
 Mode: TypeAlias = tuple[tuple[int, int], ...]
@@ -92,7 +92,7 @@ def transition_graph(events: Events, contacts: tuple[str, ...], t_end: float) ->
     total = times[-1] - times[0]
     start: Mode = ()
     for k, (code, cause) in enumerate(zip(events.cause.tolist(), events.causes(), strict=True)):
-        before, during, after = (_mode(events, k, shift) for shift in (0, 3, 6))
+        before, during, after = (_mode(events, k, shift) for shift in (BEFORE, DURING, AFTER))
         duration = times[k + 1] - times[k]
         shares[after] = shares.get(after, 0.0) + (duration / total if total > 0.0 else 0.0)
         if code == START:
@@ -112,4 +112,4 @@ def transition_graph(events: Events, contacts: tuple[str, ...], t_end: float) ->
 def _mode(events: Events, event: int, shift: int) -> Mode:
     part = slice(int(events.first[event]), int(events.first[event + 1]))
     pairs = zip(events.listed[part].tolist(), events.codes[part].tolist(), strict=True)
-    return tuple(sorted((contact, code >> shift & 7) for contact, code in pairs if code >> shift & 7))
+    return tuple(sorted((contact, code >> shift & CODE) for contact, code in pairs if code >> shift & CODE))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.modes import CAUSES
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.variable import Variable
 from nonsmooth.system.labels import labels
@@ -34,7 +34,7 @@ _BOOKED = {
 }
 _MEMORY = {"units": "SI", "long_name": "slip direction (2), rate of closing, way of slip faced, features (3)"}
 _MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}
-_SHIFTS = {"mode_before": 0, "mode_during": 3, "mode_after": 6}
+_SHIFTS = {"mode_before": BEFORE, "mode_during": DURING, "mode_after": AFTER}
 
 
 def of_system(system: System) -> list[Variable]:
@@ -118,7 +118,7 @@ def of_events(events: Events) -> list[Variable]:
         "flag_values": list(range(len(CAUSES))),
         "flag_meanings": " ".join(c.replace(" ", "_") for c in CAUSES),
     }
-    bits = {name: (events.codes >> shift & 7).astype(np.uint8) for name, shift in _SHIFTS.items()}
+    bits = {name: (events.codes >> shift & CODE).astype(np.uint8) for name, shift in _SHIFTS.items()}
     return [
         over("event_time", events.time, "time of the event", "s", standard_name="time"),
         over("event_cause", events.cause.astype(np.int8), "cause", **causes),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 import nonsmooth as ns
@@ -12,6 +13,7 @@ from laws import Coulomb, EnergeticImpact, Unilateral
 from scenarios.dice_throw.scenario import DiceThrow
 from tests.benchmarks import pile
 
+Floats = NDArray[np.float64]
 MU = 0.4
 
 
@@ -21,10 +23,9 @@ def _thrown(seed: int) -> tuple[ns.System, float, float]:
     floor = Plate()
     bodies = [BoxBody(0.03, 0.01, 0.005, rounding=1e-3), BoxBody(0.01, 0.01, 0.01, rounding=1e-3)]
     system = ns.System([floor, *bodies], 9.81)
-    laws = {"normal": Unilateral(), "friction": Coulomb(MU), "impact": EnergeticImpact(restitution=0.3)}
-    for body in bodies:
-        system.contact(floor, body, **laws)
-    system.contact(*bodies, **laws)
+    for first, second in ((floor, bodies[0]), (floor, bodies[1]), (bodies[0], bodies[1])):
+        impact = EnergeticImpact(restitution=0.3)
+        system.contact(first, second, normal=Unilateral(), friction=Coulomb(MU), impact=impact)
     for i, body in enumerate(bodies):
         orientation = rng.normal(size=4)
         system.place(
@@ -58,13 +59,13 @@ def test_what_rests_is_in_equilibrium(system: ns.System, t_end: float, friction:
     weight = 9.81 * np.max(masses)
     arm = 0.01
 
-    def wrench(entry: int, force: np.ndarray) -> np.ndarray:
+    def wrench(entry: int, force: Floats) -> Floats:
         made, contact = np.zeros((len(free), 6)), system.contacts[found.contact[entry]]
         for side, body, sign in ((0, contact.first, -1.0), (1, contact.second, 1.0)):
             for i, other in enumerate(free):
                 if other is body:
                     made[i] += sign * np.array([*force, *np.cross(found.points[entry, side] - centres[i], force) / arm])
-        return made.ravel() / weight
+        return np.asarray(made.ravel() / weight, float)
 
     needed = np.zeros((len(free), 6))
     needed[:, 2] = 9.81 * masses / weight

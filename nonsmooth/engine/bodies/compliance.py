@@ -7,7 +7,7 @@ A compliant contact is open or closed as any other, but closed it holds no gap: 
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import evaluate_row_response, push_response, wrench_row
-from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, TRACTION, TRACTION_MOMENT
+from nonsmooth.engine.memory.blocks import DELASSUS, FORCE_AND_MOMENT, TRACTION, TRACTION_MOMENT
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import (
@@ -185,7 +185,7 @@ def decouple_normals(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, active.slot)
         rigid = contact.normal_function == 0
         for block in range(active.first_block, active.end_block):
-            g, d = at(w, S.delassus + 9 * block), k[S.block_column + block]
+            g, d = at(w, S.delassus + DELASSUS * block), k[S.block_column + block]
             if d == a and not rigid:
                 own = g[0] if g[0] > 0.0 else 1.0
                 active.free[0] = -own * contact.compliant_force

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.unknowns import list_unknown, set_force
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel, unknown_at
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
@@ -65,7 +66,7 @@ def _write_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> No
     line = band_row(S.reduced, i, n, S.half_band)
     for block in range(active.first_block, active.end_block):
         pushing = active_at(S, w, k, k[S.block_column + block])
-        g = at(w, S.delassus + 9 * block + 3 * r)
+        g = at(w, S.delassus + DELASSUS * block + 3 * r)
         out = line + pushing.first_unknown
         if pushing.normal_held == 1:
             w[out] = g[0]
@@ -86,7 +87,7 @@ def _write_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) 
     for block in range(active.first_block, active.end_block):
         pushing = active_at(S, w, k, k[S.block_column + block])
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            w[line + j] = w[S.delassus + 9 * block + 3 * r + unknown_at(S, w, k, j).direction]
+            w[line + j] = w[S.delassus + DELASSUS * block + 3 * r + unknown_at(S, w, k, j).direction]
 
 
 @kernel("i8(S, F, I, i8)")

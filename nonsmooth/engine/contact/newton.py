@@ -13,6 +13,7 @@ from nonsmooth.engine.contact.forces import DEAR
 from nonsmooth.engine.contact.gauss_seidel import sweep
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
@@ -69,7 +70,7 @@ def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, slope: float) -
     line = band_row(S.matrix, 3 * a + r, 3 * S.n_active, S.half_band)
     for block in range(active.first_block, active.end_block):
         for s in range(3):
-            w[line + 3 * k[S.block_column + block] + s] += w[S.delassus + 9 * block + 3 * r + s] / slope
+            w[line + 3 * k[S.block_column + block] + s] += w[S.delassus + DELASSUS * block + 3 * r + s] / slope
 
 
 @kernel("void(S, F, I, i8, f8, f8, f8)")
@@ -81,7 +82,7 @@ def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, 
     first, second = band_row(S.matrix, 3 * a + 1, n, S.half_band), band_row(S.matrix, 3 * a + 2, n, S.half_band)
     for block in range(active.first_block, active.end_block):
         for s in range(3):
-            g, j = at(w, S.delassus + 9 * block + s), 3 * k[S.block_column + block] + s
+            g, j = at(w, S.delassus + DELASSUS * block + s), 3 * k[S.block_column + block] + s
             z1, z2 = -g[3] / slope, -g[6] / slope
             z1 += 1.0 if j == 3 * a + 1 else 0.0
             z2 += 1.0 if j == 3 * a + 2 else 0.0

@@ -8,6 +8,7 @@ from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.contact.unknowns import list_unknown
 from nonsmooth.engine.delassus.delassus import add_product
+from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel, unknown_at
 from nonsmooth.engine.numerics.band import open_band
@@ -48,7 +49,7 @@ def _write_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> fl
     d1, d2 = active.direction
     for block in range(active.first_block, active.end_block):
         other = active_at(S, w, k, k[S.block_column + block])
-        g = S.delassus + 9 * block
+        g = S.delassus + DELASSUS * block
         for j in range(other.first_unknown, other.end_unknown):
             if unknown.turn == 0:
                 w[line + j] = _effect(S, w, k, g + 3 * unknown.direction, j)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -52,7 +53,7 @@ def set_scales(S: Scalars, w: Floats, k: Integers) -> None:
             for block in range(active.first_block, active.end_block):
                 force = active_at(S, w, k, k[S.block_column + block]).force
                 for s in range(3):
-                    part = w[S.delassus + 9 * block + 3 * r + s] * force[s]
+                    part = w[S.delassus + DELASSUS * block + 3 * r + s] * force[s]
                     total += part
                     scale = max(scale, abs(part))
             active.acceleration[r] = total

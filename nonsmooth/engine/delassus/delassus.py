@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
@@ -38,8 +39,8 @@ def assemble_delassus(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, active.slot)
         for block in range(active.first_block, active.end_block):
             pushing = contact_at(S, w, k, k[S.active + k[S.block_column + block]])
-            out = S.delassus + 9 * block
-            for i in range(9):
+            out = S.delassus + DELASSUS * block
+            for i in range(DELASSUS):
                 w[out + i] = 0.0
             for side in range(2):
                 articulation = contact.articulation_a if side == 0 else contact.articulation_b
@@ -62,7 +63,7 @@ def add_product(S: Scalars, w: Floats, k: Integers, total: float, a: int, r: int
     """Return ``total`` plus row ``r`` (n, t1, t2) of the active contact ``a`` of G times the vector at ``x``."""
     active = active_at(S, w, k, a)
     for block in range(active.first_block, active.end_block):
-        g = S.delassus + 9 * block + 3 * r
+        g = S.delassus + DELASSUS * block + 3 * r
         other = x + 3 * k[S.block_column + block]
         for s in range(3):
             total += w[g + s] * w[other + s]
@@ -81,7 +82,7 @@ def write_dense(S: Scalars, w: Floats, k: Integers) -> None:
             for r in range(3):
                 for s in range(3):
                     line = S.matrix + (3 * a + r) * width + 3 * k[S.block_column + block]
-                    w[line + s] = w[S.delassus + 9 * block + 3 * r + s]
+                    w[line + s] = w[S.delassus + DELASSUS * block + 3 * r + s]
 
 
 @kernel("void(S, F, I, i8, i8)")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import GUARD, OPEN, SLIDE
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, GUARD, OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 from nonsmooth.engine.numerics.vectors import length
@@ -17,8 +17,10 @@ EVENT_HEAD = 5
 Coordinates follow, velocities before and after, what else is integrated, what is booked, and :data:`LISTED` floats of
 each contact listed.
 """
-LISTED = 7 + CANDIDATE
-"""Floats of a contact listed with an event: impulses, slip direction, rate at which it closed, facing, features."""
+IMPULSES, SLIP_DIRECTION, CLOSED_WITH, FACING, FEATURES = 0, 3, 5, 6, 7
+"""Where what is kept of a contact begins among its floats with an event,"""
+LISTED = FEATURES + CANDIDATE
+"""which are so many."""
 CAUSE, CONTACT, PHASES, TRUNCATED, N_LISTED = range(5)
 """Which integer at the head of an event is which; truncated is a cascade that was cut short."""
 CODE_HEAD = 5
@@ -92,12 +94,12 @@ def _list_contact(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
     """Write the impulses of contact ``c`` and what it needs to go on from here."""
     contact = contact_at(S, w, k, c)
     for r in range(3):
-        w[out + r] = contact.event_impulse[r]
-    w[out + 3], w[out + 4] = contact.direction
-    w[out + 5], w[out + 6] = contact.closing_rate, float(contact.facing)
+        w[out + IMPULSES + r] = contact.event_impulse[r]
+    w[out + SLIP_DIRECTION], w[out + SLIP_DIRECTION + 1] = contact.direction
+    w[out + CLOSED_WITH], w[out + FACING] = contact.closing_rate, float(contact.facing)
     candidate = contact.candidate
     for r in range(CANDIDATE):
-        w[out + 7 + r] = w[candidate + r] if candidate > 0 else 0.0
+        w[out + FEATURES + r] = w[candidate + r] if candidate > 0 else 0.0
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -135,7 +137,8 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int, pha
         contact = contact_at(S, w, k, c)
         _list_contact(S, w, k, c, row + LISTED * i)
         k[codes + CODE_HEAD + 2 * i] = contact.identity
-        k[codes + CODE_HEAD + 2 * i + 1] = contact.code_before + 8 * contact.code_during + 64 * code(S, w, k, c)
+        before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, code(S, w, k, c) << AFTER
+        k[codes + CODE_HEAD + 2 * i + 1] = before | during | after
     S.last_contact = which
     if S.told > 0:
         # a run that is continued repeats what led to its state, and has told of it

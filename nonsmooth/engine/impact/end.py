@@ -8,6 +8,7 @@ from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
+from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
 from nonsmooth.engine.numerics.linear import SINGULAR
 
@@ -68,7 +69,7 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
             for block in range(active.first_block, active.end_block):
                 force = active_at(S, w, k, k[S.block_column + block]).force
                 for s in range(3):
-                    part = w[S.delassus + 9 * block + 3 * r + s] * force[s]
+                    part = w[S.delassus + DELASSUS * block + 3 * r + s] * force[s]
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import follow_slip
+from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
@@ -68,7 +69,7 @@ def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
         for block in range(active.first_block, active.end_block):
             p = impact_state(w, y, k[S.block_column + block]).impulse
             p0, p1, p2 = p[0], p[1], p[2]
-            g = at(w, S.delassus + 9 * block)
+            g = at(w, S.delassus + DELASSUS * block)
             z0 += g[0] * p0 + g[1] * p1 + g[2] * p2
             z1 += g[3] * p0 + g[4] * p1 + g[5] * p2
             z2 += g[6] * p0 + g[7] * p1 + g[8] * p2

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
+from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
@@ -112,7 +113,7 @@ def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     for block in range(active.first_block, active.end_block):
         impulse = active_at(S, w, k, k[S.block_column + block]).impulse_scale
         for i in range(3, 9):
-            moved = max(moved, abs(w[S.delassus + 9 * block + i]) * impulse)
+            moved = max(moved, abs(w[S.delassus + DELASSUS * block + i]) * impulse)
     mobility = max(own.t11, own.t22)
     small = float(S.rest_speed)
     if mobility < own.nn:

@@ -70,5 +70,7 @@ TRACTION, TRACTION_MOMENT = 0, 2
 """Where the force and the moment begin that a law of traction writes."""
 FORCE_AND_MOMENT = 5
 """Floats that a law of traction writes before the rates of its states."""
+DELASSUS = 9
+"""Floats of a block of the Delassus matrix, row by row."""
 CANDIDATE = 3
 """Numbers of a pair of features in a pool; the first is not 0."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.blocks import (
+    DELASSUS,
     FEATURE,
     GAP,
     NORMAL,
@@ -267,12 +268,12 @@ IMPACT_STATE: Fields = {
 """Of an active contact in a state of an impact, and in the slope of one (:mod:`nonsmooth.engine.impact.rates`)."""
 
 DELASSUS_BLOCK: Fields = {
-    "entries": Field("", 9, 0, 9),
-    "nn": Field("", 9, 0),
-    "n1": Field("", 9, 1),
-    "n2": Field("", 9, 2),
-    "t11": Field("", 9, 4),
-    "t12": Field("", 9, 5),
-    "t22": Field("", 9, 8),
+    "entries": Field("", DELASSUS, 0, DELASSUS),
+    "nn": Field("", DELASSUS, 0),
+    "n1": Field("", DELASSUS, 1),
+    "n2": Field("", DELASSUS, 2),
+    "t11": Field("", DELASSUS, 4),
+    "t12": Field("", DELASSUS, 5),
+    "t22": Field("", DELASSUS, 8),
 }
 """Of a block on the diagonal of the Delassus matrix, which is symmetric."""

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 OPEN, STICK, SLIDE = 0, 1, 2
 """Mode of a contact between events."""
+BEFORE, DURING, AFTER = 0, 3, 6
+"""The bits at which a contact's three codes begin in the integer that is kept of them with an event,"""
+CODE = 7
+"""and all bits of one code."""
 
 START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = range(
     12

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays, blocks, ends, fixed, per
-from nonsmooth.engine.memory.blocks import GEOMETRY
+from nonsmooth.engine.memory.blocks import DELASSUS, GEOMETRY
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS
 
@@ -114,7 +114,7 @@ ARRAYS = Arrays(
         **dict.fromkeys(CATALOGUE, per(1, "n_slots")),
     },
     later_floats={
-        "delassus": lambda n: 9 * blocks(n),
+        "delassus": lambda n: DELASSUS * blocks(n),
     },
     later_integers={
         "block_column": blocks,
