@@ -30,10 +30,7 @@ def perform(
 ) -> report.Report:
     """Compute a solution, save what there is to save, and return the report; ``head`` is its beginning."""
     scenario = job.scenario
-    if troubles:
-        solution, status, message = None, "failed", troubles[0]
-    else:
-        solution, status, message = _computed(compute)
+    solution, status, message = _computed(compute)
     outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
     outcome |= {"final": None, "summary": None, "units": dict(scenario.units)}
     if solution is None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.optimize import nnls
@@ -21,7 +23,7 @@ def _thrown(seed: int) -> tuple[ns.System, float, float]:
     floor = Plate()
     bodies = [BoxBody(0.03, 0.01, 0.005, rounding=1e-3), BoxBody(0.01, 0.01, 0.01, rounding=1e-3)]
     system = ns.System([floor, *bodies], 9.81)
-    laws = {"normal": Unilateral(), "friction": Coulomb(MU), "impact": EnergeticImpact(restitution=0.3)}
+    laws: dict[str, Any] = {"normal": Unilateral(), "friction": Coulomb(MU), "impact": EnergeticImpact(restitution=0.3)}
     for body in bodies:
         system.contact(floor, body, **laws)
     system.contact(*bodies, **laws)
@@ -64,7 +66,7 @@ def test_what_rests_is_in_equilibrium(system: ns.System, t_end: float, friction:
             for i, other in enumerate(free):
                 if other is body:
                     made[i] += sign * np.array([*force, *np.cross(found.points[entry, side] - centres[i], force) / arm])
-        return made.ravel() / weight
+        return np.asarray(made.ravel() / weight)
 
     needed = np.zeros((len(free), 6))
     needed[:, 2] = 9.81 * masses / weight
