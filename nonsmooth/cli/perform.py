@@ -32,7 +32,7 @@ def perform(
     scenario = job.scenario
     solution, status, message = _computed(compute)
     outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
-    outcome |= {"final": None, "summary": None, "units": dict(scenario.units)}
+    outcome |= {"final": None, "summary": None, "units": {**report.UNITS, **scenario.units}}
     if solution is None:
         return outcome
     if folder is not None:
@@ -88,7 +88,7 @@ def _save_solution(scenario: Scenario, solution: Solution, folder: Path, trouble
         written = SolutionFolder.opened(Output(folder))
         # where the disk was full there are fewer samples than there were
         if written.status != UNFINISHED:
-            written.add_coordinates(scenario.coordinates(solution))
+            written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
     with results.noting(troubles, "saving the events"):
         save_events(solution, folder / "events.csv")
 
