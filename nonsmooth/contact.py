@@ -127,7 +127,7 @@ def solve_contact(
     return ContactResult(
         normal_force=f[:, 0],
         tangential_force=f[:, 1:],
-        acceleration=free + np.linalg.solve(m, columns @ f.ravel()),
+        acceleration=np.asarray(free + np.linalg.solve(m, columns @ f.ravel()), dtype=np.float64),
         contact_acceleration=memory.array("acceleration", 3 * n).reshape(n, 3).copy(),
         modes=tuple(MODES[mode] for mode in memory.array("mode_tried", n)),
         _memory=memory,

@@ -38,6 +38,12 @@ MATRICES: Any = {"mass": [[1.0]], "normal": [[1.0]], "tangential": np.zeros((1, 
 AT_REST: Any = MATRICES | {"force": [-1.0]}
 MEETING: Any = MATRICES | {"velocity": [-1.0], "impact": [EnergeticImpact(0.5)]}
 
+
+def _changed(call: Callable[..., object], given: dict[str, Any], name: str) -> Given:
+    return lambda value: call(**given | {name: value})
+
+
+NOTHINGS: tuple[Any, ...] = (None, 3, math.nan, 1j, "", "a", [1], {}, (), ns)
 DOORS: dict[str, Given] = {
     "assemble": ns.assemble,
     "assemble: engine": lambda x: ns.assemble(SYSTEM, x),
@@ -96,9 +102,9 @@ DOORS: dict[str, Given] = {
     "Solution.distances": lambda x: SOLUTION.distances(x, BALL),
     "Solution.mode_words": SOLUTION.mode_words,
     "ContactForces.history": SOLUTION.contact_forces().history,
-    **{f"solve_contact: {name}": lambda x, name=name: ns.solve_contact(**AT_REST | {name: x}) for name in AT_REST},
+    **{f"solve_contact: {name}": _changed(ns.solve_contact, AT_REST, name) for name in AT_REST},
     "solve_contact: solver": lambda x: ns.solve_contact(**AT_REST, solver=x),
-    **{f"solve_impact: {name}": lambda x, name=name: ns.solve_impact(**MEETING | {name: x}) for name in MEETING},
+    **{f"solve_impact: {name}": _changed(ns.solve_impact, MEETING, name) for name in MEETING},
     "solve_impact: an impact law": lambda x: ns.solve_impact(**MEETING | {"impact": [x]}),
     "solve_impact: tolerance": lambda x: ns.solve_impact(**MEETING, tolerance=x),
 }
@@ -111,7 +117,7 @@ def test_what_is_of_no_kind_is_refused_by_name(door: str, tmp_path: Path, monkey
     with pytest.raises(ns.InvalidInput) as caught:
         DOORS[door](object())
     assert all((caught.value.thing, caught.value.rule, caught.value.remedy))
-    for value in (None, 3, math.nan, 1j, "", "a", [1], {}, (), ns):
+    for value in NOTHINGS:
         with contextlib.suppress(ns.InvalidInput):
             DOORS[door](value)
 
@@ -168,5 +174,6 @@ def test_parts_are_found_by_name_and_as_objects() -> None:
     falls = [0.08 - 0.5 * 9.81 * t**2 for t in times]
     assert SOLUTION.distances("plate", "ball 2", times).gap == pytest.approx(falls, rel=1e-12)
     (contact,) = SYSTEM.contacts
-    for asked in (contact, contact.name, 0, np.int64(0)):
+    others: tuple[Any, ...] = (contact, contact.name, 0, np.int64(0))
+    for asked in others:
         assert forces.history(asked).contact == "plate - ball 1"
