@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
+from nonsmooth.checks import check_kind, floats
 from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
@@ -68,12 +69,15 @@ def solve_contact(
         If the solver finds no forces that fulfil the laws, as in Painlevé's paradox, or, for mu_s > mu, between
         the two bounds.
     """
+    check_kind("solve_contact: solver", solver, str, 'For example "auto".')
     number = solver_number(solver)
-    h = np.array(force, dtype=float, copy=True)
+    check_kind("solve_contact: friction", friction, Collection, "Give one friction law per contact.")
+    h = floats("solve_contact: force", force)
     n_u, n = h.size, len(friction)
-    m, w, t = (np.array(x, dtype=float, copy=True) for x in (mass, normal, tangential))
-    v = np.zeros((n, 2)) if slip is None else np.array(slip, dtype=float, copy=True)
-    s = np.zeros((n, 3)) if bias is None else np.array(bias, dtype=float, copy=True)
+    m, w = floats("solve_contact: mass", mass), floats("solve_contact: normal", normal)
+    t = floats("solve_contact: tangential", tangential)
+    v = np.zeros((n, 2)) if slip is None else floats("solve_contact: slip", slip)
+    s = np.zeros((n, 3)) if bias is None else floats("solve_contact: bias", bias)
     for name, array, shape in (
         ("force", h, (n_u,)),
         ("mass", m, (n_u, n_u)),
@@ -90,7 +94,9 @@ def solve_contact(
                 "Give one friction law per contact.",
             )
     if n == 0:
-        raise InvalidInput("solve_contact: friction", "must have a law for at least one contact", n, "")
+        raise InvalidInput(
+            "solve_contact: friction", "must have a law for at least one contact", n, "Give one per contact."
+        )
     check_friction("solve_contact: friction", friction)
     if number == ENUMERATION and n > MOST_ENUMERATED:
         raise InvalidInput(
@@ -121,7 +127,7 @@ def solve_contact(
     return ContactResult(
         normal_force=f[:, 0],
         tangential_force=f[:, 1:],
-        acceleration=free + np.linalg.solve(m, columns @ f.ravel()),
+        acceleration=np.asarray(free + np.linalg.solve(m, columns @ f.ravel()), dtype=np.float64),
         contact_acceleration=memory.array("acceleration", 3 * n).reshape(n, 3).copy(),
         modes=tuple(MODES[mode] for mode in memory.array("mode_tried", n)),
         _memory=memory,

@@ -18,6 +18,11 @@ _NAMES: Mapping[str, Sequence[str]] = {"axis": "xyz", "column": "xyz", "body": (
 _NONE: Mapping[str, Any] = MappingProxyType({})
 
 
+def described(what: str, unit: str = "") -> dict[str, str]:
+    """Return what is said of an array; no unit where its columns have units of their own, or nobody knows it."""
+    return {"units": unit, "long_name": what} if unit else {"long_name": what}
+
+
 def dataset(
     history: object, time: NDArray[Any], told: Told, names: Mapping[str, Sequence[str]] = _NONE, **attributes: str
 ) -> xarray.Dataset:
@@ -43,7 +48,7 @@ def dataset(
     coordinates = {axis: (axis, list(words)) for axis, words in {**_NAMES, **names}.items() if axis in used}
     return xarray.Dataset(
         {
-            name: ((*over, *axes), np.asarray(getattr(history, name)), {"units": unit, "long_name": words})
+            name: ((*over, *axes), np.asarray(getattr(history, name)), described(words, unit))
             for name, (axes, unit, words) in told.items()
         },
         coords={"time": (over, time, {"units": "s", "long_name": "time"}), **coordinates},

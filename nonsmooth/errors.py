@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable
 
 _LONGEST = 400
-"""Characters of a value that are told; meshes have thousands."""
+"""Characters of a value or a list that are told; meshes have thousands."""
 
 
 class NonsmoothError(Exception):
@@ -30,10 +30,11 @@ class InvalidInput(NonsmoothError, ValueError):
 
     def __init__(self, thing: str, rule: str, value: object, remedy: str) -> None:
         self.thing, self.rule, self.value, self.remedy = thing, rule, value, remedy
-        said = repr(value)
-        if len(said) > _LONGEST:
-            said = f"{said[: _LONGEST // 2]} ... {said[-_LONGEST // 4 :]}"
-        super().__init__(f"{thing} {rule}, but it is {said}. {remedy}")
+        super().__init__(f"{thing} {rule}, but it is {_shortened(repr(value))}. {remedy}")
+
+
+def _shortened(said: str) -> str:
+    return said if len(said) <= _LONGEST else f"{said[: _LONGEST // 2]} ... {said[-_LONGEST // 4 :]}"
 
 
 class UnknownName(InvalidInput):
@@ -53,7 +54,7 @@ class UnknownName(InvalidInput):
         known = sorted(known)
         near = difflib.get_close_matches(name, known, n=2, cutoff=0.5)
         hint = f"Did you mean {' or '.join(repr(n) for n in near)}? " if near else ""
-        listing = ", ".join(known) if known else "none"
+        listing = _shortened(", ".join(known)) if known else "none"
         super().__init__(f"{kind} name", "must be a known one", name, f"{hint}Known: {listing}.")
 
 

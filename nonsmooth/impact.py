@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
+from nonsmooth.checks import check_kind, floats, is_finite
 from nonsmooth.contact import check_friction
 from nonsmooth.engine.impact.problem import FINISHED
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
@@ -106,10 +107,16 @@ def solve_impact(
     RunFailed
         If a law returns numbers that do not end the impact.
     """
-    m, w, u = (np.array(x, dtype=float, copy=True) for x in (mass, normal, velocity))
-    n_u, n = len(u), len(impact)
-    t = np.array(tangential, dtype=float, copy=True)
-    z_driven = np.zeros((n, 3)) if prescribed is None else np.array(prescribed, dtype=float, copy=True)
+    for name, laws in (("impact", impact), ("friction", friction)):
+        check_kind(f"solve_impact: {name}", laws, Collection, f"Give one {name} law per contact.")
+    for law in impact:
+        check_kind("solve_impact: impact", law, ImpactProcess, "See `nonsmooth list laws`.")
+    if not (is_finite(tolerance) and tolerance > 0.0):
+        raise InvalidInput("solve_impact: tolerance", "must be positive and finite", tolerance, "For example 1e-10.")
+    m, w = floats("solve_impact: mass", mass), floats("solve_impact: normal", normal)
+    t, u = floats("solve_impact: tangential", tangential), floats("solve_impact: velocity", velocity)
+    n_u, n = u.size, len(impact)
+    z_driven = np.zeros((n, 3)) if prescribed is None else floats("solve_impact: prescribed", prescribed)
     for name, array, shape in (
         ("mass", m, (n_u, n_u)),
         ("normal", w, (n_u, n)),
@@ -125,7 +132,12 @@ def solve_impact(
                 "Give one impact law per contact.",
             )
     if len(friction) != n or n == 0:
-        raise InvalidInput("solve_impact: friction", f"must have one law for each of {n} contacts", len(friction), "")
+        raise InvalidInput(
+            "solve_impact: friction",
+            f"must have one law for each of {n} contacts",
+            len(friction),
+            "Give one per contact.",
+        )
     check_friction("solve_impact: friction", friction)
     if not np.allclose(m, m.T, rtol=1e-12, atol=0.0) or np.linalg.eigvalsh(m)[0] <= 0.0:
         raise InvalidInput("solve_impact: mass", "must be symmetric positive definite", m.tolist(), "Check M.")

@@ -10,6 +10,7 @@ from typing import final
 import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
+from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.impact import solve_impact
 from nonsmooth.interfaces import FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess
@@ -35,14 +36,19 @@ def restitution(law: ImpactLaw, speed: float) -> float:
     RunFailed
         If a process does not end.
     """
-    if not (math.isfinite(speed) and speed > 0.0):
+    if not (is_finite(speed) and speed > 0.0):
         raise InvalidInput("restitution: speed", "must be positive and finite", speed, "Give it in [m/s].")
     if isinstance(law, ImpactProcess):
         after = float(solve_impact([[1.0]], [[1.0]], np.zeros((1, 1, 2)), [-speed], [law], [_Smooth()]).velocity[0])
     elif isinstance(law, ImpactMap):
         after = _mapped(law, speed)
     else:
-        raise InvalidInput("restitution: law", "must be an ImpactProcess or an ImpactMap", type(law).__name__, "")
+        raise InvalidInput(
+            "restitution: law",
+            "must be an ImpactProcess or an ImpactMap",
+            type(law).__name__,
+            "See `nonsmooth list laws`.",
+        )
     ratio = after / speed
     if not (math.isfinite(ratio) and ratio >= -_ROUND_OFF):
         raise InvalidInput(

@@ -10,6 +10,7 @@ from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import rules
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
+from nonsmooth.system.labels import labels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,8 +37,8 @@ class SimpleScenario(Scenario, ABC):
         return {name: getattr(self, name) for name in rules(type(self))}
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """Return q_1, q_2, ... over the samples, in the order of the bodies."""
-        return {f"q_{i + 1}": column for i, column in enumerate(solution.q.T)}
+        """Return nothing: q and u are in the results as they are, with names and units."""
+        return {}
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
         """Return all coordinates and velocities at the end."""
@@ -66,7 +67,7 @@ class SimpleScenario(Scenario, ABC):
     def _draw(self, solution: Solution) -> Figure:
         from matplotlib.figure import Figure
 
-        names = list(self.coordinates(solution))
+        names = [f"{name} [{unit}]" for _, name, unit in labels(solution.system).coordinates]
         figure = Figure(figsize=(6.0, 1.0 + 1.2 * len(names)), layout="constrained")
         axes = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
         for name, values, one in zip(names, solution.q.T, axes, strict=True):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from nonsmooth.cli import extras, results
@@ -12,6 +11,7 @@ from nonsmooth.cli.interrupt import Interrupt
 from nonsmooth.cli.messages import complain, say
 from nonsmooth.cli.progress import on_standard_error
 from nonsmooth.plugins import registry
+from nonsmooth.results.output import Output
 from nonsmooth.solution import files
 
 
@@ -19,7 +19,7 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("figures", help="draw all figures of a scenario", allow_abbrev=False)
     command.add_argument("scenario", metavar="SCENARIO", help="see `nonsmooth list scenarios`")
-    command.add_argument("--out", type=Path, metavar="DIR", required=True, help="save them there")
+    command.add_argument("--out", metavar="DIR", required=True, help="save them there")
     command.set_defaults(execute=execute)
 
 
@@ -27,14 +27,15 @@ def execute(arguments: argparse.Namespace) -> bool:
     """Draw and save the figures; print their paths; tell whether all went well."""
     owner = registry.load("scenarios", arguments.scenario)
     extras.require(extras.PICTURES)
-    files.prepare(arguments.out)
+    folder = Output.to(arguments.out).folder
+    files.prepare(folder)
     results.without_display()
     drawn = _draw(owner)
     if drawn is None:
         complain("interrupted: no figure was saved")
         return False
     troubles: list[str] = []
-    paths = results.save_figures(drawn, arguments.out, troubles)
+    paths = results.save_figures(drawn, folder, troubles)
     say("\n".join(map(str, paths)))
     return not troubles
 

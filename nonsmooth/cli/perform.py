@@ -30,12 +30,9 @@ def perform(
 ) -> report.Report:
     """Compute a solution, save what there is to save, and return the report; ``head`` is its beginning."""
     scenario = job.scenario
-    if troubles:
-        solution, status, message = None, "failed", troubles[0]
-    else:
-        solution, status, message = _computed(compute)
+    solution, status, message = _computed(compute)
     outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
-    outcome |= {"final": None, "summary": None, "units": dict(scenario.units)}
+    outcome |= {"final": None, "summary": None, "units": {**report.UNITS, **scenario.units}}
     if solution is None:
         return outcome
     if folder is not None:
@@ -91,7 +88,7 @@ def _save_solution(scenario: Scenario, solution: Solution, folder: Path, trouble
         written = SolutionFolder.opened(Output(folder))
         # where the disk was full there are fewer samples than there were
         if written.status != UNFINISHED:
-            written.add_coordinates(scenario.coordinates(solution))
+            written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
     with results.noting(troubles, "saving the events"):
         save_events(solution, folder / "events.csv")
 

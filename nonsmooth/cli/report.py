@@ -14,8 +14,8 @@ from nonsmooth.solution.solution import Solution
 Report = dict[str, Any]
 _LONG_WORD = 80
 """Characters of a word of modes up to which it is told; of longer ones the contacts are."""
-_NAMED = 1
-"""Contacts that are named then of each kind; the others are counted."""
+_NAMED = 2
+"""Contacts that are named then; the others are counted."""
 _COMMONEST = 5
 """Words of modes that are told; the others are counted,"""
 _INSTANT = 5e-5
@@ -34,6 +34,8 @@ _NUMBERS = (
     "mode_words",
     "energy_residual",
 )
+UNITS = {"t_end": "s", "wall_seconds": "s"}
+"""Of these numbers; others have none, or are those of the scenario."""
 
 
 def of_solution(solution: Solution | None) -> Report:
@@ -89,7 +91,8 @@ def as_text(report: Report) -> str:
 def _modes(shares: dict[str, float], names: list[str]) -> list[str]:
     """Return the commonest words of modes with their shares of time, and how many others there are."""
     lasting = [(word, share) for word, share in shares.items() if share >= _INSTANT]
-    told = [(_described(word, names), share) for word, share in lasting[:_COMMONEST]]
+    before = [word for word, _ in lasting[:1] + lasting]
+    told = [(_described(word, before[i], names), share) for i, (word, share) in enumerate(lasting[:_COMMONEST])]
     width = max((len(word) for word, _ in told), default=0)
     found = [f"{word.ljust(width)} {share:7.2%}" for word, share in told]
     others = len(shares) - len(found)
@@ -108,16 +111,17 @@ def _contacts(names: list[str]) -> str:
     return text if names and len(text) <= _LONG_WORD else str(len(names))
 
 
-def _described(word: str, names: list[str]) -> str:
-    """Return a word of modes, or, where many contacts make it long, the names of those that are not open."""
+def _described(word: str, before: str, names: list[str]) -> str:
+    """Return a word of modes, or, where many contacts make it long, its counts and what differs from the one before."""
     if len(word) <= _LONG_WORD:
         return word
-    parts = []
-    for what, bits in zip(("closed", "approaching", "slipping"), word.strip("{}").split(","), strict=True):
-        found = [name for name, bit in zip(names, reversed(bits), strict=True) if bit == "1"]
-        more = [f"{len(found) - _NAMED} more"] if len(found) > _NAMED else []
-        parts += [f"{what} {', '.join([*found[:_NAMED], *more])}"] if found else []
-    return "; ".join(parts) or "all open"
+    kinds, others = word.strip("{}").split(","), before.strip("{}").split(",")
+    counts = zip((bits.count("1") for bits in kinds), ("closed", "approaching", "slipping"), strict=True)
+    text = ", ".join(f"{n} {what}" for n, what in counts if n) or "all open"
+    pairs = zip(zip(*map(reversed, kinds), strict=True), zip(*map(reversed, others), strict=True), strict=True)
+    differing = [name for name, (here, there) in zip(names, pairs, strict=True) if here != there]
+    more = [f"{len(differing) - _NAMED} more"] if len(differing) > _NAMED else []
+    return f"{text}; unlike above {', '.join([*differing[:_NAMED], *more])}" if differing else text
 
 
 def _judged(criteria: list[dict[str, Any]]) -> list[str]:

@@ -6,10 +6,9 @@ import argparse
 import contextlib
 import json
 import sys
-from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import acceptance, engine, extras, law, report, request, results
+from nonsmooth.cli import acceptance, engine, extras, law, report, request
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.perform import Told, perform
 from nonsmooth.results.output import Output
@@ -36,7 +35,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
-    command.add_argument("--out", type=Path, metavar="DIR", help="save results and figures there")
+    command.add_argument("--out", metavar="DIR", help="save results and figures there")
     command.add_argument(
         "--accept", action="store_true", help="judge the run by the scenario's own criteria; exit status 1 if one fails"
     )
@@ -59,16 +58,16 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
     scenario = job.scenario
     if arguments.accept:
         acceptance.check_request(job)
-    head, output = {"scenario": arguments.scenario, **job.head()}, None
+    head, folder, output = {"scenario": arguments.scenario, **job.head()}, None, None
     system = job.build()
     if arguments.out is not None:
         extras.require(extras.PICTURES)
         asked = {name: getattr(arguments, name) for name in ("scenario", "set", "law", "engine")}
         title = str(scenario.resolved().get("title", type(scenario).title))
-        output = Output(arguments.out, title, asked, json.loads(report.as_json(head)))
+        folder = Output.to(arguments.out).folder
+        output = Output(folder, title, asked, json.loads(report.as_json(head)))
         check_free(output)
-        with results.noting(troubles, "--out"):
-            files.prepare(arguments.out)
+        files.prepare(folder)
 
     def compute(told: Told) -> Solution:
         model = assemble(system, job.engine)
@@ -79,4 +78,4 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
             output=output,
         )
 
-    return perform(job, head, compute, arguments.out, arguments.accept, troubles)
+    return perform(job, head, compute, folder, arguments.accept, troubles)

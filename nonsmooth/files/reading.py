@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, final
 
+from nonsmooth.checks import path_of
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import assembling
@@ -90,7 +91,7 @@ def load_system(path: str | Path) -> Setup:
     PluginError
         If a class that it names cannot be loaded.
     """
-    return read(Path(path))
+    return read(path_of("load_system: path", path))
 
 
 def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from nonsmooth.checks import check_kind, is_finite, path_of
 from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.errors import InvalidInput
 from nonsmooth.files import formats
 from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.interfaces import Body, Engine
@@ -49,9 +51,12 @@ def save_system(
     FileError
         If the file cannot be written.
     """
-    form = formats.of(Path(path))
+    file = path_of("save_system: path", path)
+    form = formats.of(file)
+    check_kind("save_system: system", system, System, "Make it by nonsmooth.System([...]).")
+    check_kind("save_system: title", title, str, 'For example "Two balls".')
     tables = _tables(system, t_end, sample_interval, engine, title)
-    with replacing(Path(path)) as part:
+    with replacing(file) as part:
         part.write_text(form.write(tables), encoding="utf-8")
 
 
@@ -75,7 +80,11 @@ def _tables(
 ) -> Table:
     tables: Table = {"title": title} if title else {}
     times = {"t_end": t_end, "sample_interval": sample_interval}
-    tables |= {name: float(value) for name, value in times.items() if value is not None}
+    for name, value in times.items():
+        if value is not None:
+            if not is_finite(value):
+                raise InvalidInput(f"save_system: {name}", "must be a finite number", value, "Give it in [s].")
+            tables[name] = float(value)
     tables["gravity"] = 0.0 - system.gravity[2]
     if engine is not None and engine != EventDriven():
         tables["engine"] = table_of(engine, "engine", EventDriven)

@@ -15,6 +15,7 @@ from nonsmooth.histories.contact_history import ContactHistory, contacts_dataset
 from nonsmooth.histories.times import read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.system.asked import number_of
 from nonsmooth.system.contact import Contact
 
 if TYPE_CHECKING:
@@ -105,13 +106,13 @@ class ContactForces:
             solution.system.contacts,
         )
 
-    def history(self, contact: Contact | int) -> ContactHistory:
+    def history(self, contact: Contact | str | int) -> ContactHistory:
         """Return what one contact bears over time, with zeros for forces where it is open.
 
         Parameters
         ----------
-        contact : Contact or int
-            The contact, as ``System.contact`` returned it, or its number, counted from 0.
+        contact : Contact, str or int
+            The contact, as ``System.contact`` returned it, its name, or its number, counted from 0.
 
         Raises
         ------
@@ -123,17 +124,14 @@ class ContactForces:
         entries = np.flatnonzero(self.contact == number)
         return ContactHistory.spread(self, entries, times[entries], self.contacts[number].name)
 
-    def _number(self, contact: Contact | int) -> int:
-        numbers = dict(zip(map(id, self.contacts), range(len(self.contacts)), strict=True))
-        number = contact if isinstance(contact, int) else numbers.get(id(contact), -1)
-        if not 0 <= number < len(self.contacts):
-            raise InvalidInput(
-                "ContactForces.history",
-                f"needs one of the {len(self.contacts)} contacts of this system, or its number from 0 on",
-                contact,
-                "Take it from solution.system.contacts.",
-            )
-        return number
+    def _number(self, contact: Contact | str | int) -> int:
+        if not isinstance(contact, (int, np.integer)):
+            names = [one.name for one in self.contacts]
+            return number_of("ContactForces.history", "contact", contact, self.contacts, lambda: names)
+        if contact not in range(len(self.contacts)):
+            rule = f"must be below {len(self.contacts)}, the number of contacts"
+            raise InvalidInput("ContactForces.history: contact", rule, contact, "Count from 0.")
+        return int(contact)
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the histories of all contacts that are closed at any of the times, as one dataset with units."""

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.datasets import Told, dataset
-from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.states import States
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.places import BodyFrames
+from nonsmooth.system.asked import body_number
 
 if TYPE_CHECKING:
     import xarray
@@ -60,12 +60,9 @@ class Poses:
         return dataset(self, self.time, _TOLD, {"frame": frames}, body=self.body)
 
     @classmethod
-    def of(cls, solution: Solution, body: Body, times: ArrayLike | None = None) -> Poses:
+    def of(cls, solution: Solution, asked: Body | str, times: ArrayLike | None = None) -> Poses:
         """Return the poses of a body in a run (:meth:`nonsmooth.Solution.poses`)."""
-        if not any(body is other for other in solution.system.bodies):
-            raise InvalidInput(
-                "Solution.poses", "needs a body of this system", body, "Take it from solution.system.bodies."
-            )
+        body = solution.system.bodies[body_number("Solution.poses", asked, solution.system)]
         given = read_times("Solution.poses", solution, times)
         states = States.of(solution, np.atleast_1d(given))
         i_q, i_u = solution.offsets(body)

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _TOLD: Told = {
-    "q": (("coordinate",), "SI, see coordinate_units", "coordinates"),
-    "u": (("velocity",), "SI, see velocity_units", "velocities"),
+    "q": (("coordinate",), "", "coordinates, see coordinate_units"),
+    "u": (("velocity",), "", "velocities, see velocity_units"),
     "modes": (("contact",), "1", "0 open, 1 stick, 2 slide"),
-    "law_states": (("law_state",), "SI of each law", "inner states of friction and traction laws"),
+    "law_states": (("law_state",), "", "inner states of friction and traction laws, in SI units of each law"),
 }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
     from nonsmooth.system.system import System
 
+_NUMBER = re.compile(r"_\d+$")
+
 
 class Scenario(Component, ABC):
     """A ready-made system.
@@ -23,11 +26,13 @@ class Scenario(Component, ABC):
     2. ``build`` returns a new System; ``t_end`` says how long to run it.
     3. ``summarise``, ``coordinates``, ``figures`` and ``acceptance`` only read the solution.
     4. A full run of the default parameters has at least one criterion, and fulfils all.
-    5. ``units`` are those of the numbers of ``summarise``, by name; the others have none.
+    5. ``units`` are those of the numbers of ``summarise``, by name; the others have none.  ``coordinate_units`` are
+       those of all ``coordinates``, by name; of z_1, z_2 and so on that of z.
     """
 
     title: ClassVar[str]
     units: ClassVar[Mapping[str, str]] = {}
+    coordinate_units: ClassVar[Mapping[str, str]] = {}
 
     @property
     @abstractmethod
@@ -50,6 +55,11 @@ class Scenario(Component, ABC):
     @abstractmethod
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return the scenario's own coordinates over the samples: name -> array [n_samples]."""
+
+    def unit_of(self, coordinate: str) -> str:
+        """Return the unit of a coordinate, "" where none is declared."""
+        known = self.coordinate_units
+        return known.get(coordinate) or known.get(_NUMBER.sub("", coordinate), "")
 
     @abstractmethod
     def final(self, solution: Solution) -> Mapping[str, list[float]]:

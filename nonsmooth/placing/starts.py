@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from nonsmooth.checks import check_kind, is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
@@ -15,6 +16,7 @@ from nonsmooth.placing.probe import Probe
 from nonsmooth.system.system import System
 
 _ROUND_OFF = 1e-9
+_SYSTEM = "Make it by nonsmooth.System([...])."
 
 
 def touching(system: System, body: Body, *, direction: Sequence[float] | None = None, **start: Any) -> None:
@@ -49,8 +51,10 @@ def at_height(
     InvalidInput
         As :func:`touching`, or if the height is negative.
     """
-    if not 0.0 <= height < np.inf:
-        raise InvalidInput("at_height: height", "must not be negative", height, "It is the smallest gap [m].")
+    if not (is_finite(height) and height >= 0.0):
+        raise InvalidInput(
+            "at_height: height", "must be finite and not negative", height, "It is the smallest gap [m]."
+        )
     _move(system, body, float(height), direction, start)
 
 
@@ -64,6 +68,8 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     InvalidInput
         As :func:`touching`, or if ``start`` has velocities, or the body cannot follow the one that it touches.
     """
+    check_kind("resting: system", system, System, _SYSTEM)
+    system.start(body)
     if np.any(body.state(**start)[1] != 0.0):
         raise InvalidInput(
             f"resting {system.name_of(body)!r}",
@@ -95,6 +101,7 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
 
 
 def _move(system: System, body: Body, height: float, direction: Sequence[float] | None, start: dict[str, Any]) -> None:
+    check_kind("placing: system", system, System, _SYSTEM)
     way = _unit(system, direction)
     before = system.start(body)
     name = f"placing {system.name_of(body)!r}"

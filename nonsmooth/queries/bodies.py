@@ -9,6 +9,7 @@ from typing import final
 
 import numpy as np
 
+from nonsmooth.checks import check_kind
 from nonsmooth.errors import InvalidInput, NoDistance
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.distance_backend import Place
@@ -46,6 +47,8 @@ class BodyPair:
         ]
         if not all(sides):
             raise InvalidInput("distance", "needs bodies that carry shapes", None, "Without a shape nothing is near.")
+        if by is not None:
+            check_kind("distance: by", by, str, 'For example "exact", or leave it out.')
         self._by, self._quick = by, quick
         numbered = [
             ((i, j), frame, other, one, two)

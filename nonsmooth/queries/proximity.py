@@ -8,6 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
+from nonsmooth.checks import check_kind, is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.bodies import BodyPair
@@ -67,9 +68,10 @@ def proximity(system: System, within: float | None = None) -> tuple[NearPair, ..
     Raises
     ------
     InvalidInput
-        If ``within`` is negative or not finite.
+        If it is no system, or ``within`` is negative or not finite.
     """
-    if within is not None and not 0.0 <= within < math.inf:
+    check_kind("proximity: system", system, System, "Make it by nonsmooth.System([...]).")
+    if within is not None and not (is_finite(within) and within >= 0.0):
         raise InvalidInput("proximity: within", "must be finite and not negative [m]", within, "Leave it out.")
     bodies, places, ties = system.bodies, places_at_start(system), Ties.of(system)
     sizes = np.array([size_of(body) for body in bodies])

@@ -11,6 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, final
 
+from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engine.native.kernel import PLAIN
 
 SOLUTION = "solution.zarr"
@@ -39,10 +40,19 @@ class Output:
     request: Mapping[str, Any] = field(default_factory=dict)
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        check_kind("Output.folder", self.folder, Path, 'For example pathlib.Path("results").')
+
     @classmethod
     def to(cls, where: Output | Path | str) -> Output:
-        """Return the output that is meant by it or by its folder."""
-        return where if isinstance(where, cls) else cls(Path(str(where)))
+        """Return the output that is meant by it or by its folder.
+
+        Raises
+        ------
+        InvalidInput
+            If it is no folder, or a text without a letter.
+        """
+        return where if isinstance(where, cls) else cls(path_of("folder of results", where))
 
     @property
     def solution(self) -> Path:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import math
 import shutil
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.datasets import described
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
@@ -30,6 +31,7 @@ from nonsmooth.solution.variables import (
     GROWING,
     events_of,
     of_events,
+    of_memory,
     of_rest_of_events,
     of_rest_of_samples,
     of_samples,
@@ -91,7 +93,7 @@ class SolutionFolder:
                 raise FileError(path, error) from error
         made, lock = ZarrFolder(path, _attributes(output, engine, t_end, conditional)), Lock(path)
         found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
-        for variable in (*of_system(system), _text(system, output, engine, t_end, made.attributes)):
+        for variable in (*of_system(system), *of_memory(), _text(system, output, engine, t_end, made.attributes)):
             made.add(variable, grows=False)
         n_y = found._n_q + found._n_u + N_ACCOUNTS + n_states
         sizes = len(system.contacts), found._n_q, found._n_u, n_y
@@ -257,8 +259,8 @@ class SolutionFolder:
             for name in _STATES:
                 (self._arrays.path / name).unlink(missing_ok=True)
 
-    def add_coordinates(self, coordinates: Mapping[str, Any]) -> None:
-        """Add the scenario's own coordinates over the samples: name -> array [n_samples].
+    def add_coordinates(self, coordinates: Mapping[str, Any], unit_of: Callable[[str], str]) -> None:
+        """Add the scenario's own coordinates over the samples: name -> array [n_samples], and the unit of each.
 
         Raises
         ------
@@ -277,7 +279,7 @@ class SolutionFolder:
             raise InvalidInput("coordinates", "must be arrays of numbers", strange, "Return floats over the samples.")
         self.attributes[_OWN] = " ".join(coordinates)
         for name, values in arrays.items():
-            attributes = {"units": "SI", "long_name": f"coordinate of the scenario: {name}"}
+            attributes = described(f"coordinate of the scenario: {name}", unit_of(name))
             self._arrays.add(Variable(name, ("time",), values, attributes), grows=True)
         self._arrays.commit()
         self._arrays.spell_out(coordinates)

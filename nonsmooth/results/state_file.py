@@ -26,7 +26,7 @@ def state_bytes(state: State) -> bytes:
         arrays["difference"] = np.frombuffer(state.continuation.difference.packed(), np.uint8)
         arrays["told"] = np.array(state.continuation.told)
     content = io.BytesIO()
-    np.savez(content, **arrays)
+    np.savez_compressed(content, **arrays)
     return content.getvalue()
 
 

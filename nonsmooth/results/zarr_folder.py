@@ -81,6 +81,10 @@ class ZarrFolder:
                 name, _, kind = key.rpartition("/")
                 if kind == ".zarray":
                     made._describe(name, entry, dict(entries[f"{name}/.zattrs"]))
+        except (FileNotFoundError, NotADirectoryError) as error:
+            raise InvalidInput(
+                str(path), "must be a folder of results", "not there", "Name a folder that `run` wrote."
+            ) from error
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
             raise InvalidInput(
                 str(path), "must be a folder of results", f"{type(error).__name__}: {error}", "Name another."

@@ -10,8 +10,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import final
+from typing import NoReturn, final
 
+from nonsmooth.checks import check_callable, check_kind, is_finite
 from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
@@ -80,6 +81,8 @@ class Model:
         InvalidInput
             If the engine cannot run it, bodies overlap at the start, a joint is open there, or a guard has no value.
         """
+        check_kind("assemble: system", system, System, "Make it by nonsmooth.System([...]).")
+        check_kind("engine", engine, Engine, "Give nonsmooth.EventDriven(), or another one with its options.")
         made = cls(lay(system, engine), engine, State.at(system))
         check_start(made._laid, made._guards)
         warn_of_overlaps(system, made._laid.places())
@@ -88,6 +91,17 @@ class Model:
     def __repr__(self) -> str:
         """Return what it runs, and by what."""
         return f"Model({self.system!r}, {type(self._engine).__name__})"
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse to be pickled and copied by others: what it holds belongs to this process, and to one run at a time.
+
+        Raises
+        ------
+        InvalidInput
+            Always.
+        """
+        remedy = "Call model.copy() for another thread; in another process, assemble model.system there."
+        raise InvalidInput("Model", "must not be pickled, nor copied by the module copy", self, remedy)
 
     @property
     def system(self) -> System:
@@ -133,6 +147,7 @@ class Model:
         InvalidInput
             If anything else differs, or the start is not valid, or the model runs.
         """
+        check_kind("with_laws_of: system", system, System, "Make it by nonsmooth.with_laws(model.system, ...).")
         made = Model(lay_laws(self._copied(), system), self._engine, State.at(system))
         check_start(made._laid, made._guards)
         return made
@@ -202,6 +217,8 @@ class Model:
             If the run cannot go on, or cannot be written any more; its ``solution`` holds what was computed.
         """
         state = self._start if start is None else start
+        check_kind("run: start", state, State, "Give the state of a solution, or State.at(system, ...).")
+        _check_calls("run", until, progress)
         if state is not self._start:
             check_arrays(self._laid, state)
             if not self._goes_on(state):
@@ -241,6 +258,7 @@ class Model:
         RunFailed
             As for :meth:`run`.
         """
+        _check_calls("resume", until, progress)
         folder = SolutionFolder.opened(Output.to(output))
         if folder.attributes.get("conditional") and until is None:
             raise InvalidInput(
@@ -362,6 +380,11 @@ class Model:
         return solution
 
 
+def _check_calls(what: str, until: Until | None, progress: Progress | None) -> None:
+    check_callable(f"{what}: until", until, "until(run)")
+    check_callable(f"{what}: progress", progress, "progress(t, t_end)")
+
+
 def check_times(what: str, t_end: float, sample_interval: float | None, start: float = 0.0) -> float:
     """Return the sample interval of a run [s].
 
@@ -370,10 +393,10 @@ def check_times(what: str, t_end: float, sample_interval: float | None, start: f
     InvalidInput
         If the end time is not behind the start, or a number is not finite or not positive.
     """
-    if not math.isfinite(t_end) or not t_end > start:
+    if not is_finite(t_end) or not t_end > start:
         rule = "must be positive and finite" if start == 0.0 else f"must be finite and after the start at {start:.9g} s"
         raise InvalidInput(f"{what}: t_end", rule, t_end, "Give it in [s].")
     interval = (t_end - start) / _DEFAULT_SAMPLES if sample_interval is None else sample_interval
-    if not (math.isfinite(interval) and interval > 0.0):
+    if not (is_finite(interval) and interval > 0.0):
         raise InvalidInput(f"{what}: sample_interval", "must be positive and finite", interval, "Give it in [s].")
     return interval

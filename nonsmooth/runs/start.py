@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from nonsmooth.checks import is_finite
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
@@ -49,7 +50,7 @@ def check_arrays(model: LaidOut, state: State) -> None:
         "law_states": (model.n_states,),
         "guards_spent": (len(model.system.guards),),
     }
-    if not math.isfinite(state.time):
+    if not is_finite(state.time):
         raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
     for name, shape in shapes.items():
         value, kinds = getattr(state, name), "biu" if name in _WHOLE else "biuf"

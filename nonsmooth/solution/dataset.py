@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.variables import of_events, of_samples, of_system
@@ -12,21 +10,15 @@ from nonsmooth.solution.variables import of_events, of_samples, of_system
 if TYPE_CHECKING:
     import xarray
 
-_NONE: Mapping[str, Any] = MappingProxyType({})
 
-
-def to_dataset(solution: Solution, coordinates: Mapping[str, Any] = _NONE) -> xarray.Dataset:
-    """Return samples and events of a solution as one dataset with units and labels.
-
-    ``coordinates`` are further variables over the samples, as a scenario gives them: name -> array [n_samples].
-    """
+def to_dataset(solution: Solution) -> xarray.Dataset:
+    """Return samples and events of a solution as one dataset with units and labels."""
     import xarray
 
     samples = of_samples(solution.t, solution.q, solution.u)
     variables = [*of_system(solution.system), *samples, *of_events(solution.events)]
     return xarray.Dataset(
-        {one.name: (one.dimensions, one.values, dict(one.attributes)) for one in variables}
-        | {name: (("time",), values, {"units": "SI"}) for name, values in coordinates.items()},
+        {one.name: (one.dimensions, one.values, dict(one.attributes)) for one in variables},
         attrs=vars(solution.energy)
         | {
             "Conventions": "CF-1.11",

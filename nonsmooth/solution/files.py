@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from nonsmooth.errors import NonsmoothError
+from nonsmooth.errors import InvalidInput, NonsmoothError
 
 _REMEDY = "Free space there or choose another folder."
 _REMEDIES = {errno.ENOTDIR: "Name a folder; one that is not there is made."}
@@ -20,7 +20,11 @@ class FileError(NonsmoothError, OSError):
 
     def __init__(self, path: object, error: OSError) -> None:
         reason = error.strerror or error
-        super().__init__(f"{path} could not be written: {reason}. {_REMEDIES.get(error.errno or 0, _REMEDY)}")
+        super().__init__(f"{path} could not be written: {reason}. {_remedy(error)}")
+
+
+def _remedy(error: OSError) -> str:
+    return _REMEDIES.get(error.errno or 0, _REMEDY)
 
 
 def prepare(folder: Path) -> None:
@@ -28,7 +32,7 @@ def prepare(folder: Path) -> None:
 
     Raises
     ------
-    FileError
+    InvalidInput
         If that is not possible.
     """
     try:
@@ -38,7 +42,8 @@ def prepare(folder: Path) -> None:
         with tempfile.TemporaryFile(dir=folder) as probe:
             probe.write(b"probe")
     except OSError as error:
-        raise FileError(folder, error) from error
+        rule = "must be a folder that can be written to"
+        raise InvalidInput(str(folder), rule, error.strerror, _remedy(error)) from error
 
 
 @contextlib.contextmanager

@@ -40,6 +40,10 @@ class TransitionGraph:
     passing: frozenset[Mode]
     counts: Mapping[tuple[Mode, Mode, str], int]
 
+    def __repr__(self) -> str:
+        """Return how much there is of it."""
+        return f"TransitionGraph({len(self.shares)} modes, {len(self.counts)} transitions)"
+
     def word(self, mode: Mode) -> str:
         """Return the mode word of Eq. (29)."""
         rows = [[0] * len(self.contacts) for _ in range(3)]

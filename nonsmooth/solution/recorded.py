@@ -41,6 +41,10 @@ class Recorded:
     sizes: tuple[int, int, int, int]
     earlier: Events | None = None
 
+    def __repr__(self) -> str:
+        """Return how much there is of it."""
+        return f"Recorded({len(self.rows)} samples, {len(self.events)} events)"
+
     @classmethod
     def of(cls, events: Events, rows: Floats, engine: Engine) -> Recorded:
         """Return the record that has these events and samples."""

@@ -18,6 +18,7 @@ from nonsmooth.solution.graph import TransitionGraph, transition_graph
 from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.state import State
 from nonsmooth.solution.track import Track
+from nonsmooth.system.asked import body_number
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
@@ -229,23 +230,41 @@ class Solution:
         """Return the modes visited, their shares of the time, and how often which cause led from one to another."""
         return transition_graph(self.events, self.system.names.contacts, self.t_end)
 
-    def of(self, body: Body) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the samples of q and u of one body, shapes [n, body.n_q] and [n, body.n_u]."""
-        i_q, i_u = self.offsets(body)
-        return self.q[:, i_q : i_q + body.n_q], self.u[:, i_u : i_u + body.n_u]
+    def of(self, body: Body | str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the samples of q and u of one body, shapes [n, body.n_q] and [n, body.n_u].
 
-    def offsets(self, body: Body) -> tuple[int, int]:
-        """Return where the coordinates and the velocities of a body begin."""
-        i_q = i_u = 0
-        for other in self.system.bodies:
-            if other is body:
-                return i_q, i_u
-            i_q, i_u = i_q + other.n_q, i_u + other.n_u
-        raise KeyError(f"{body!r} is not in this system")
+        Raises
+        ------
+        InvalidInput
+            As :meth:`offsets`.
+        """
+        one = self.system.bodies[body_number("Solution.of", body, self.system)]
+        i_q, i_u = self.offsets(one)
+        return self.q[:, i_q : i_q + one.n_q], self.u[:, i_u : i_u + one.n_u]
 
-    def mode_words(self, times: NDArray[np.float64]) -> list[str]:
-        """Return the mode word that holds just after each of the times [s]."""
-        index = np.clip(np.searchsorted(self.events.time, times, side="right") - 1, 0, None)
+    def offsets(self, body: Body | str) -> tuple[int, int]:
+        """Return where the coordinates and the velocities of a body, or of that of a name, begin.
+
+        Raises
+        ------
+        InvalidInput
+            If the system has no such body.
+        """
+        before = self.system.bodies[: body_number("Solution.offsets", body, self.system)]
+        return sum(one.n_q for one in before), sum(one.n_u for one in before)
+
+    def mode_words(self, times: ArrayLike) -> list[str]:
+        """Return the mode word that holds just after each of the times [s].
+
+        Raises
+        ------
+        InvalidInput
+            If a time is not within the run.
+        """
+        from nonsmooth.histories.times import read_times
+
+        row = np.atleast_1d(read_times("Solution.mode_words", self, times))
+        index = np.searchsorted(self.events.time, row, side="right") - 1
         return words(self.events.after[index])
 
     def at(self, times: ArrayLike | None = None) -> States:
@@ -269,13 +288,13 @@ class Solution:
 
         return States.of(self, times)
 
-    def poses(self, body: Body, times: ArrayLike | None = None) -> Poses:
-        """Return origins and axes of all frames of a body at times, which are those of :meth:`at`.
+    def poses(self, body: Body | str, times: ArrayLike | None = None) -> Poses:
+        """Return origins and axes of all frames of a body, or of that of a name, at times, those of :meth:`at`.
 
         Raises
         ------
         InvalidInput
-            As :meth:`at`, or if the body is not of the system.
+            As :meth:`at`, or if the system has no such body.
         """
         from nonsmooth.histories.poses import Poses
 
@@ -307,14 +326,14 @@ class Solution:
         return Energies.of(self, times)
 
     def distances(
-        self, first: Body, second: Body, times: ArrayLike | None = None, *, by: str | None = None
+        self, first: Body | str, second: Body | str, times: ArrayLike | None = None, *, by: str | None = None
     ) -> DistanceHistory:
         """Return how far two bodies are from each other at times: gap, points, normal, and how they were found.
 
         Parameters
         ----------
-        first, second : Body
-            Bodies of the system; all of their shapes count.
+        first, second : Body or str
+            Bodies of the system, or their names; all of their shapes count.
         times : float or array, optional
             Times within the run [s]; those of the samples by default.
         by : str, optional
@@ -323,7 +342,7 @@ class Solution:
         Raises
         ------
         InvalidInput, NoDistance, MissingPackagesError
-            As :func:`nonsmooth.distance`, or if a body is not of the system, or a time not within the run.
+            As :func:`nonsmooth.distance`, or if the system has no such body, or a time is not within the run.
         """
         from nonsmooth.histories.distances import distances
 

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nonsmooth.checks import check_kind, floats, is_finite
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import StatefulFrictionLaw, TractionLaw
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.system.system import System
@@ -110,15 +112,23 @@ class State:
             [s].
         q, u : array, optional
             Coordinates and velocities of all bodies, in the order of the system; by default as they were placed.
+
+        Raises
+        ------
+        InvalidInput
+            If it is no system, or a number is none.
         """
+        check_kind("State.at: system", system, System, "Make it by nonsmooth.System([...]).")
+        if not is_finite(time):
+            raise InvalidInput("State.at: time", "must be a finite number", time, "Give it in [s].")
         placed = system.starts()
         laws = [contact.friction for contact in system.contacts]
         counts, known = Counter(map(id, laws)), {id(law): law for law in laws}
         n, n_states = len(laws), sum(count * _n_states(known[law]) for law, count in counts.items())
         return cls(
             time,
-            placed[0] if q is None else np.asarray(q, dtype=float),
-            placed[1] if u is None else np.asarray(u, dtype=float),
+            placed[0] if q is None else floats("State.at: q", q),
+            placed[1] if u is None else floats("State.at: u", u),
             np.full(n, OPEN),
             np.tile([1.0, 0.0], (n, 1)),
             np.zeros(n),

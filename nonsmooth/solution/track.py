@@ -35,6 +35,10 @@ class Track:
     booked: Floats
     engine: Engine
 
+    def __repr__(self) -> str:
+        """Return of which times it is, and how much there is of it."""
+        return f"Track({len(self.time)} states, {self.time[0]:.9g} to {self.time[-1]:.9g} s; {self.y.shape[1]} numbers)"
+
     @classmethod
     def of(cls, rows: Floats, state: State, engine: Engine) -> Track:
         """Return the track of a run: its samples, each time, y and what is booked, and the state in which it ended."""

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.datasets import described
+from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING
 from nonsmooth.solution.events import Events
@@ -26,13 +28,20 @@ _ENERGIES = {
 }
 _ACCOUNTS = ("work of driven bodies", "loss to friction", "gross exchange", "work of loads")
 _ACCOUNT = {"units": "J", "long_name": "energies since the start", "account_names": ", ".join(_ACCOUNTS)}
-_INNER = {"units": "SI of each law", "long_name": "inner states of friction and traction laws, contact by contact"}
+_INNER = {"long_name": "inner states of friction and traction laws, contact by contact, in SI units of each law"}
 _BOOKED = {
     "units": "J",
     "long_name": "energies booked at instants since the start",
     "booked_names": ", ".join(_ENERGIES),
 }
-_MEMORY = {"units": "SI", "long_name": "slip direction (2), rate of closing, way of slip faced, features (3)"}
+_MEMORY = {"long_name": "what the contact goes on with, see of_memory_units"}
+_REMEMBERED = (
+    ("first part of the slip direction", "1"),
+    ("second part of the slip direction", "1"),
+    ("rate of closing", "m/s"),
+    ("way of slip that an oriented law faces", "1"),
+    *((f"feature {number}", "1") for number in range(CANDIDATE)),
+)
 _MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}
 _SHIFTS = {"mode_before": BEFORE, "mode_during": DURING, "mode_after": AFTER}
 
@@ -67,6 +76,15 @@ def of_system(system: System) -> list[Variable]:
     return [*found, _words("direction", "direction", directions, "direction at a contact")]
 
 
+def of_memory() -> list[Variable]:
+    """Return names and units of what a contact goes on with."""
+    names, units = zip(*_REMEMBERED, strict=True)
+    return [
+        _words("of_memory", "of_memory", names, "what a contact goes on with"),
+        _words("of_memory_units", "of_memory", units, "its unit"),
+    ]
+
+
 def _words(name: str, dimension: str, words: Sequence[str], what: str) -> Variable:
     return Variable(name, (dimension,), np.array(words, dtype=str), {"long_name": what})
 
@@ -81,8 +99,7 @@ def of_samples(t: Floats, q: Floats, u: Floats) -> list[Variable]:
 
 
 def _over(name: str, dimensions: tuple[str, str], values: Floats, what: str) -> Variable:
-    units = f"SI, see {dimensions[1]}_units"
-    return Variable(name, dimensions, values, {"units": units, "long_name": what})
+    return Variable(name, dimensions, values, described(f"{what}, see {dimensions[1]}_units"))
 
 
 def of_rest_of_samples(accounts: Floats, law_states: Floats, booked: Floats) -> list[Variable]:

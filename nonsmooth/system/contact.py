@@ -60,6 +60,11 @@ class Contact:
         """Return what messages call it."""
         return f"contact {self.name!r}"
 
+    def __repr__(self) -> str:
+        """Return its name, geometry and laws, in words."""
+        laws = ", ".join(type(law).__name__ for law in (self.normal, self.friction, self.impact) if law is not None)
+        return f"Contact({self.name!r}: {type(self.kinematics).__name__}; {laws})"
+
     @property
     def size(self) -> float:
         """The smaller of the extents [m]."""

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import final
 
+from nonsmooth.checks import check_kind
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import (
     CompliantNormalLaw,
@@ -67,6 +68,7 @@ class Materials:
     default: ContactLaws | None = None
 
     def __post_init__(self) -> None:
+        check_kind("Materials.pairs", self.pairs, Mapping, "Write {('steel', 'glass'): ContactLaws(...)}.")
         object.__setattr__(self, "pairs", dict(self.pairs))
         for pair, laws in self.pairs.items():
             if not (isinstance(pair, tuple) and len(pair) == 2 and all(isinstance(n, str) and n for n in pair)):

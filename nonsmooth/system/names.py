@@ -1,6 +1,6 @@
 """Names of bodies and of what is declared between them: chosen by the user, else made from what they are.
 
-Made names count from 1, where there are several of a kind: "ball 1", "ball 2", "plate", "plate - ball 2",
+Made names count from 1, where several of a kind have none chosen: "ball 1", "ball 2", "plate", "plate - ball 2",
 "plate - ball 2 (1)", "hinge base - arm".
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -50,19 +50,18 @@ def kind_word(component: object) -> str:
 def body_names(bodies: Sequence[object], chosen: Sequence[str]) -> tuple[str, ...]:
     """Return the names of bodies: the chosen ones, and made ones in place of those that are empty."""
     words = {kind: kind_word(body) for kind, body in {type(body): body for body in bodies}.items()}
-    kinds = [words[type(body)] for body in bodies]
-    totals, seen, taken = Counter(kinds), Counter[str](), set(chosen)
-    names = []
-    for kind, name in zip(kinds, chosen, strict=True):
-        seen[kind] += 1
-        numbers = itertools.count(seen[kind])
-        names.append(name or next(word for n in numbers if (word := _word(kind, n, totals[kind])) not in taken))
-        taken.add(names[-1])
-    return tuple(names)
+    kinds = ["" if name else words[type(body)] for body, name in zip(bodies, chosen, strict=True)]
+    totals, taken = Counter(kinds), {*chosen}
+    # a kind of which there is one has its bare word, unless somebody chose that
+    free = {
+        kind: (word for word in itertools.chain([kind] * (total == 1), _numbered(kind)) if word not in taken)
+        for kind, total in totals.items()
+    }
+    return tuple(name or next(free[kind]) for kind, name in zip(kinds, chosen, strict=True))
 
 
-def _word(kind: str, number: int, total: int) -> str:
-    return kind if number == total == 1 else f"{kind} {number}"
+def _numbered(kind: str) -> Iterator[str]:
+    return (f"{kind} {number}" for number in itertools.count(1))
 
 
 def between(first: str, second: str, what: str = "") -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nonsmooth.checks import check_kind
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     CompliantNormalLaw,
@@ -33,6 +34,7 @@ def with_laws(
     InvalidInput
         If the system has no contact, or a law is of the wrong kind.
     """
+    check_kind("with_laws: system", system, System, "Make it by nonsmooth.System([...]).")
     if not system.declarations:
         raise InvalidInput("with_laws", "needs a system with contacts", 0, "Declare some with system.contact(...).")
     made = system.without_contacts()

@@ -5,11 +5,12 @@ from __future__ import annotations
 import copy
 import itertools
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
 
+from nonsmooth.checks import check_kind, check_pair
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     Body,
@@ -54,9 +55,9 @@ class System:
     """
 
     def __init__(self, bodies: Sequence[Body], gravity: float = 9.81) -> None:
+        check_kind("System.bodies", bodies, Collection, "Write System([ball, plate]).")
         for body in bodies:
-            if not isinstance(body, Body):
-                raise InvalidInput("System.bodies", "must contain bodies only", body, "Give Body objects.")
+            check_kind("System.bodies: each", body, Body, "Give Body objects.")
         if len({id(body) for body in bodies}) != len(bodies) or not bodies:
             raise InvalidInput(
                 "System.bodies",
@@ -107,7 +108,7 @@ class System:
     def name(self, body: Body, name: str) -> None:
         """Choose the name of a body: words with single blanks, before anything is declared between bodies.
 
-        One without is called after its kind, with a number from 1 where there are several: "ball 2".
+        Those without are called after their kind, with numbers from 1 where they are several: "ball 2".
 
         Raises
         ------
@@ -228,6 +229,7 @@ class System:
     def _check_tie(self, where: str, first: Body, second: Body, frames: tuple[int, int]) -> None:
         self._require(first, where)
         self._require(second, where)
+        check_pair(f"{where}: frames", frames)
         if first is second:
             raise InvalidInput(where, "needs two different bodies", self.name_of(first), "Name the other body.")
         for body, frame in zip((first, second), frames, strict=True):
@@ -399,11 +401,17 @@ class System:
         UnknownName
             If a material is not in the table.
         """
+        check_kind("System.contact_all: materials", materials, Materials, "Make them by nonsmooth.Materials({...}).")
+        check_kind("System.contact_all: of", of or {}, Mapping, 'Write {"steel": [ball]}.')
+        check_kind("System.contact_all: bodies", () if bodies is None else bodies, Collection, "Write [ball, plate].")
         chosen = [body for body in self._bodies if any(body.frames)] if bodies is None else list(bodies)
         names = self._material_names(materials, of or {})
         out = {self._pair_of(tie.first, tie.second) for tie in self._joints}
         out |= {frozenset(body for body, _ in pair) for pair in self._paired}
+        check_kind("System.contact_all: exclude", exclude, Iterable, "Write [(one, other)].")
         apart = list(exclude)
+        for pair in apart:
+            check_pair("System.contact_all: exclude", pair)
         for one, other in apart:
             self._require(one, "System.contact_all: exclude")
             self._require(other, "System.contact_all: exclude")

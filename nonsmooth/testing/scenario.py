@@ -84,7 +84,9 @@ class _Look:
             folder, trouble = Path(name), None
             again = self._run(folder)
             try:
-                SolutionFolder.opened(Output(folder)).add_coordinates(self._scenario.coordinates(again))
+                SolutionFolder.opened(Output(folder)).add_coordinates(
+                    self._scenario.coordinates(again), self._scenario.unit_of
+                )
                 save_events(again, folder / "events.csv")
             except Exception as error:
                 trouble = error
@@ -162,6 +164,9 @@ class _Look:
 
     def coordinates(self) -> None:
         found = self._scenario.coordinates(self.solution)
+        without = [name for name in found if not self._scenario.unit_of(name)]
+        if without:
+            raise Broken("it must have the units of all coordinates", "coordinate_units", without)
         for name, values in found.items():
             if np.shape(values) != (len(self.solution.t),):
                 raise Broken(

@@ -42,6 +42,7 @@ class BallBox(Scenario):
     """
 
     title: ClassVar[str] = "Balls in a box"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"kinetic_energy": "J", "height": "m"}
     units: ClassVar[Mapping[str, str]] = {"settled_at": "s", "height": "m"}
 
     n_balls: float = parameter(10.0, doc="number of balls", minimum=1.0, maximum=300.0)

@@ -37,6 +37,7 @@ class BeadColumn(Scenario):
     """
 
     title: ClassVar[str] = "Column of beads on a wall"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"z": "m"}
     units: ClassVar[Mapping[str, str]] = {"restitution_loss": "J"}
 
     n_beads: float = parameter(10.0, doc="number of beads", minimum=1.0, maximum=100.0)

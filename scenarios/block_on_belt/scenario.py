@@ -42,6 +42,7 @@ class BlockOnBelt(Scenario):
     """
 
     title: ClassVar[str] = "Block on a belt"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"elongation": "m", "elongation_rate": "m/s"}
     units: ClassVar[Mapping[str, str]] = {
         "breakaway": "m",
         "period": "s",

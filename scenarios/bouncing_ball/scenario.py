@@ -48,6 +48,7 @@ class BouncingBall(Scenario):
     """
 
     title: ClassVar[str] = "Ball on a vibrating table"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"ball": "m", "table": "m"}
     units: ClassVar[Mapping[str, str]] = {"last_flight": "table periods", "first_rest": "s"}
 
     gamma: float = parameter(

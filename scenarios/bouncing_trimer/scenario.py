@@ -43,6 +43,14 @@ class BouncingTrimer(Scenario):
     """
 
     title: ClassVar[str] = "Bouncing trimer"
+    coordinate_units: ClassVar[Mapping[str, str]] = {
+        "x": "m",
+        "y": "m",
+        "z": "m",
+        "turning": "rad",
+        "tilt": "rad",
+        "gap": "m",
+    }
     units: ClassVar[Mapping[str, str]] = {
         "drift": "m/s",
         "wandering": "m/s",

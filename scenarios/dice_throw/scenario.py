@@ -38,6 +38,7 @@ class DiceThrow(Scenario):
     """
 
     title: ClassVar[str] = "Throw of dice"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m"}
     units: ClassVar[Mapping[str, str]] = {"last_event": "s"}
 
     number: float = parameter(3.0, doc="number of dice", minimum=1.0, maximum=20.0)

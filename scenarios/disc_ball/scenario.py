@@ -41,6 +41,9 @@ class DiscBall(Scenario):
     """
 
     title: ClassVar[str] = "Disc into two balls"
+    coordinate_units: ClassVar[Mapping[str, str]] = {
+        f"{axis}_{name}": "m" for axis in "xy" for name in ("disc", "left", "right")
+    }
 
     mass_ratio: float = parameter(1.0, doc="mass of the disc over that of a ball", above=0.0, usual=(1e-3, 1e3))
     radius_ratio: float = parameter(1.0, doc="radius of the disc over that of a ball", above=0.0, usual=(1e-2, 1e2))

@@ -46,6 +46,7 @@ class Dominoes(Scenario):
     """
 
     title: ClassVar[str] = "Dominoes"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"tilt": "rad"}
     units: ClassVar[Mapping[str, str]] = {
         "strikes": "s",
         "wave_speed": "m/s",

@@ -45,6 +45,7 @@ class DumbbellScenario(Scenario):
     """
 
     title: ClassVar[str] = "Dumbbell on a vibrating plate"
+    coordinate_units: ClassVar[Mapping[str, str]] = coordinates.UNITS
     units: ClassVar[Mapping[str, str]] = {
         "period": "plate periods",
         "drift_velocity": "m/s",

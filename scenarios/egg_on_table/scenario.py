@@ -41,6 +41,16 @@ class EggOnTable(Scenario):
     """
 
     title: ClassVar[str] = "Egg on a table"
+    coordinate_units: ClassVar[Mapping[str, str]] = {
+        "x": "m",
+        "y": "m",
+        "z": "m",
+        "tilt": "rad",
+        "spin": "rad/s",
+        "slip": "m/s",
+        "gap": "m",
+        "jellett": "kg m^3/s",
+    }
     units: ClassVar[Mapping[str, str]] = {"upright": "s", "tilt": "rad", "spin": "rad/s", "energy_lost": "J"}
 
     semi_long: float = parameter(0.03, doc="semi-axis of revolution a", unit="m", above=0.0, usual=(1e-3, 1.0))

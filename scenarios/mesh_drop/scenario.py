@@ -41,6 +41,7 @@ class MeshDrop(Scenario):
     """
 
     title: ClassVar[str] = "A part dropped on the ground"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m", "lowest": "m", "kinetic_energy": "J"}
     units: ClassVar[Mapping[str, str]] = {
         "extent": "m",
         "mass": "kg",

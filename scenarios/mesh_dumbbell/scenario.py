@@ -40,6 +40,7 @@ class MeshDumbbell(Scenario):
     """
 
     title: ClassVar[str] = "Dumbbell out of meshes"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m", "gap": "m"}
     units: ClassVar[Mapping[str, str]] = {"delays": "s", "distance_at_end": "m"}
 
     mode: str = parameter(

@@ -46,6 +46,7 @@ class NewtonsCradle(Scenario):
     """
 
     title: ClassVar[str] = "Newton's cradle"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m"}
 
     n_balls: float = parameter(5.0, doc="number of balls, strikers included", minimum=2.0, maximum=1000.0)
     n_strikers: float = parameter(1.0, doc="number of balls that strike", minimum=1.0, maximum=999.0)

@@ -38,6 +38,7 @@ class PolyhedronStack(Scenario):
     """
 
     title: ClassVar[str] = "Tower of prisms"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m"}
     units: ClassVar[Mapping[str, str]] = {"way": "m", "friction_loss": "J"}
 
     radius: float = parameter(0.03, doc="radius round the lowest prism", unit="m", above=0.0, usual=(1e-3, 10.0))

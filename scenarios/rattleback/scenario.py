@@ -44,6 +44,15 @@ class Rattleback(Scenario):
     """
 
     title: ClassVar[str] = "Rattleback"
+    coordinate_units: ClassVar[Mapping[str, str]] = {
+        "x": "m",
+        "y": "m",
+        "z": "m",
+        "pitch": "rad",
+        "roll": "rad",
+        "spin": "rad/s",
+        "energy": "J",
+    }
     units: ClassVar[Mapping[str, str]] = {
         "reversed": "s",
         "spin_start": "rad/s",

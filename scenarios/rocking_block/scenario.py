@@ -38,6 +38,7 @@ class RockingBlock(Scenario):
     """
 
     title: ClassVar[str] = "Rocking block"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "z": "m", "tilt": "rad"}
     units: ClassVar[Mapping[str, str]] = {"restitution_loss": "J", "friction_loss": "J"}
 
     base: float = parameter(1.0, doc="length L of the side that it stands on", unit="m", above=0.0, usual=(1e-3, 1e2))

@@ -35,6 +35,7 @@ class RockingBlock3D(Scenario):
     """
 
     title: ClassVar[str] = "Rocking block in space"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m", "lean_x": "1", "lean_y": "1"}
     units: ClassVar[Mapping[str, str]] = {"largest_lean": "rad", "restitution_loss": "J", "friction_loss": "J"}
 
     base: float = parameter(0.3, doc="side along x", unit="m", above=0.0, usual=(1e-3, 1e2))

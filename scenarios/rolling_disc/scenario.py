@@ -43,6 +43,7 @@ class RollingDisc(Scenario):
     """
 
     title: ClassVar[str] = "Euler's disk"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m", "tilt": "rad", "precession": "rad/s"}
     units: ClassVar[Mapping[str, str]] = {
         "time": "s",
         "tilt": "rad",

@@ -42,6 +42,7 @@ class SliderCrank(Scenario):
     """
 
     title: ClassVar[str] = "Slider-crank mechanism with clearance"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"theta": "rad", "height": "m"}
     units: ClassVar[Mapping[str, str]] = {"first_impact": "s", "crank_rate": "rad/s"}
 
     crank_length: float = parameter(0.153, doc="length l_1 of the crank", unit="m", above=0.0, usual=(1e-3, 10.0))

@@ -41,6 +41,13 @@ class SlidingRod(Scenario):
     """
 
     title: ClassVar[str] = "Painleve's sliding rod"
+    coordinate_units: ClassVar[Mapping[str, str]] = {
+        "x": "m",
+        "z": "m",
+        "phi": "rad",
+        "phi_rate": "rad/s",
+        "slip": "m/s",
+    }
     units: ClassVar[Mapping[str, str]] = {"impact_without_collision": "s", "jam": "s", "lift_off": "s"}
 
     friction: float = parameter(

@@ -45,6 +45,16 @@ class TippeTop(Scenario):
     """
 
     title: ClassVar[str] = "Tippe top"
+    coordinate_units: ClassVar[Mapping[str, str]] = {
+        "x": "m",
+        "y": "m",
+        "z": "m",
+        "tilt": "rad",
+        "spin_vertical": "rad/s",
+        "spin_axis": "rad/s",
+        "slip_body": "m/s",
+        "slip_stem": "m/s",
+    }
     units: ClassVar[Mapping[str, str]] = {
         "stem_down": "s",
         "body_up": "s",

@@ -42,6 +42,7 @@ class TwoLinkArm(Scenario):
     """
 
     title: ClassVar[str] = "Two-link arm on a moving belt"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"theta": "rad", "gap": "m"}
     units: ClassVar[Mapping[str, str]] = {"largest_gap": "m"}
 
     link_mass: float = parameter(1.0, doc="mass of a link", unit="kg", above=0.0, usual=(1e-3, 1e3))

@@ -47,6 +47,7 @@ class Woodpecker(Scenario):
     """
 
     title: ClassVar[str] = "Woodpecker toy"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"y": "m", "phi_m": "rad", "phi_s": "rad"}
     units: ClassVar[Mapping[str, str]] = {"cycle_duration": "s", "cycle_descent": "m"}
 
     pole_radius: float = parameter(2.5e-3, doc="radius r_O of the pole", unit="m", above=0.0, usual=(1e-4, 1.0))

@@ -39,5 +39,5 @@ def test_after_ctrl_c_no_figure_of_half_a_run(call: Call, tmp_path: Path, monkey
 def test_a_wrong_folder_is_found_first(call: Call, tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     status, output, errors = call("figures", "tiny", "--out", str(tmp_path / "file"))
-    assert (status, output) == (1, "")
-    assert errors.startswith(f"error: {tmp_path / 'file'} could not be written")
+    assert (status, output) == (2, "")
+    assert errors.startswith(f"error: {tmp_path / 'file'} must be a folder that can be written to")

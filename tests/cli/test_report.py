@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from nonsmooth.cli.report import as_json, as_text
+from nonsmooth.cli.report import _modes, as_json, as_text
 
 
 @pytest.mark.parametrize(
@@ -36,6 +36,24 @@ def test_values_come_out_as_plain_json(value: Any, expected: Any) -> None:
         raise AssertionError(f"{constant} is not JSON")
 
     assert json.loads(text, parse_constant=refuse) == {"value": expected}
+
+
+def test_words_of_many_contacts_tell_what_differs() -> None:
+    """Each line by its counts and by the contacts in which it is unlike the line above."""
+    n = 40
+    names = [f"contact {i}" for i in range(n)]
+
+    def word(*slipping: int) -> str:
+        closed, slip = n * "1", "".join(str(int(i in slipping)) for i in reversed(range(n)))
+        return f"{{{closed},{n * '0'},{slip}}}"
+
+    lines = _modes({word(): 0.5, word(3): 0.3, word(3, 5, 7, 9): 0.15, f"{{{','.join(3 * [n * '0'])}}}": 0.05}, names)
+    assert [" ".join(line.split()) for line in lines] == [
+        "40 closed 50.00%",
+        "40 closed, 1 slipping; unlike above contact 3 30.00%",
+        "40 closed, 4 slipping; unlike above contact 5, contact 7, 1 more 15.00%",
+        "all open; unlike above contact 0, contact 1, 38 more 5.00%",
+    ]
 
 
 def test_the_text_has_units_and_no_round_off() -> None:

@@ -73,7 +73,7 @@ def test_what_is_not_of_the_system_is_refused(bounces: ns.Solution, build: Any) 
     """Bodies, contacts, and a system that has changed since it ran."""
     with pytest.raises(ns.InvalidInput, match="needs a body of this system"):
         bounces.poses(Ball(0.01))
-    with pytest.raises(ns.InvalidInput, match="needs one of the 1 contacts"):
+    with pytest.raises(ns.InvalidInput, match="must be below 1"):
         bounces.contact_forces(0.1).history(1)
     one, other = Ball(0.01), Ball(0.02)
     system = ns.System([one, other])

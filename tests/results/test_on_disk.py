@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 import csv
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import nonsmooth as ns
+from nonsmooth.plugins import registry
 from nonsmooth.solution.events_table import save_events
 from tests.results.runs import balls
 from tests.runs.continued import differences
+
+_UNIT = r"(1|m|s|kg|rad|N|J)(\^\d)?"
+CF_UNIT = re.compile(rf"{_UNIT}( {_UNIT})*(/{_UNIT})?")
+"""Units of the udunits library, as far as arrays have them here."""
+
+
+@pytest.mark.parametrize("name", registry.names("scenarios"))
+def test_units_of_coordinates_can_be_read(name: str) -> None:
+    """The conformance kit looks whether all have one."""
+    units = registry.load("scenarios", name).coordinate_units
+    assert all(CF_UNIT.fullmatch(unit) for unit in units.values())
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +61,12 @@ def test_the_dataset_has_samples_events_labels_and_units(solution: ns.Solution, 
     assert saved["velocity_units"].values[:6].tolist() == 3 * ["m/s"] + 3 * ["rad/s"]
     for one in saved.variables.values():
         assert one.attrs["long_name"]
-        assert one.dtype.kind == "U" or one.attrs["units"]
+        # columns that have units of their own have these beside them; those of inner states only their law knows
+        along = f"{one.dims[-1]}_units" if one.dims else ""
+        known = one.dtype.kind == "U" or CF_UNIT.fullmatch(one.attrs.get("units", "")) or along in saved.variables
+        assert known or one.dims[-1] == "of_law_state", one
+    for along in ("coordinate_units", "velocity_units", "of_memory_units"):
+        assert all(CF_UNIT.fullmatch(unit) for unit in saved[along].values)
     for name in ("status", "message", "t_end"):
         assert saved.attrs[name] == getattr(solution, name)
     assert saved.attrs["restitution_loss"] == solution.energy.restitution_loss

@@ -57,7 +57,7 @@ def test_an_engine_refuses_what_it_cannot_run() -> None:
 @pytest.mark.parametrize("given", ["event_driven", ns.EventDriven])
 def test_what_is_no_engine_is_refused(given: Any) -> None:
     """A name, and a class without its options."""
-    with pytest.raises(ns.InvalidInput, match=r"engine must be an Engine, but it is .*Give nonsmooth\.EventDriven"):
+    with pytest.raises(ns.InvalidInput, match=r"must be of the kind Engine, .*Give nonsmooth\.EventDriven"):
         ns.assemble(_tumbling()[0], given)
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from nonsmooth.errors import InvalidInput
 from nonsmooth.solution import files
 
 
@@ -35,7 +36,7 @@ def test_prepare_makes_the_folder_and_leaves_nothing_in_it(tmp_path: Path) -> No
 
 def test_prepare_refuses_what_is_no_folder(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    with pytest.raises(files.FileError, match="could not be written"):
+    with pytest.raises(InvalidInput, match="must be a folder that can be written to"):
         files.prepare(tmp_path / "file" / "results")
-    with pytest.raises(files.FileError, match=r"file could not be written: It is a file\. Name a folder"):
+    with pytest.raises(InvalidInput, match=r"file must be a folder .* 'It is a file'\. Name a folder"):
         files.prepare(tmp_path / "file")

@@ -29,6 +29,10 @@ def test_what_is_printed_is_short(build: Any) -> None:
         (solution.energies([]), "Energies(no times; start "),
         (solution.joint_forces(), "JointForces(2001 times, 0 to 0.5 s; 0 joints)"),
         (solution.contact_forces(0.5), "ContactForces(t = 0.5 s; 1 contacts, 1 entries)"),
+        (solution.track, "Track(2002 states, 0 to 0.5 s; "),
+        (solution.recorded, "Recorded(2001 samples, "),
+        (solution.transition_graph(), "TransitionGraph("),
+        (system.contacts[0], "Contact('plate - ball': PlaneSphere; Unilateral, Coulomb, EnergeticImpact)"),
         (solution.contact_forces().history(0), "ContactHistory(2001 times, 0 to 0.5 s; largest normal force "),
     ):
         assert repr(thing).startswith(said)

@@ -30,11 +30,29 @@ def _system() -> ns.System:
 def test_all_parts_have_names_of_their_own() -> None:
     """Those that are made keep out of the way of the chosen ones."""
     names = _system().names
-    assert names.bodies == ("plate", "ball 2", "ball 3", "ball 4")
+    assert names.bodies == ("plate", "ball 2", "ball 1", "ball 3")
     assert names.contacts[0] == "plate - ball 2"
     assert names.loads == ("spring plate - ball 2", "spring plate - ball 2 (2)")
     assert names.joints == ("weld",)
     assert len(set(names.contacts)) == 6
+
+
+@pytest.mark.parametrize(
+    ("number", "chosen", "names"),
+    [
+        (0, "floor", ("floor", "ball 1", "ball 2")),
+        (1, "red", ("plate", "red", "ball")),
+        (2, "ball 1", ("plate", "ball", "ball 1")),
+        (1, "ball", ("plate", "ball", "ball 1")),
+        (1, "plate", ("plate 1", "plate", "ball")),
+        (1, "plate 1", ("plate", "plate 1", "ball")),
+    ],
+)
+def test_made_names_count_what_has_none_chosen(number: int, chosen: str, names: tuple[str, ...]) -> None:
+    """They yield to a chosen one only where it is theirs."""
+    system = ns.System([Plate(), Ball(0.1), Ball(0.1)])
+    system.name(system.bodies[number], chosen)
+    assert system.names.bodies == names
 
 
 def test_several_contacts_of_two_bodies_are_numbered_from_1_through_all_calls() -> None:

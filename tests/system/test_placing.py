@@ -187,7 +187,7 @@ def test_what_is_refused(build: Any) -> None:
     _refused(("System.start", "body of this system"), ns.touching, system, Ball(0.02))
     _refused(("placing: direction", "three finite"), ns.touching, system, ball, direction=(0.0, 0.0, 0.0))
     _refused(("placing: direction", "three finite"), ns.touching, system, ball, direction=(0.0, 1.0))
-    _refused(("at_height: height", "must not be negative", "-0.1"), ns.at_height, system, ball, -0.1)
+    _refused(("at_height: height", "must be finite and not negative", "-0.1"), ns.at_height, system, ball, -0.1)
     _refused(("resting 'ball'", "velocities"), ns.resting, system, ball, velocity=(1.0, 0.0, 0.0))
     _refused(("velocity of Ball", "3 finite numbers"), ns.touching, system, ball, velocity=1.0)
     np.testing.assert_array_equal(system.start(ball)[0][:3], [0.0, 0.0, 0.7])

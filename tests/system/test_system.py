@@ -29,7 +29,7 @@ def test_bodies_must_be_bodies(build: Any) -> None:
     ball: Any = Ball(0.01)
     _raises(("System.bodies", "at least one body"), lambda: ns.System([]))
     _raises(("System.bodies", "each once", "Make a new object"), lambda: ns.System([ball, ball]))
-    _raises(("System.bodies", "bodies only", "'ball'"), lambda: ns.System([ball, "ball"]))  # type: ignore[list-item]
+    _raises(("System.bodies: each", "of the kind Body", "'ball'"), lambda: ns.System([ball, "ball"]))  # type: ignore[list-item]
     assert len(ns.System([ball, Ball(0.01)]).bodies) == 2
 
 

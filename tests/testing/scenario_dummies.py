@@ -29,6 +29,7 @@ class Bounce(Scenario):
     """A ball that bounces, with a fault of the name given."""
 
     title: ClassVar[str] = "A ball that bounces"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"height": "m"}
 
     fault: str = parameter("", doc="what is wrong", unit="")
     height: float = parameter(0.02, doc="where it starts", unit="m", above=0.01, maximum=1.0)

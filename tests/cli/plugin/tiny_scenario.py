@@ -24,6 +24,7 @@ class Tiny(Scenario):
     """A ball on a vibrating plate."""
 
     title: ClassVar[str] = "A ball on a vibrating plate"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"height": "m"}
 
     t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0)
     radius: float = parameter(5e-3, doc="radius of the ball", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)

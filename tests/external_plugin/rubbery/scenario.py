@@ -25,6 +25,7 @@ class HollowBallOnSlope(Scenario):
     """It rolls with 3/5 g sin(slope) as long as 2/5 tan(slope) is below the coefficient at rest."""
 
     title: ClassVar[str] = "Hollow ball on a slope"
+    coordinate_units: ClassVar[Mapping[str, str]] = {"speed": "m/s"}
 
     slope: float = parameter(0.3, doc="angle of the slope", unit="rad", above=0.0, maximum=1.5)
     friction: float = parameter(0.2, doc="coefficient at any speed", above=0.0, law="friction")

@@ -1,0 +1,55 @@
+"""What is asked of every input at a public door: its kind, and that numbers are numbers."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.errors import InvalidInput
+
+
+def check_kind(thing: str, value: object, kind: type, remedy: str) -> None:
+    """Raise InvalidInput, naming ``thing``, unless the value is of a kind."""
+    if not isinstance(value, kind):
+        raise InvalidInput(thing, f"must be of the kind {kind.__name__}", value, remedy)
+
+
+def check_pair(thing: str, value: object) -> None:
+    """Raise InvalidInput unless the value is a tuple or list of two."""
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        raise InvalidInput(thing, "must be a pair", value, "Write (one, other).")
+
+
+def check_callable(thing: str, value: object, call: str) -> None:
+    """Raise InvalidInput unless the value is left out, None, or can be called; ``call`` shows how it is."""
+    if value is not None and not callable(value):
+        raise InvalidInput(thing, f"must be a function, called as {call}", value, "Leave it out, or give a function.")
+
+
+def is_finite(value: Any) -> bool:
+    """Tell whether something is a finite number, of Python or numpy."""
+    try:
+        return math.isfinite(value)
+    except (TypeError, OverflowError):
+        return False
+
+
+def floats(thing: str, value: Any) -> NDArray[np.float64]:
+    """Return an array of numbers of its own; InvalidInput if they are none."""
+    try:
+        return np.array(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(
+            thing, "must be an array of numbers", value, "See its shape and units in the help."
+        ) from error
+
+
+def path_of(thing: str, value: object) -> Path:
+    """Return the path that is given as one or as a text; InvalidInput if it is neither, or a text without a letter."""
+    if not isinstance(value, (str, Path)) or not str(value).strip():
+        raise InvalidInput(thing, "must be a path", value, 'For example "results".')
+    return Path(value)
