@@ -49,8 +49,8 @@ class Image:
 
     @functools.cached_property
     def record(self) -> np.void:
-        """The scalars."""
-        return cast(np.void, self.parts[0].view(SCALARS)[0])
+        """The scalars, but for those that an engine has of its own."""
+        return cast(np.void, self.parts[0][: len(SCALARS)].view(SCALARS)[0])
 
     @functools.cached_property
     def size(self) -> int:
