@@ -245,8 +245,7 @@ class Solution:
 
     def mode_words(self, times: NDArray[np.float64]) -> list[str]:
         """Return the mode word that holds just after each of the times [s]."""
-        index = np.clip(np.searchsorted(self.events.time, times, side="right") - 1, 0, None)
-        return words(self.events.after[index])
+        return words(self.events.codes_after(np.searchsorted(self.events.time, times, side="right") - 1))
 
     def at(self, times: ArrayLike | None = None) -> States:
         """Return the states at times: coordinates, velocities, modes, inner states of laws.
