@@ -106,7 +106,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "sample_capacity": _SAMPLE_ROWS,
     }
     free = [name for name in COUNTS if name not in counts]
-    counts = dict.fromkeys(COUNTS, 0) | counts | counts_of(engine, units.n_slots, free)
+    counts = dict.fromkeys(COUNTS, 0) | counts | {**counts_of(engine, units.n_slots, free)}
     settings = settings_of(engine, system.time_scale)
     memory = allocate(counts, layers_of(engine), laid_own(engine, counts))
     heap = Heap(memory)

@@ -13,6 +13,7 @@ from nonsmooth.engine.memory.tables import (
     COUNTS,
     FLOAT_ARRAYS,
     INTEGER_ARRAYS,
+    N_SCALARS,
     SCALARS,
     places,
 )
@@ -38,7 +39,7 @@ def digest(model: LaidOut, blank: Image, engine: Engine) -> str:
     """
     scalars, floats, blocks, integers = blank.parts
     scalars, blocks, integers = scalars.copy(), blocks.copy(), integers.copy()
-    memory, record = model.memory, scalars[: len(SCALARS)].view(SCALARS)
+    memory, record = model.memory, scalars[:N_SCALARS].view(SCALARS)
     # functions stand elsewhere in every process, and so do the tables of copies
     record["impact_map"] = record["impact_map"] != 0
     for name in _FUNCTIONS:
@@ -66,7 +67,7 @@ def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
     these are left as this process has them.  Last comes, of every place in the blocks, whether it may be other than a
     parameter, which is the same in all processes.
     """
-    record = blank.parts[0][: len(SCALARS)].copy().view(SCALARS)
+    record = blank.parts[0][:N_SCALARS].copy().view(SCALARS)
     ranges, numerics = (
         [np.arange(_size(record, name)) + int(record[name][0]) for name in names] for names in (_STANDING, _NUMERICS)
     )

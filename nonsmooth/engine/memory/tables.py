@@ -52,6 +52,8 @@ FLOAT_ARRAYS = floats_of(ARRAYS_OF.values())
 INTEGER_ARRAYS = integers_of(ARRAYS_OF.values())
 SCALARS = np.dtype(_fields(*ARRAYS_OF.values()), align=True)
 """The record ``S``."""
+N_SCALARS = len(SCALARS.names or ())
+"""How many fields it has."""
 
 
 def record_with(own: Arrays) -> np.dtype[np.void]:

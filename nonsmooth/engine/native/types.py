@@ -28,7 +28,7 @@ from numba.extending import (
     type_callable,
 )
 
-from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, SCALARS
+from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, N_SCALARS, SCALARS
 
 
 class Heap(types.Type):  # type: ignore[misc]
@@ -48,7 +48,7 @@ class Table(types.Type):  # type: ignore[misc]
     def __init__(self, record: np.dtype[np.void]) -> None:
         self.record = record
         self.names = record.names or ()
-        super().__init__(name=f"Scalars({', '.join(self.names[len(SCALARS) :])})")
+        super().__init__(name=f"Scalars({', '.join(self.names[N_SCALARS:])})")
 
     def can_convert_to(self, context: Any, other: Any) -> Any:
         """Let functions of all engines take an engine's own."""
