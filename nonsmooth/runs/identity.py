@@ -22,6 +22,7 @@ from nonsmooth.model.given import parameter_places
 from nonsmooth.model.image import Booleans, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import by_kind
+from nonsmooth.parameters import rules
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "entry_points")
 _CHANGING = {"facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent", *CATALOGUE}
@@ -50,7 +51,7 @@ def digest(model: LaidOut, blank: Image, engine: Engine) -> str:
     integers[start : start + width * declared].reshape(declared, width)[:, _COLUMNS] = 0
     for place, _, _ in memory.references:
         blocks[place - memory.blocks] = 0
-    found = hashlib.blake2b(_LAYOUT + _kinds(model) + repr(engine).encode())
+    found = hashlib.blake2b(_LAYOUT + _kinds(model) + _said(engine))
     for part in (scalars, floats, blocks, integers):
         # most of them are zero
         filled = np.flatnonzero(part)
@@ -84,6 +85,10 @@ def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
 
 def _size(record: np.ndarray, name: str) -> int:
     return int((FLOAT_ARRAYS | INTEGER_ARRAYS)[name]({count: int(record[count][0]) for count in COUNTS}))
+
+
+def _said(engine: Engine) -> bytes:
+    return repr((type(engine).__qualname__, {name: getattr(engine, name) for name in rules(type(engine))})).encode()
 
 
 def _kinds(model: LaidOut) -> bytes:

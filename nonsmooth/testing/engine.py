@@ -14,7 +14,7 @@ from nonsmooth.simulate import assemble
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.property import Broken, Property, properties
+from nonsmooth.testing.property import Broken, NotChecked, Property, properties
 from nonsmooth.testing.puck import Puck, over_slab
 from nonsmooth.testing.reference import Constant, Rigid, Spring
 
@@ -29,6 +29,7 @@ def check_engine(engine: Engine) -> list[Property]:
     """Return the properties of an engine; it is looked at with a free body, and with one that falls on a slab."""
     look = _Look(engine)
     rows = [
+        ("names", "`layers`, `own`, `counts` and `settings` name what the memory has, and is to have", look.names),
         ("free fall", "a free body moves as gravity has it", look.falls),
         ("samples", "the samples are at the times asked for, from the start to the end", look.samples),
         ("energy", "the account of energy closes", look.energy),
@@ -44,15 +45,26 @@ class _Look:
         self._engine = engine
 
     @cached_property
-    def _model(self) -> Model:
+    def _system(self) -> System:
         puck = Puck()
         system = System([puck], _GRAVITY)
         system.set_start(puck, np.zeros(3), _START)
-        return assemble(system, self._engine)
+        return system
+
+    @cached_property
+    def _model(self) -> Model:
+        try:
+            return assemble(self._system, self._engine)
+        except InvalidInput as error:
+            raise NotChecked(f"nothing can be laid out: {error}") from error
 
     @cached_property
     def _solution(self) -> Solution:
         return self._model.run(_END, sample_interval=_END / _SAMPLES)
+
+    def names(self) -> None:
+        """Lay out a system, which refuses others."""
+        assemble(self._system, self._engine)
 
     def falls(self) -> None:
         """Compare with the parabola."""
@@ -87,6 +99,7 @@ class _Look:
             if type(self._engine).__name__ not in str(refused):
                 raise Broken("the refusal must name the engine", "check", str(refused)) from None
             return
+        _ = self._model
         lowest = float(assemble(system, self._engine).run(_END, sample_interval=_END / _SAMPLES).q[:, 2].min())
         if not lowest >= -_THROUGH * height:
             raise Broken(f"it must stay over the slab, but for {_THROUGH:g} of the way it fell", "gap", lowest)
