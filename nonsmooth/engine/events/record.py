@@ -158,9 +158,8 @@ def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
     record_event(S, w, k, k[codes + CAUSE], S.last_contact, k[codes + PHASES])
 
 
-@entry_point("i8(S, F, I)")
-def begin_sample(S: Scalars, w: Floats, k: Integers) -> int:
-    """Append a sample of the time ``next_sample``, and set the next; return where in ``w`` its state is to be put."""
+@kernel("i8(S, F)")
+def _begin_sample(S: Scalars, w: Floats) -> int:
     row = S.samples + S.n_samples * (1 + S.n_y + BOOKED)
     w[row] = S.next_sample
     _write_booked(S, w, row + 1 + S.n_y)
@@ -170,9 +169,15 @@ def begin_sample(S: Scalars, w: Floats, k: Integers) -> int:
     return int(row + 1)
 
 
+@entry_point("i8(S, F, I)")
+def begin_sample(S: Scalars, w: Floats, k: Integers) -> int:
+    """Append a sample of the time ``next_sample``, and set the next; return where in ``w`` its state is to be put."""
+    return int(_begin_sample(S, w))
+
+
 @kernel("void(S, F, I, f8)")
 def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
     while S.next_sample <= S.t + h and S.n_samples < S.sample_capacity:
         theta = (S.next_sample - S.t) / S.h
-        dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), begin_sample(S, w, k))
+        dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), _begin_sample(S, w))

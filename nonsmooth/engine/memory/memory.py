@@ -14,7 +14,7 @@ from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.arrays.arrays import Arrays
 from nonsmooth.engine.memory.blocks import GEOMETRY, GUARD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.layout import N_STAGES
-from nonsmooth.engine.memory.tables import ARRAYS_OF, floats_of, integers_of, record_with
+from nonsmooth.engine.memory.tables import ARRAYS_OF, FLOAT_ARRAYS, INTEGER_ARRAYS, floats_of, integers_of, record_with
 from nonsmooth.parameters import Table
 
 NOTHING = Arrays()
@@ -133,8 +133,10 @@ class Memory:
 
     @functools.cached_property
     def _places(self) -> dict[str, tuple[np.ndarray, int]]:
-        layers = *ARRAYS_OF.values(), self.own
-        heaps = (self.floats, floats_of(layers)), (self.integers, integers_of(layers))
+        heaps = (
+            (self.floats, FLOAT_ARRAYS | floats_of([self.own])),
+            (self.integers, INTEGER_ARRAYS | integers_of([self.own])),
+        )
         return {name: (heap, int(self.scalars[name][0])) for heap, names in heaps for name in names}
 
     @functools.cached_property

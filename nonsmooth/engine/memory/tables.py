@@ -58,7 +58,8 @@ N_SCALARS = len(SCALARS.names or ())
 
 def record_with(own: Arrays) -> np.dtype[np.void]:
     """Return the record ``S`` of an engine that has scalars and arrays of its own, which stand at its end."""
-    return np.dtype(_fields(*ARRAYS_OF.values()) + _fields(own), align=True)
+    fields = _fields(own)
+    return np.dtype([*SCALARS.descr, *fields], align=True) if fields else SCALARS
 
 
 def places(*names: str) -> NDArray[np.int64]:
