@@ -12,19 +12,20 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.engine.native.kernel import at, block_at, call_support, unshared
+from nonsmooth.engine.native import kernel
+from nonsmooth.engine.native.kernel import unshared
 
 _MODULES = (math, np)
-_OWN = (at, block_at, call_support)
+_ENGINE = "nonsmooth.engine."
 
 
 def fingerprint(function: Callable[..., Any], context: str) -> str:
     """Return a digest of a function's bytecode, of the constants and of the functions that it names, and of a context.
 
     The digest is of what runs, not of files, which may be newer.  It covers numbers, strings, tuples of them, classes
-    of named tuples, functions at module level, and :mod:`math` and :mod:`numpy` with what is in them; where a function
-    names anything else there is none.  Nor is there one for a closure: a program may make any number of them, and what
-    is kept on disk would grow with it.
+    of named tuples, functions at module level, those of the engine, and :mod:`math` and :mod:`numpy` with what is in
+    them; where a function names anything else there is none.  Nor is there one for a closure: a program may make any
+    number of them, and what is kept on disk would grow with it.
 
     Parameters
     ----------
@@ -51,12 +52,9 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
         parts.append(repr((one.__module__, one.__qualname__, *_shape(one.__code__), constants)))
         for name, value in sorted(inspect.getclosurevars(one).globals.items()):
             named = unshared(value)
-            if any(value is own for own in _OWN):
-                # the engine's, whose sources are part of where code is kept
-                parts.append(f"{name} = {value.__name__}")
-            elif _is_constant(value) or any(value is module for module in _MODULES):
+            if _is_constant(value) or any(value is module for module in _MODULES):
                 parts.append(f"{name} = {value!r}")
-            elif theirs := _place_in_modules(value) or _fields(value):
+            elif theirs := _place_in_modules(value) or _place_in_engine(value) or _fields(value):
                 parts.append(f"{name} = {theirs}")
             elif inspect.isfunction(named):
                 reached += [] if named in reached else [named]
@@ -64,6 +62,14 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
             else:
                 return ""
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]
+
+
+def _place_in_engine(value: Any) -> str:
+    """Return which function of the engine a value is, whose sources are part of where code is kept; or nothing."""
+    if found := next((name for name in kernel.__all__ if vars(kernel)[name] is value), ""):
+        return f"{kernel.__name__}:{found}"
+    module, name = (str(getattr(value, attribute, "<none>")) for attribute in ("__module__", "__qualname__"))
+    return f"{module}:{name}" if module.startswith(_ENGINE) and "<" not in name else ""
 
 
 def _shape(code: CodeType) -> tuple[Any, ...]:

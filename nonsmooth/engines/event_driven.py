@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
@@ -56,7 +55,7 @@ class EventDriven(Engine):
         return {"n_pivoted": pivoted_contacts(solver_number(self.solver), n_slots)}
 
     def settings(self, time_scale: float) -> Mapping[str, float]:
-        """Return tolerances, first steps, and times at which nothing has happened yet."""
+        """Return tolerances and first steps."""
         step = min(self.largest_step, time_scale / self.steps_per_period)
         return {
             "solver": solver_number(self.solver),
@@ -70,11 +69,6 @@ class EventDriven(Engine):
             "h_max": step,
             "h_free": step,
             "h_closed": step,
-            "h_sampled": math.inf,
-            "h_valid": math.inf,
-            "chosen_t": -math.inf,
-            "feature_t": -math.inf,
-            "driven_t": -math.inf,
         }
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:

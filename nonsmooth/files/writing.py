@@ -60,7 +60,7 @@ def save_system(
         part.write_text(form.write(tables), encoding="utf-8")
 
 
-def text_of_system(system: System, *, t_end: float, engine: Engine, title: str) -> str:
+def text_of_system(system: System, *, t_end: float, engine: Engine | None, title: str) -> str:
     """Return the TOML text of a system, as :func:`save_system` writes it.
 
     Raises

@@ -81,13 +81,13 @@ class ContactForces:
         """Return the contact forces of a run (:meth:`nonsmooth.Solution.contact_forces`)."""
         given = read_times("Solution.contact_forces", solution, times)
         row, known = np.atleast_1d(given), visitor(solution)
-        closed = _Closed(known.laid)
+        closed, at = _Closed(known.laid), known.closed(row)
         found: list[tuple[Integers, Floats]] = len(row) * [closed.none]
 
         def keep(i: int) -> None:
-            found[i] = closed.look()
+            found[at[i]] = closed.look()
 
-        known.visit(row, keep)
+        known.visit(row[at], keep)
         first = np.concatenate([[0], np.cumsum([len(numbers) for numbers, _ in found], dtype=np.int64)])
         integers, floats = (np.concatenate([closed.none[i], *(part[i] for part in found)]) for i in range(2))
         gap, points, normal, force, friction, moment, slip = np.split(floats, [1, 7, 10, 11, 14, 17], axis=1)

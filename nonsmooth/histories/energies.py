@@ -10,9 +10,11 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.datasets import Told, dataset
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
+from nonsmooth.model.laid_out import energies
 
 if TYPE_CHECKING:
     import xarray
@@ -93,16 +95,17 @@ class Energies:
         laid = known.laid
         y, scalars = laid.memory.array("y", laid.n_y), laid.memory.scalars
         first = laid.n_q + laid.n_u
-        table = np.zeros((7, len(row)))
+        table, tails = np.zeros((7, len(row))), laid.memory.array("body_tail", len(laid.system.bodies))
 
         def keep(i: int) -> None:
             record = scalars[0]
             driven, rubbed, _, loads = y[first : first + N_ACCOUNTS]
-            table[:2, i] = record["kinetic_before"], record["potential_before"]
+            call_entry("evaluate_free_bodies", laid.memory, float(record["t"]), int(record["y"]))
+            table[:2, i] = energies(laid.system.bodies, tails, laid.memory.floats)
             table[2:4, i] = record["driven_work"] + driven, loads
             table[4:, i] = record["restitution_loss"], record["friction_loss"] + rubbed, record["closing_loss"]
 
-        known.visit(row, keep)
+        known.visit(row, keep, forces=False)
         kinetic, potential, driven, loads, restitution, friction, closing = table
         start = solution.energy.kinetic_start + solution.energy.potential_start
         found = cls(row, kinetic, potential, driven, loads, restitution, friction, closing, start)

@@ -67,15 +67,8 @@ class Visitor:
         Raises
         ------
         InvalidInput
-            If the system is no longer the one that ran, or the engine has no flow between events.
+            If the system is no longer the one that ran.
         """
-        if not {"delassus", "contact", "flow"} <= set(self._engine.layers):
-            raise InvalidInput(
-                "Solution",
-                "is known between its samples only where the engine integrates between events",
-                self._engine,
-                "Take times of samples, or run with nonsmooth.EventDriven().",
-            )
         laid = lay(self._system, self._engine)
         found, ran = (laid.n_y, len(self._system.contacts)), (self._y.shape[1], self._events.n_contacts)
         if found != ran:
@@ -85,10 +78,13 @@ class Visitor:
 
     def modes(self, times: Floats) -> Integers:
         """Return the modes of all contacts, shape [n, n_contacts]."""
-        event = self._event[self._row(times)]
-        if len(self._events) == 0:
-            return np.full((len(times), self._events.n_contacts), OPEN)
-        return np.asarray(_MODES[self._events.after[event]])
+        return np.asarray(_MODES[self._events.codes_after(self._event[self._row(times)])])
+
+    def closed(self, times: Floats) -> Integers:
+        """Return the numbers of the times at which a contact is closed."""
+        events = self._events
+        closing = np.repeat(np.arange(len(events)), np.diff(events.first))[_MODES[events.codes >> 6 & 7] != OPEN]
+        return np.flatnonzero(np.isin(self._event[self._row(times)], closing))
 
     def states(self, times: Floats) -> Floats:
         """Return all that is integrated, shape [n, n_y]."""
@@ -107,14 +103,24 @@ class Visitor:
     def visit(self, times: Floats, look: Callable[[int], None], *, forces: bool = True) -> None:
         """Call ``look(i)`` while the model stands at ``times[i]``, in the order of time.
 
-        With ``forces`` bodies, closed contacts, joints and energies are evaluated there.
+        With ``forces`` bodies, closed contacts and joints are evaluated there.
 
         Raises
         ------
+        InvalidInput
+            If the engine cannot solve for forces, or be followed to a time between stored states.
         RunFailed
             If what was computed of a run leads nowhere.
         """
-        rows, here, scalars = self._row(times), -1, self.laid.memory.scalars
+        rows, here = self._row(times), -1
+        if len(times) == 0:
+            return
+        between = bool(np.any(self._time[rows] < times))
+        if not (between or forces):
+            self._visit_stored(rows, look)
+            return
+        self._check_solves("between its samples" if between else "with its forces")
+        scalars = self.laid.memory.scalars
         # an earlier visit may have been interrupted
         scalars["stopped"], scalars["failed"] = 0, RUNNING
         with self._alone, self.laid.watch as watch:
@@ -128,6 +134,24 @@ class Visitor:
                 if forces:
                     watch.call("evaluate_forces", 0)
                 look(i)
+
+    def _visit_stored(self, rows: Integers, look: Callable[[int], None]) -> None:
+        with self._alone:
+            # the modes that an earlier visit left are not those of these states
+            self._put_event = -2
+            for i, row in enumerate(rows.tolist()):
+                self._put_state(row)
+                look(i)
+
+    def _check_solves(self, what: str) -> None:
+        if not {"delassus", "contact", "flow"} <= set(self._engine.layers):
+            raise InvalidInput(
+                "Solution",
+                f"is known {what} only where the engine has the layers delassus, contact and flow, which solve for it",
+                self._engine,
+                "States, poses and energies are known at the times of samples and events; for more, run with "
+                "nonsmooth.EventDriven().",
+            )
 
     def _row(self, times: Floats) -> Integers:
         return np.searchsorted(self._time, times, side="right") - 1

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from nonsmooth.parameters import Component
 
 if TYPE_CHECKING:
+    from nonsmooth.engine.memory.arrays.arrays import Arrays
     from nonsmooth.engine.memory.memory import Memory
     from nonsmooth.system.system import System
 
@@ -22,11 +23,15 @@ class Engine(Component, ABC):
 
     1. ``check`` refuses a system that this engine cannot run, before anything is laid out.
     2. ``layers`` are those of :mod:`nonsmooth.engine` whose arrays it works with; arrays of the bodies and of what is
-       recorded there always are, all others have no length.
+       recorded there always are, all others have no length.  ``own`` are scalars and arrays of its own.
     3. ``counts`` gives the lengths that its options decide, ``settings`` the scalars of the record ``S``.
-    4. ``advance`` goes on, from wherever the memory stands, with compiled entry points or otherwise.  All that it needs
-       to go on later, in another process too, it leaves in the memory.
-    5. Where time stops passing it returns ``STALLED`` and leaves in the memory the state at that instant, and in
+    4. ``advance`` goes on, from wherever the memory stands, with steps of its own (:func:`nonsmooth.steps.step`) and
+       with entry points of :mod:`nonsmooth.engine`.  All that it needs to go on later, in another process too, it
+       leaves in the memory, outside of what comes later in the tables of arrays.
+    5. Samples are due up to the time ``S.t``, the first at ``S.next_sample``: ``begin_sample`` appends one and returns
+       where its state belongs.  An event is appended by ``remember`` before velocities change, and ``record_event``
+       after that.  A run is called again with empty buffers where they are half full and it has paused.
+    6. Where time stops passing it returns ``STALLED`` and leaves in the memory the state at that instant, and in
        ``crowd_events`` which contacts hold it up.  That does not yet end the run: an engine that is put together of two
        may let the other one go on from there.
     """
@@ -35,6 +40,11 @@ class Engine(Component, ABC):
     @abstractmethod
     def layers(self) -> tuple[str, ...]:
         """Names of the layers of :mod:`nonsmooth.engine` whose arrays it works with."""
+
+    @property
+    def own(self) -> Arrays | None:
+        """Scalars and arrays of its own."""
+        return None
 
     @abstractmethod
     def check(self, system: System) -> None:
@@ -48,7 +58,7 @@ class Engine(Component, ABC):
 
     @abstractmethod
     def counts(self, n_slots: int) -> Mapping[str, int]:
-        """Return the counts of :data:`nonsmooth.engine.memory.tables.COUNTS` that it decides; others are 0.
+        """Return the counts of :data:`nonsmooth.engine.memory.tables.COUNTS` that no system decides; others are 0.
 
         Parameters
         ----------
@@ -73,8 +83,8 @@ class Engine(Component, ABC):
         Parameters
         ----------
         call : callable
-            ``call(name, *numbers)`` calls a compiled entry point on the memory, watched: with progress, and with Ctrl-C
-            where nothing is lost.
+            ``call(name, *numbers)`` calls an entry point, or a step of its own, on the memory, watched: with progress,
+            and with Ctrl-C where nothing is lost.
         memory : Memory
             The memory.
         most_steps : int
@@ -85,6 +95,6 @@ class Engine(Component, ABC):
         Returns
         -------
         int
-            ``DONE`` at the end time, ``PAUSED`` to be called again, ``STOPPED`` where a guard ends the run, or a
-            failure of :data:`nonsmooth.engine.memory.modes.REASONS`.
+            ``DONE`` at the end time, to which ``S.t`` is set, ``PAUSED`` to be called again, ``STOPPED`` where a guard
+            ends the run, or a failure of :data:`nonsmooth.engine.memory.modes.REASONS`.
         """

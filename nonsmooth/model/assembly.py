@@ -13,6 +13,7 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.contact_table import ContactTable
+from nonsmooth.model.engine_parts import counts_of, laid_own, layers_of, settings_of
 from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
@@ -67,7 +68,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     Raises
     ------
     InvalidInput
-        If the engine cannot run it, or a guard has no value where it was placed.
+        If the engine cannot run it or names what there is not, or a guard has no value where it was placed.
     """
     engine.check(system)
     check_guards(system, 0.0, *system.starts())
@@ -103,10 +104,11 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL))
         + MOST_EVENTS * (CODE_HEAD + 2 * units.n_slots),
         "sample_capacity": _SAMPLE_ROWS,
-        **engine.counts(units.n_slots),
     }
-    assert counts.keys() <= set(COUNTS)
-    memory = allocate(dict.fromkeys(COUNTS, 0) | counts, engine.layers)
+    free = [name for name in COUNTS if name not in counts]
+    counts = dict.fromkeys(COUNTS, 0) | counts | {**counts_of(engine, units.n_slots, free)}
+    settings = settings_of(engine, system.time_scale)
+    memory = allocate(counts, layers_of(engine), laid_own(engine, counts))
     heap = Heap(memory)
     memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
     places = lay_bodies(system, memory, heap)
@@ -117,6 +119,6 @@ def lay(system: System, engine: Engine) -> LaidOut:
     lay_pools(memory, heap, units.pools, table, units.frames)
     lay_guards(system, memory, heap)
     model = LaidOut(system, heap.close(), n_q, n_u, n_states)
-    for name, value in engine.settings(system.time_scale).items():
+    for name, value in settings.items():
         model.memory.scalars[name] = value
     return model

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from nonsmooth.engine.memory.memory import Memory
@@ -16,14 +18,12 @@ def copied(memory: Memory) -> Memory:
     """
     owner = memory if memory.owner is None else memory.owner
     floats = np.zeros(len(owner.floats) if PLAIN else memory.tables)
-    made = Memory(
-        memory.scalars.copy(),
-        floats,
-        np.zeros_like(memory.integers),
-        memory.blocks,
-        memory.tables,
-        memory.references,
-        None if PLAIN else owner,
+    made = replace(
+        memory,
+        scalars=memory.scalars.copy(),
+        floats=floats,
+        integers=np.zeros_like(memory.integers),
+        owner=None if PLAIN else owner,
     )
     for own, other in zip(made.kept, memory.kept, strict=True):
         own[:] = other

@@ -14,7 +14,7 @@ from nonsmooth.engine.memory.blocks import UNTOUCHED
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, SCALARS
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, SCALARS
 from nonsmooth.errors import InvalidInput
 from nonsmooth.packing import packed, unpacked
 from nonsmooth.types import Array
@@ -49,8 +49,8 @@ class Image:
 
     @functools.cached_property
     def record(self) -> np.void:
-        """The scalars."""
-        return cast(np.void, self.parts[0].view(SCALARS)[0])
+        """The scalars, but for those that an engine has of its own."""
+        return cast(np.void, self.parts[0][:N_SCALARS].view(SCALARS)[0])
 
     @functools.cached_property
     def size(self) -> int:

@@ -7,6 +7,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from nonsmooth.engines.unavailable import Unavailable
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.components import TYPE
 from nonsmooth.files.parsing import parse
@@ -14,7 +15,7 @@ from nonsmooth.files.reading import Setup, engine_of, load_system
 from nonsmooth.interfaces import Engine
 from nonsmooth.plugins import file
 from nonsmooth.results.output import Output
-from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.results.solution_folder import SolutionFolder, named_elsewhere
 from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.solution import Counters, End, Solution
 from nonsmooth.system.system import System
@@ -35,7 +36,8 @@ def open_solution(
     system : System, optional
         What ran; by default it is built from what the folder says of it.
     engine : Engine, optional
-        What integrated it; by default that which the folder names.
+        What integrated it; by default that which the folder names.  Where that is not installed, the run is known at
+        its samples and events only.
 
     Returns
     -------
@@ -45,7 +47,7 @@ def open_solution(
     Raises
     ------
     InvalidInput
-        If there is no solution, or it cannot say how its system or its engine is built.
+        If there is no solution, or it cannot say how its system is built.
     PluginError
         If a class that the system needs cannot be loaded.
     """
@@ -55,7 +57,7 @@ def open_solution(
     counters = {field.name: said.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}
     end = End(folder.state(), Counters(**counters), folder.status, str(folder.attributes.get("message")))
     made = system or stored_setup(where, folder).system
-    recorded = Recorded.of(folder.events(), folder.rows(), engine or stored_engine(where, folder))
+    recorded = Recorded.of(folder.events(), folder.rows(), engine or _engine_or_its_name(where, folder))
     return Solution.known(made, recorded, end)
 
 
@@ -98,6 +100,12 @@ def _refuse_files(value: Any, thing: str) -> None:
             _refuse_files(one, thing)
 
 
+def _engine_or_its_name(output: Output, folder: SolutionFolder) -> Engine:
+    table = folder.said("engine")
+    _refuse_files(table, f"{output.solution}: engine")
+    return Unavailable(table) if named_elsewhere(table) else stored_engine(output, folder)
+
+
 def stored_engine(output: Output, folder: SolutionFolder) -> Engine:
     """Return the engine that ran, as the folder says it.
 
@@ -109,7 +117,7 @@ def stored_engine(output: Output, folder: SolutionFolder) -> Engine:
         If its class cannot be loaded.
     """
     thing, table = f"{output.solution}: engine", folder.said("engine")
-    if table is None:
-        raise InvalidInput(thing, "must be one that is installed", None, "Give it as engine=...")
     _refuse_files(table, thing)
+    if named_elsewhere(table):
+        raise InvalidInput(thing, "must be one that is installed", table, "Give it as engine=...")
     return engine_of(thing, table, output.folder)

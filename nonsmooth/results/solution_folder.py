@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 
 from nonsmooth.datasets import described
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
-from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
-from nonsmooth.files.components import Table, table_of
+from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.files.writing import text_of_system
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.lock import Lock
@@ -357,18 +356,28 @@ def _attributes(output: Output, engine: Engine, t_end: float, conditional: bool)
     }
 
 
-def _table(engine: Engine) -> Table | None:
-    """Return an engine as a table; None for one that no file can name."""
+def _table(engine: Engine) -> Table:
+    """Return an engine as a table; one that no file can name by its class in Python, and its options as words."""
     try:
-        return table_of(engine, "engine", EventDriven)
+        return table_of(engine, "engine")
     except InvalidInput:
-        return None
+        options = {name: repr(value) for name, value in vars(engine).items()}
+        return {TYPE: f"{type(engine).__module__}:{type(engine).__qualname__}", **options}
+
+
+def named_elsewhere(table: Table) -> bool:
+    """Tell whether the table of an engine names a class in Python, which is none that is installed."""
+    return ":" in str(table.get(TYPE))
 
 
 def _text(system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]) -> Variable:
-    """Return the system as a scenario file; where it cannot be one, an attribute says why."""
+    """Return the system as a scenario file; where it cannot be one, an attribute says why.
+
+    An engine that no file can name costs its own table only: an attribute has what it was.
+    """
+    named = None if named_elsewhere(_table(engine)) else engine
     try:
-        text = text_of_system(system, t_end=t_end, engine=engine, title=output.title)
+        text = text_of_system(system, t_end=t_end, engine=named, title=output.title)
     except InvalidInput as error:
         text, attributes["system_missing"] = "", str(error)
     return Variable("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})

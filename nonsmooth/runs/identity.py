@@ -13,13 +13,16 @@ from nonsmooth.engine.memory.tables import (
     COUNTS,
     FLOAT_ARRAYS,
     INTEGER_ARRAYS,
+    N_SCALARS,
     SCALARS,
     places,
 )
+from nonsmooth.interfaces import Engine
 from nonsmooth.model.given import parameter_places
 from nonsmooth.model.image import Booleans, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import by_kind
+from nonsmooth.parameters import rules
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "entry_points")
 _CHANGING = {"facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent", *CATALOGUE}
@@ -30,14 +33,14 @@ _COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]
 _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,), CATALOGUE)).encode()).digest()
 
 
-def digest(model: LaidOut, blank: Image) -> str:
-    """Return a digest of all numbers of a model that stands nowhere yet, and of the kinds of its parts.
+def digest(model: LaidOut, blank: Image, engine: Engine) -> str:
+    """Return a digest of all numbers of a model that stands nowhere yet, of the kinds of its parts, and of an engine.
 
     ``blank`` is its image.  Models with one digest run alike, in whatever process.
     """
     scalars, floats, blocks, integers = blank.parts
     scalars, blocks, integers = scalars.copy(), blocks.copy(), integers.copy()
-    memory, record = model.memory, scalars.view(SCALARS)
+    memory, record = model.memory, scalars[:N_SCALARS].view(SCALARS)
     # functions stand elsewhere in every process, and so do the tables of copies
     record["impact_map"] = record["impact_map"] != 0
     for name in _FUNCTIONS:
@@ -48,7 +51,7 @@ def digest(model: LaidOut, blank: Image) -> str:
     integers[start : start + width * declared].reshape(declared, width)[:, _COLUMNS] = 0
     for place, _, _ in memory.references:
         blocks[place - memory.blocks] = 0
-    found = hashlib.blake2b(_LAYOUT + _kinds(model))
+    found = hashlib.blake2b(_LAYOUT + _kinds(model) + _said(engine))
     for part in (scalars, floats, blocks, integers):
         # most of them are zero
         filled = np.flatnonzero(part)
@@ -65,7 +68,7 @@ def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
     these are left as this process has them.  Last comes, of every place in the blocks, whether it may be other than a
     parameter, which is the same in all processes.
     """
-    record = blank.parts[0].copy().view(SCALARS)
+    record = blank.parts[0][:N_SCALARS].copy().view(SCALARS)
     ranges, numerics = (
         [np.arange(_size(record, name)) + int(record[name][0]) for name in names] for names in (_STANDING, _NUMERICS)
     )
@@ -82,6 +85,10 @@ def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
 
 def _size(record: np.ndarray, name: str) -> int:
     return int((FLOAT_ARRAYS | INTEGER_ARRAYS)[name]({count: int(record[count][0]) for count in COUNTS}))
+
+
+def _said(engine: Engine) -> bytes:
+    return repr((type(engine).__qualname__, {name: getattr(engine, name) for name in rules(type(engine))})).encode()
 
 
 def _kinds(model: LaidOut) -> bytes:

@@ -9,6 +9,7 @@ from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, STOPPED
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.advancing import Advancing
 from nonsmooth.runs.keeper import Keeper
 from nonsmooth.runs.pace import Pace
 from nonsmooth.runs.records import Records
@@ -62,6 +63,8 @@ def run_engine(
 
     Raises
     ------
+    InvalidInput
+        If the engine breaks its contract.
     BaseException
         Whatever ``progress`` or ``until`` raises.
     """
@@ -74,17 +77,18 @@ def run_engine(
     so_far, looks = None if until is None else RunSoFar(model, records, engine), 0
     try:
         with model.watch.reporting(report) as watch:
+            engine_at = Advancing(engine, model, watch.call)
             while status == PAUSED:
                 looks, reached = looks + 1, None if so_far is None else so_far.reached
                 # a condition sees the start before any step
-                status = engine.advance(watch.call, memory, keeper.steps if until is None else min(looks - 1, 1), True)
+                status = engine_at.advance(keeper.steps if until is None else min(looks - 1, 1), True)
                 # a wary engine that does nothing is next to the end
                 near = status == PAUSED and (so_far is None or reached == so_far.reached)
                 if near or (status == PAUSED and looks % keeper.steps == 0):
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
                 if near:
-                    status = engine.advance(watch.call, memory, _STEPS_NEAR_END if until is None else 1, False)
+                    status = engine_at.get_on(_STEPS_NEAR_END if until is None else 1, image)
                 if status != DONE:
                     pace = pace or Pace(model, begun)
                     pace.look(status)

@@ -39,8 +39,8 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.system.system import System
 
-_T_END, _INTERVAL, _FIRST, _NEXT, _LONGEST, _INDEX, _CAPACITY = places(
-    "t_end", "sample_interval", "sample_start", "next_sample", "h_sampled", "sample_index", "sample_capacity"
+_T_END, _INTERVAL, _FIRST, _NEXT, _SPAN, _INDEX, _CAPACITY = places(
+    "t_end", "sample_interval", "sample_start", "next_sample", "sample_span", "sample_index", "sample_capacity"
 ).tolist()
 _DEFAULT_SAMPLES = 2000
 _SAMPLES_AT_ONCE = 0.5
@@ -60,7 +60,7 @@ class Model:
         self._guards = Guards.of(laid.memory)
         self._blank = Image.of(laid.memory)
         # for continuing only, and to read all numbers takes as long as to lay them
-        self._key = key or functools.cache(partial(digest, laid, self._blank))
+        self._key = key or functools.cache(partial(digest, laid, self._blank, engine))
         begin(laid, self._blank, start)
         self._energy = laid.energy()
         self._begun = Image.of(laid.memory)
@@ -331,7 +331,7 @@ class Model:
         floats[_T_END], floats[_INTERVAL], integers[_INDEX] = t_end, interval, 0
         floats[_FIRST] = floats[_NEXT] = state.time
         # where a run ends is not to change its steps: all samples by default are fewer than those at once
-        floats[_LONGEST] = math.inf if is_default else _SAMPLES_AT_ONCE * integers.item(_CAPACITY) * interval
+        floats[_SPAN] = math.inf if is_default else _SAMPLES_AT_ONCE * integers.item(_CAPACITY) * interval
         keeper: Keeper = KeepsNothing()
         if begun is None or output is not None:
             # takes milliseconds where there are many contacts

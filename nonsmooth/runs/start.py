@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from nonsmooth.checks import is_finite
@@ -177,7 +175,6 @@ def go_on(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, 
     for name in (*_COUNTERS, *_OUTPUT):
         scalars[name] = 0
     model.memory.array("limits", len(LIMITS))[:] = 0
-    scalars["h_valid"] = math.inf
     scalars["told"], scalars["resumed"] = continuation.told, 1
 
 

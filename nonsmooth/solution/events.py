@@ -176,6 +176,11 @@ class Events:
         impulse[self._event_of_entry(), self.listed] = self.listed_impulse
         return impulse
 
+    def codes_after(self, numbers: Integers) -> Integers:
+        """Return the bits after events by number, shape [n, n_contacts]; before the first, -1, no contact is closed."""
+        before_all = np.zeros((1, self.n_contacts), np.int64)
+        return np.concatenate([self.after, before_all])[numbers]
+
     def __repr__(self) -> str:
         """Return how many there are of which cause."""
         causes = ", ".join(f"{n} {cause}" for cause, n in Counter(self.causes()).most_common())

@@ -265,7 +265,7 @@ class Solution:
 
         row = np.atleast_1d(read_times("Solution.mode_words", self, times))
         index = np.searchsorted(self.events.time, row, side="right") - 1
-        return words(self.events.after[index])
+        return words(self.events.codes_after(index))
 
     def at(self, times: ArrayLike | None = None) -> States:
         """Return the states at times: coordinates, velocities, modes, inner states of laws.

@@ -7,30 +7,34 @@ from functools import cached_property
 import numpy as np
 from numpy.testing import assert_allclose
 
-from nonsmooth.engine.memory.tables import ARRAYS_OF, COUNTS, SCALARS
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.runs.model import Model
 from nonsmooth.simulate import assemble
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.property import Broken, Property, properties
-from nonsmooth.testing.puck import Puck
+from nonsmooth.testing.property import Broken, NotChecked, Property, properties
+from nonsmooth.testing.puck import Puck, over_slab
+from nonsmooth.testing.reference import Constant, Rigid, Spring
 
 _GRAVITY, _END, _SAMPLES = 9.81, 0.3, 6
 _START = np.array([0.3, -0.2, 1.0, 2.0, -1.0, 0.5])
 _EXACT = 1e-6
+_THROUGH = 0.1
+"""Part of its way that a body may go on into another: an engine of fixed steps stops it at their ends."""
 
 
 def check_engine(engine: Engine) -> list[Property]:
-    """Return the properties of an engine; it is looked at with one free body."""
+    """Return the properties of an engine; it is looked at with a free body, and with one that falls on a slab."""
     look = _Look(engine)
     rows = [
-        ("names", "`layers`, `counts` and `settings` name what the memory has", look.names),
+        ("names", "`layers`, `own`, `counts` and `settings` name what the memory has, and is to have", look.names),
         ("free fall", "a free body moves as gravity has it", look.falls),
         ("samples", "the samples are at the times asked for, from the start to the end", look.samples),
         ("energy", "the account of energy closes", look.energy),
         ("repeatable", "a second run of one model is the same to the last bit", look.repeats),
+        ("contact", "a body does not fall through a slab, or `check` refuses it and names the engine", look.lands),
         ("continues", "a run that is stopped and goes on is the run that is not, to the last bit", look.continues),
     ]
     return properties(engine, [*component_rows(engine), *rows])
@@ -41,24 +45,26 @@ class _Look:
         self._engine = engine
 
     @cached_property
-    def _model(self) -> Model:
+    def _system(self) -> System:
         puck = Puck()
         system = System([puck], _GRAVITY)
         system.set_start(puck, np.zeros(3), _START)
-        return assemble(system, self._engine)
+        return system
+
+    @cached_property
+    def _model(self) -> Model:
+        try:
+            return assemble(self._system, self._engine)
+        except InvalidInput as error:
+            raise NotChecked(f"nothing can be laid out: {error}") from error
 
     @cached_property
     def _solution(self) -> Solution:
         return self._model.run(_END, sample_interval=_END / _SAMPLES)
 
     def names(self) -> None:
-        """Look at the names."""
-        known = {"layers": (*ARRAYS_OF,), "counts": COUNTS, "settings": SCALARS.names or ()}
-        told = {"layers": self._engine.layers, "counts": self._engine.counts(3), "settings": self._engine.settings(1.0)}
-        for what, names in told.items():
-            unknown = [name for name in names if name not in known[what]]
-            if unknown:
-                raise Broken("the memory has none of that name", what, unknown)
+        """Lay out a system, which refuses others."""
+        assemble(self._system, self._engine)
 
     def falls(self) -> None:
         """Compare with the parabola."""
@@ -82,6 +88,21 @@ class _Look:
     def repeats(self) -> None:
         """Run again."""
         self._compare(self._model.run(_END, sample_interval=_END / _SAMPLES))
+
+    def lands(self) -> None:
+        """Drop a body from a height, and look at the gap there and from then on."""
+        puck, height = Puck(), 0.5 * _GRAVITY * (0.5 * _END) ** 2
+        system = over_slab(puck, height, np.zeros(6), (Rigid(), Constant(), Spring()), gravity=_GRAVITY)
+        try:
+            self._engine.check(system)
+        except InvalidInput as refused:
+            if type(self._engine).__name__ not in str(refused):
+                raise Broken("the refusal must name the engine", "check", str(refused)) from None
+            return
+        _ = self._model
+        lowest = float(assemble(system, self._engine).run(_END, sample_interval=_END / _SAMPLES).q[:, 2].min())
+        if not lowest >= -_THROUGH * height:
+            raise Broken(f"it must stay over the slab, but for {_THROUGH:g} of the way it fell", "gap", lowest)
 
     def continues(self) -> None:
         """Stop between two samples, and go on."""

@@ -256,7 +256,34 @@ def run(
     gravity: float = 0.0,
     slab: Numbers = _UPRIGHT,
 ) -> Solution:
-    """Let a puck start over the slab, whose normal is the world's z axis, and run.
+    """Let a puck start over the slab, and run.
+
+    Parameters
+    ----------
+    t_end : float
+        When the run ends [s].
+    puck, height, u, laws, gravity, slab
+        Those of :func:`over_slab`.
+    """
+    engine = EventDriven(
+        gap_tolerance=min(1e-12, _FINE * puck.length),
+        velocity_tolerance=min(2e-8, _FINE * puck.speed),
+        time_tolerance=min(1e-12, _FINE * puck.length / puck.speed),
+    )
+    system = over_slab(puck, height, u, laws, gravity=gravity, slab=slab)
+    return simulate(system, t_end, sample_interval=t_end, engine=engine)
+
+
+def over_slab(
+    puck: Puck,
+    height: float,
+    u: Sequence[float] | Array,
+    laws: tuple[NormalLaw, TangentialLaw, ImpactLaw | None],
+    *,
+    gravity: float = 0.0,
+    slab: Numbers = _UPRIGHT,
+) -> System:
+    """Return a puck over a slab whose normal is the world's z axis.
 
     Parameters
     ----------
@@ -268,8 +295,6 @@ def run(
         Velocity and angular velocity at the start [m/s, rad/s], shape [6].
     laws : tuple
         Normal, tangential and impact law.
-    t_end : float
-        When the run ends [s].
     gravity : float
         Along -z [m/s^2].
     slab : tuple of float
@@ -285,12 +310,7 @@ def run(
         Contact("contact of puck and slab", base, puck, (0, 0), spots, touch, reaches, reaches, *laws)
     )
     system.set_start(puck, np.array([0.0, 0.0, height]), np.array(u, dtype=float))
-    engine = EventDriven(
-        gap_tolerance=min(1e-12, _FINE * puck.length),
-        velocity_tolerance=min(2e-8, _FINE * puck.speed),
-        time_tolerance=min(1e-12, _FINE * puck.length / puck.speed),
-    )
-    return simulate(system, t_end, sample_interval=t_end, engine=engine)
+    return system
 
 
 def _level(indentation: float, rate: float, closing_rate: float, load: float) -> float:

@@ -47,6 +47,7 @@ def test_there_are_examples() -> None:
 EXTENSION_POINTS = (
     "body",
     "contact_kinematics",
+    "engine",
     "friction_law",
     "guard",
     "impact_law",

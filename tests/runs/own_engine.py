@@ -8,7 +8,6 @@ from typing import Any, final
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import DONE, PAUSED
 from nonsmooth.errors import InvalidInput
@@ -59,12 +58,8 @@ class Midpoint(Engine):
             after = before + h * _slope(call, memory)
             while s["next_sample"] <= s["t"] + h:
                 share = (s["next_sample"] - s["t"]) / h
-                width = 1 + len(y) + BOOKED
-                row = memory.array("samples", int((s["n_samples"] + 1) * width))[-width:]
-                row[:] = s["next_sample"], *(before + share * (after - before)), *np.zeros(BOOKED)
-                s["n_samples"] += 1
-                s["sample_index"] += 1
-                s["next_sample"] = s["sample_start"] + s["sample_index"] * s["sample_interval"]
+                place = call("begin_sample")
+                memory.floats[place : place + len(y)] = before + share * (after - before)
             y[:] = after
             s["t"] = s["t_end"] if h < self.step else s["t"] + h
             s["steps"] += 1

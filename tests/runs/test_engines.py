@@ -10,7 +10,9 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BoxBody, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.interfaces import Engine
 from nonsmooth.testing.engine import check_engine
+from tests.runs.faulty_engines import FAULTS, Blind
 from tests.runs.own_engine import Midpoint
 from tests.testing.caught import failures
 
@@ -40,8 +42,49 @@ def test_engines_agree_on_a_body_that_tumbles() -> None:
         np.testing.assert_array_equal(run.at().u, run.u)
         with pytest.raises(ns.InvalidInput, match="is known between its samples only where"):
             run.at(0.05)
+        with pytest.raises(ns.InvalidInput, match="is known between its samples only where"):
+            run.energies(0.05)
     assert errors[1] <= 1e-5
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
+
+
+def test_what_an_engine_stored_is_known() -> None:
+    """States, poses, energies and, where no contact is closed, contact forces at the samples; modes at all times."""
+    system, box = _tumbling()
+    run, exact = (ns.simulate(system, 0.5, sample_interval=0.1, engine=e) for e in (Midpoint(), ns.EventDriven()))
+    energies = run.energies()
+    np.testing.assert_allclose(energies.kinetic, exact.energies().kinetic, rtol=1e-5)
+    np.testing.assert_allclose(energies.potential, exact.energies().potential, rtol=1e-5)
+    assert np.ptp(energies.kinetic) > 1.0
+    np.testing.assert_array_equal(run.poses(box).origin[:, 0], run.q[:, :3])
+    assert len(run.contact_forces().contact) == 0
+    assert run.mode_words(np.array([0.05])) == ["{,,}"]
+
+
+def _plate_and_ball() -> ns.System:
+    plate, ball = Plate(), Ball(0.02)
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.5))
+    system.place(ball, position=(0.0, 0.0, 0.1))
+    return system
+
+
+def test_driven_bodies_are_evaluated_at_the_start_for_every_engine() -> None:
+    """Whose settings say nothing of them."""
+    model = ns.assemble(_plate_and_ball(), Blind())
+    assert model._laid.gaps().tolist() == pytest.approx([0.08])
+
+
+def test_the_kit_finds_an_engine_that_knows_no_contacts() -> None:
+    """It lets bodies fall through each other, and does not refuse them."""
+    assert [*failures(check_engine(Blind()))] == ["contact"]
+
+
+@pytest.mark.parametrize(("fault", "message"), FAULTS, ids=[fault.__name__ for fault, _ in FAULTS])
+def test_an_engine_that_breaks_the_contract_is_refused(fault: type[Engine], message: str) -> None:
+    """By its name, the rule, the value and the remedy."""
+    with pytest.raises(ns.InvalidInput, match=f"^{fault.__name__}.{message}"):
+        ns.simulate(_tumbling()[0], 0.1, engine=fault())
 
 
 def test_an_engine_refuses_what_it_cannot_run() -> None:

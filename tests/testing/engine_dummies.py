@@ -41,6 +41,10 @@ def _forget(memory: Memory, call: int) -> None:
         memory.array("y", 1)[0] += 1e-12
 
 
+def _overlook(memory: Memory, call: int) -> None:
+    memory.scalars["n_contacts"] = memory.scalars["n_units"] = 0
+
+
 @dataclass(frozen=True)
 class Dummy(Engine):
     """The event-driven engine, with something done before each advance."""
@@ -77,5 +81,6 @@ DUMMIES: list[tuple[str, Engine]] = [
     ("samples", Dummy(_late)),
     ("energy", Dummy(_gain)),
     ("repeatable", Dummy(_age)),
+    ("contact", Dummy(_overlook)),
     ("continues", Dummy(_forget)),
 ]

@@ -441,6 +441,9 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
         # what follows from modes and is long is not kept in a state
         S.resumed = 0
         group_closed(S, w, k)
+    if S.end_of_valid != S.t_end:
+        # what had no value behind another end time may have one now
+        S.end_of_valid, S.h_valid = S.t_end, 1e300
     S.calls += 1
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, GUARD, OPEN, SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 from nonsmooth.engine.numerics.vectors import length
 
@@ -55,7 +55,7 @@ def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     return bits
 
 
-@kernel()
+@entry_point()
 def remember(S: Scalars, w: Floats, k: Integers) -> None:
     """Keep modes and velocities as they are before an event, and clear its account."""
     for c in range(S.n_contacts):
@@ -102,7 +102,7 @@ def _list_contact(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
         w[out + FEATURES + r] = w[candidate + r] if candidate > 0 else 0.0
 
 
-@kernel("void(S, F, I, i8, i8, i8)")
+@entry_point("void(S, F, I, i8, i8, i8)")
 def record_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
     S.recorded += 1
@@ -161,16 +161,21 @@ def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
     record_event(S, w, k, k[codes + CAUSE], S.last_contact, k[codes + PHASES])
 
 
+@entry_point("i8(S, F, I)")
+def begin_sample(S: Scalars, w: Floats, k: Integers) -> int:
+    """Append a sample of the time ``next_sample``, and set the next; return where in ``w`` its state is to be put."""
+    row = S.samples + S.n_samples * (1 + S.n_y + BOOKED)
+    w[row] = S.next_sample
+    _write_booked(S, w, row + 1 + S.n_y)
+    S.n_samples += 1
+    S.sample_index += 1
+    S.next_sample = S.sample_start + S.sample_index * S.sample_interval
+    return int(row + 1)
+
+
 @kernel("void(S, F, I, f8)")
 def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
-    width = 1 + S.n_y + BOOKED
     while S.next_sample <= S.t + h and S.n_samples < S.sample_capacity:
-        row = S.samples + S.n_samples * width
-        w[row] = S.next_sample
         theta = (S.next_sample - S.t) / S.h
-        dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), row + 1)
-        _write_booked(S, w, row + 1 + S.n_y)
-        S.n_samples += 1
-        S.sample_index += 1
-        S.next_sample = S.sample_start + S.sample_index * S.sample_interval
+        dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), begin_sample(S, w, k))

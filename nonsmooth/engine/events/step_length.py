@@ -64,7 +64,7 @@ def wanted_step(S: Scalars, w: Floats, k: Integers) -> float:
 @kernel("f8(S, F, I, f8)")
 def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
     """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
-    h = min(wanted, S.h_listed, S.h_sampled, S.h_valid)
+    h = min(wanted, S.h_listed, S.sample_span, S.h_valid)
     if S.fresh == 0:
         for c in range(S.n_contacts):
             contact = contact_at(S, w, k, c)
@@ -82,7 +82,7 @@ def _limit(S: Scalars, wanted: float, h: float) -> int:
         return BY_LARGEST if wanted == S.h_max else BY_ERROR
     if h == S.h_listed:
         return BY_LIST
-    if h == S.h_sampled:
+    if h == S.sample_span:
         return BY_SAMPLES
     return BY_END if h == S.h_valid else BY_FIRST
 

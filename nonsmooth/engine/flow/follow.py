@@ -15,7 +15,6 @@ from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, 
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.leap import leap
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
-from nonsmooth.engine.flow.self_check import energy_of_bodies
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
 from nonsmooth.engine.native.kernel import (
@@ -179,7 +178,7 @@ def _past_bounds(S: Scalars, w: Floats, k: Integers) -> int:
 
 @entry_point("void(S, F, I, i8)")
 def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
-    """Evaluate bodies, closed contacts and joints with their forces, and the energies, at the present state.
+    """Evaluate bodies, closed contacts and joints with their forces at the present state.
 
     Of forces that are not unique the null-space force is chosen anew with ``choosing`` (1), as at an event, or if
     with that at hand a bound is passed.
@@ -194,4 +193,3 @@ def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
         right_hand_side(S, w, k, S.t, S.y, anew)
     if S.n_joints > 0:
         evaluate_joint_forces(S, w, k)
-    S.kinetic_before, S.potential_before = energy_of_bodies(S, w, k, 0), energy_of_bodies(S, w, k, 1)

@@ -49,5 +49,8 @@ ENTRY_POINTS = (
     "group_members",
     "assemble_delassus",
     "write_guards",
+    "remember",
+    "record_event",
+    "begin_sample",
 )
 """Functions of the engine that are called by address (:func:`nonsmooth.engine.native.kernel.entry_point`)."""

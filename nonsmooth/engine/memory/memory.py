@@ -5,16 +5,20 @@ from __future__ import annotations
 import functools
 from array import array
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
 
 from nonsmooth.engine.memory import implicit_tableau, tableau
+from nonsmooth.engine.memory.arrays.arrays import Arrays
 from nonsmooth.engine.memory.blocks import GEOMETRY, GUARD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.layout import N_STAGES
-from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNER, SCALARS
+from nonsmooth.engine.memory.tables import ARRAYS_OF, FLOAT_ARRAYS, INTEGER_ARRAYS, floats_of, integers_of, record_with
 from nonsmooth.parameters import Table
+
+NOTHING = Arrays()
+"""What an engine has of its own that has nothing."""
 
 
 class Heap:
@@ -69,7 +73,7 @@ class Heap:
         references = tuple((place, start, places[id(table)]) for place, start, table in self._references)
         for place, start, at in references:
             floats[place] = at - start
-        return Memory(old.scalars, floats, old.integers, self._first, first, references)
+        return replace(old, floats=floats, tables=first, references=references)
 
 
 def output_block(size: int) -> list[float]:
@@ -94,6 +98,8 @@ class Memory:
     references : tuple
         (place of a number, the place from which that number counts, place of the table that it leads to), for every
         table that a function reads.
+    own : Arrays
+        What its engine has of its own, besides the layers.
     owner : Memory or None
         Whose tables it reads, if it has none of its own.
     """
@@ -104,6 +110,7 @@ class Memory:
     blocks: int
     tables: int
     references: tuple[tuple[int, int, int], ...] = ()
+    own: Arrays = NOTHING
     owner: Memory | None = None
 
     def array(self, name: str, size: int) -> np.ndarray:
@@ -126,7 +133,10 @@ class Memory:
 
     @functools.cached_property
     def _places(self) -> dict[str, tuple[np.ndarray, int]]:
-        heaps = (self.floats, FLOAT_ARRAYS), (self.integers, INTEGER_ARRAYS)
+        heaps = (
+            (self.floats, FLOAT_ARRAYS | floats_of([self.own])),
+            (self.integers, INTEGER_ARRAYS | integers_of([self.own])),
+        )
         return {name: (heap, int(self.scalars[name][0])) for heap, names in heaps for name in names}
 
     @functools.cached_property
@@ -150,23 +160,24 @@ ALWAYS = ("bodies", "numerics", "events")
 """Layers whose arrays every engine needs: where things are, coefficients, and what is recorded."""
 
 
-def allocate(counts: Mapping[str, int], layers: Collection[str]) -> Memory:
+def allocate(counts: Mapping[str, int], layers: Collection[str], own: Arrays = NOTHING) -> Memory:
     """Lay out the arrays of some layers for the given counts, all of ``COUNTS``; others have no length.
 
-    Blocks are appended by :class:`Heap`.
+    ``own`` is what an engine brings besides.  Blocks are appended by :class:`Heap`.
     """
-    laid = {*ALWAYS, *layers}
-    values: dict[str, float] = dict.fromkeys(SCALARS.names or (), 0)
+    every = *ARRAYS_OF.values(), own
+    laid = [*(ARRAYS_OF[layer] for layer in {*ALWAYS, *layers}), own]
+    values = {name: begin for arrays in every for name, begin in arrays.scalars.items()} | dict(counts)
     totals: list[int] = []
-    for table in (FLOAT_ARRAYS, INTEGER_ARRAYS):
-        total = 0
-        for name, size in table.items():
+    for arrays_of in (floats_of, integers_of):
+        total, with_length = 0, arrays_of(laid)
+        for name in arrays_of(every):
             values[name] = total
-            total += size(counts) if OWNER[name] in laid else 0
+            total += with_length[name](counts) if name in with_length else 0
         totals.append(total)
-    values.update(counts)
-    scalars = np.array([tuple(values.values())], SCALARS)
-    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64), totals[0], totals[0])
+    record = record_with(own)
+    scalars = np.array([tuple(values[name] for name in record.names or ())], record)
+    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64), totals[0], totals[0], own=own)
     n = counts["n_slots"]
     memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
     memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)

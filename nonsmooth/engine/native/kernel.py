@@ -16,7 +16,9 @@ import os
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol, TypeAlias, TypeVar
 
+from nonsmooth.engine.memory.arrays.arrays import Arrays
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.native.entries import Fingerprint
 from nonsmooth.types import Floats, Integers
 
 PLAIN = os.environ.get("NONSMOOTH_PLAIN", "0") not in ("", "0")
@@ -41,7 +43,11 @@ entry_point: _Decorator = _half.entry_point
 entry_addresses: Callable[[], tuple[int, ...]] = _half.entry_addresses
 """The addresses of all entry points, which belong at the head of ``k``."""
 call_entry: Callable[..., Any] = _half.call_entry
-"""``call_entry(name, memory, *numbers)``: call an entry point from Python."""
+"""``call_entry(name, memory, *numbers)``: call an entry point, or a step of an engine of one's own, from Python."""
+own_kernel: Callable[[Arrays, str], Callable[[_Function], _Function]] = _half.own_kernel
+"""A function of an engine with scalars and arrays of its own, compiled into its callers."""
+add_step: Callable[[Callable[..., Any], Arrays, str, Fingerprint], str] = _half.add_step
+"""``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the name returned."""
 
 contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["contact"]
 """A contact with its fields by name (:mod:`nonsmooth.engine.memory.records`)."""
@@ -132,6 +138,7 @@ __all__ = [
     "Memory",
     "Scalars",
     "active_at",
+    "add_step",
     "address_of",
     "articulation_at",
     "at",
@@ -165,6 +172,7 @@ __all__ = [
     "load_at",
     "load_wrench",
     "own_guard_at",
+    "own_kernel",
     "part_end",
     "pool_at",
     "shared",

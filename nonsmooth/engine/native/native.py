@@ -9,24 +9,28 @@ import importlib
 import inspect
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numba
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
+from numba.core.dispatcher import Dispatcher
 from numba.extending import intrinsic, typeof_impl
 
+from nonsmooth.engine.memory.arrays.arrays import Arrays
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.engine.native.build import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses, uncollected
 from nonsmooth.engine.native.cache import Store, folders
+from nonsmooth.engine.native.entries import Fingerprint, known, own_name
 from nonsmooth.engine.native.forms import C_TYPES, FORMS
 from nonsmooth.engine.native.record_view import records as records
 from nonsmooth.engine.native.record_view import types_of
-from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, call_at, moved
+from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, Table, call_at, moved
 from nonsmooth.notices import say
 
 _OPTIONS: dict[str, Any] = {
@@ -50,22 +54,33 @@ _TYPES = {
 }
 _pending: list[tuple[Any, Any]] = []
 _alive: list[Any] = []
-_entries: dict[str, tuple[Callable[..., Any], str]] = {}
+_entries: dict[str, _Entry] = {}
+_callables: dict[str, Callable[..., Any]] = {}
 _STUB = "def stub_{name}({names}): return call(k[S.entry_points + {index}], {names})"
 
 
-def _signature(text: str) -> Any:
+class _Entry(NamedTuple):
+    function: Callable[..., Any]
+    signature: str
+    address: Callable[[], int]
+
+
+def _signature(text: str, table: Table = TABLE) -> Any:
     result, _, arguments = text.partition("(")
     names = [a.strip() for a in arguments.rstrip(")").split(",") if a.strip()]
-    return _TYPES[result.strip()](*[_TYPES[a] for a in names])
+    known_types = {**_TYPES, "S": table}
+    return known_types[result.strip()](*[known_types[a] for a in names])
 
 
 def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
     """Compile an engine function with an explicit signature, when an entry point first needs it."""
+    return _kernel(_signature(signature))
 
+
+def _kernel(signature: Any) -> Callable[[Callable[..., Any]], Any]:
     def decorate(function: Callable[..., Any]) -> Any:
         dispatcher = numba.jit(pipeline_class=KernelPasses, **_OPTIONS)(function)
-        _pending.append((dispatcher, _signature(signature)))
+        _pending.append((dispatcher, signature))
         return dispatcher
 
     return decorate
@@ -79,14 +94,42 @@ def entry_point(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any
     """
 
     def decorate(function: Callable[..., Any]) -> Any:
-        _entries[function.__name__] = (function, signature)
-        names = ", ".join(inspect.signature(function).parameters)
-        scope: dict[str, Any] = {"call": by_address(_signature(signature))}
         name = function.__name__
+        _entries[name] = _Entry(function, signature, functools.partial(_compiled, name))
+        names = ", ".join(inspect.signature(function).parameters)
+        scope: dict[str, Any] = {"call": by_address(_signature(signature)), "__name__": __name__}
         exec(_STUB.format(name=name, names=names, index=ENTRY_POINTS.index(name)), scope)
         return kernel(signature)(scope[f"stub_{name}"])
 
     return decorate
+
+
+def own_kernel(own: Arrays, signature: str) -> Callable[[Callable[..., Any]], Any]:
+    """Compile a function of an engine that has scalars and arrays of its own into its callers, as a kernel."""
+    return _kernel(_signature(signature, Table(record_with(own))))
+
+
+def add_step(function: Callable[..., Any], own: Arrays, signature: str, fingerprint: Fingerprint) -> str:
+    """Let :func:`call_entry` find a step of an engine under the name that is returned; it is compiled when called.
+
+    It is kept on disk under what ``fingerprint`` says of it.
+    """
+    name, typed = own_name(function), _signature(signature, Table(record_with(own)))
+    _entries[name] = _Entry(function, signature, lambda: _step_address(function, typed, fingerprint))
+    # a cell of a notebook that is run again has another function of that name
+    _callables.pop(name, None)
+    return name
+
+
+def _step_address(function: Callable[..., Any], signature: Any, fingerprint: Fingerprint) -> int:
+    kernels = _kernels_of([function])
+    types_of_kernels = [(inner.py_func.__qualname__, str(typed)) for inner, typed in kernels]
+    digest = fingerprint(function, repr((str(signature), types_of_kernels)))
+    store = Store(f"step-{digest}") if digest else None
+    with uncollected():
+        if store is None or not store.is_filled():
+            _compile(kernels)
+        return _address(CFunction(function, signature, store, EntryPasses))
 
 
 def by_address(signature: Any) -> Any:
@@ -153,15 +196,19 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
 def compile_entries(names: tuple[str, ...]) -> None:
     """Compile some of ``ENTRY_POINTS`` into the cache."""
     with uncollected():
-        for inner, typed in _kernels_of(names):
-            inner.compile(typed)
-            inner.disable_compile()  # a call with other types converts: none makes a further copy
+        _compile(_kernels_of([_entries[name].function for name in names]))
         for name in names:
             _compiled(name)
 
 
-def _kernels_of(names: tuple[str, ...]) -> list[tuple[Any, Any]]:
-    """Return the kernels that entry points call, and those that these call, each before its callers."""
+def _compile(kernels: list[tuple[Any, Any]]) -> None:
+    for inner, typed in kernels:
+        inner.compile(typed)
+        inner.disable_compile()  # a call with other types converts: none makes a further copy
+
+
+def _kernels_of(functions: Iterable[Callable[..., Any]]) -> list[tuple[Any, Any]]:
+    """Return the kernels that functions call, and those that these call, each before its callers."""
     kernels = {id(inner): (inner, typed) for inner, typed in _pending}
     ordered: list[tuple[Any, Any]] = []
 
@@ -172,8 +219,8 @@ def _kernels_of(names: tuple[str, ...]) -> list[tuple[Any, Any]]:
                 visit(called[0].py_func)
                 ordered.append(called)
 
-    for name in names:
-        visit(_entries[name][0])
+    for function in functions:
+        visit(function)
     return ordered
 
 
@@ -185,8 +232,8 @@ def _store(name: str) -> Store:
 @functools.cache
 def _compiled(name: str) -> int:
     """Return the address of an entry point, and let its code live."""
-    function, signature = _entries[name]
-    return _address(CFunction(function, _signature(signature), _store(name), EntryPasses))
+    entry = _entries[name]
+    return _address(CFunction(entry.function, _signature(entry.signature), _store(name), EntryPasses))
 
 
 def _address(function: CFunction) -> int:
@@ -195,18 +242,26 @@ def _address(function: CFunction) -> int:
     return int(function.address or 0)
 
 
-@functools.cache
 def _callable(name: str) -> Callable[..., Any]:
-    """Return an entry point as a function of the addresses of the three heaps, and of numbers."""
-    _, signature = _entries[name]
-    result, _, names = signature.partition("(")
-    extra = [C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[3:]]
-    prototype = ctypes.CFUNCTYPE(C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
-    return prototype(entry_addresses()[ENTRY_POINTS.index(name)])
+    """Return an entry point, or a step, as a function of the addresses of the three heaps, and of numbers."""
+    if name not in _callables:
+        entry_addresses()
+        entry = known(_entries, name)
+        result, _, names = entry.signature.partition("(")
+        extra = [C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[3:]]
+        prototype = ctypes.CFUNCTYPE(C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
+        _callables[name] = prototype(entry.address())
+    return _callables[name]
 
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
-    """Call an entry point from Python on the memory of one trajectory; the interpreter's lock is released."""
+    """Call an entry point, or a step, on the memory of one trajectory; the interpreter's lock is released.
+
+    Raises
+    ------
+    UnknownName
+        If there is none of that name.
+    """
     return _callable(name)(*memory.addresses, *arguments)
 
 
@@ -274,7 +329,9 @@ def shared(function: Callable[..., Any]) -> Any:
 
 
 def unshared(value: Any) -> Any:
-    """Return the function out of which :func:`shared` has made a value, any other value as it is."""
+    """Return the function out of which :func:`shared` or a kernel has made a value, any other value as it is."""
+    if isinstance(value, Dispatcher):
+        return value.py_func
     return value.function if isinstance(value, _Shared) else value
 
 

@@ -7,11 +7,12 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
+from nonsmooth.engine.memory.arrays.arrays import Arrays
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.fields import Field, Fields
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.records import PACKED, RECORDS
-from nonsmooth.engine.memory.tables import SCALARS
+from nonsmooth.engine.native.entries import Fingerprint, known, own_name
 from nonsmooth.engine.native.forms import FORMS
 
 _functions: list[Callable[..., Any]] = []
@@ -34,6 +35,18 @@ def entry_point(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any
     return decorate
 
 
+def own_kernel(own: Arrays, signature: str) -> Callable[[Callable[..., Any]], Any]:
+    """Leave the function as it is."""
+    return lambda function: function
+
+
+def add_step(function: Callable[..., Any], own: Arrays, signature: str, fingerprint: Fingerprint) -> str:
+    """Let :func:`call_entry` find a step of an engine under the name that is returned."""
+    name = own_name(function)
+    _entries[name] = function
+    return name
+
+
 def entry_addresses() -> tuple[int, ...]:
     """Return as many numbers as there are entry points; nothing reads them."""
     importlib.import_module("nonsmooth.engine.events.event_loop")
@@ -42,10 +55,11 @@ def entry_addresses() -> tuple[int, ...]:
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
     """Call an entry point on the memory of one trajectory."""
+    entry = known(_entries, name)
     record = memory.scalars[0]
-    scalars = SimpleNamespace(**{field: record[field].item() for field in SCALARS.names or ()})
+    scalars = SimpleNamespace(**{field: record[field].item() for field in record.dtype.names})
     try:
-        return _entries[name](scalars, memoryview(memory.floats.data), memoryview(memory.integers.data), *arguments)
+        return entry(scalars, memoryview(memory.floats.data), memoryview(memory.integers.data), *arguments)
     finally:
         for field, value in vars(scalars).items():
             memory.scalars[field] = value

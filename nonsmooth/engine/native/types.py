@@ -12,12 +12,15 @@ import operator
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba import types
+from numba.core.typeconv import Conversion
 from numba.core.typing.templates import AttributeTemplate
 from numba.extending import (
     infer_getattr,
     lower_builtin,
+    lower_cast,
     lower_getattr_generic,
     lower_setattr_generic,
     models,
@@ -25,7 +28,7 @@ from numba.extending import (
     type_callable,
 )
 
-from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, SCALARS
+from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, N_SCALARS, SCALARS
 
 
 class Heap(types.Type):  # type: ignore[misc]
@@ -37,13 +40,24 @@ class Heap(types.Type):  # type: ignore[misc]
 
 
 class Table(types.Type):  # type: ignore[misc]
-    """A pointer to the record ``S``, whose fields are all eight bytes long."""
+    """A pointer to the record ``S``, whose fields are all eight bytes long.
+
+    An engine's own, which has further ones at its end, is taken for that of all engines.
+    """
+
+    def __init__(self, record: np.dtype[np.void]) -> None:
+        self.record = record
+        self.names = record.names or ()
+        super().__init__(name=f"Scalars({', '.join(self.names[N_SCALARS:])})")
+
+    def can_convert_to(self, context: Any, other: Any) -> Any:
+        """Let functions of all engines take an engine's own."""
+        return Conversion.safe if other is TABLE else None
 
 
-_NAMES = SCALARS.names or ()
 FLOATS = Heap("Floats", types.float64)
 INTEGERS = Heap("Integers", types.int64)
-TABLE = Table("Scalars")
+TABLE = Table(SCALARS)
 
 
 @register_model(Heap)
@@ -130,14 +144,19 @@ def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     return context.get_dummy_value()
 
 
-def _field_type(name: str) -> Any:
-    return types.float64 if SCALARS[name].kind == "f" else types.int64
+@lower_cast(Table, Table)  # type: ignore[untyped-decorator]
+def _as_other(context: Any, builder: Any, table: Table, other: Table, value: Any) -> Any:
+    return value
 
 
-def _field(context: Any, builder: Any, table: Any, name: str) -> Any:
+def _field_type(table: Table, name: str) -> Any:
+    return types.float64 if table.record[name].kind == "f" else types.int64
+
+
+def _field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
     word = ir.IntType(64)
-    place = builder.gep(table, [ir.Constant(word, _NAMES.index(name))], source_etype=word)
-    return builder.bitcast(place, context.get_value_type(_field_type(name)).as_pointer())
+    place = builder.gep(value, [ir.Constant(word, table.names.index(name))], source_etype=word)
+    return builder.bitcast(place, context.get_value_type(_field_type(table, name)).as_pointer())
 
 
 @infer_getattr
@@ -145,13 +164,14 @@ class _TableFields(AttributeTemplate):  # type: ignore[misc]
     key = Table
 
     def generic_resolve(self, table: Table, name: str) -> Any:
-        return _field_type(name) if name in _NAMES else None
+        return _field_type(table, name) if name in table.names else None
 
 
 @lower_getattr_generic(Table)  # type: ignore[untyped-decorator]
 def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
     """Load a scalar of the record."""
-    load = builder.load(_field(context, builder, value, name), typ=context.get_value_type(_field_type(name)))
+    place, kind = _field(context, builder, table, value, name), context.get_value_type(_field_type(table, name))
+    load = builder.load(place, typ=kind)
     tag(load, name)
     if name in CONSTANT_SCALARS:
         load.set_metadata("invariant.load", builder.module.add_metadata([]))
@@ -160,5 +180,6 @@ def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -
 
 @lower_setattr_generic(Table)  # type: ignore[untyped-decorator]
 def _set_field(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
-    value = context.cast(builder, args[1], signature.args[1], _field_type(name))
-    tag(builder.store(value, _field(context, builder, args[0], name)), name)
+    table, given = signature.args
+    value = context.cast(builder, args[1], given, _field_type(table, name))
+    tag(builder.store(value, _field(context, builder, table, args[0], name)), name)

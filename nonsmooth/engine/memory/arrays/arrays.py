@@ -1,4 +1,4 @@
-"""Arrays: what one layer of the engine works with, and functions that give lengths."""
+"""Arrays: what one layer of the engine, or an engine of one's own, works with, and functions that give lengths."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Size: TypeAlias = Callable[[Counts], int]
 @final
 @dataclass(frozen=True)
 class Arrays:
-    """The arrays of a layer: the length of each as a function of the counts of a system.
+    """The scalars and the arrays of a layer: the length of each array as a function of the counts of a system.
 
     Attributes
     ----------
@@ -23,12 +23,25 @@ class Arrays:
         Those in which a step may find what one before it left.
     later_floats, later_integers : dict
         Output, and room for the worst case, mostly unused: they come last, and cost no memory before they are written.
+    scalars : dict
+        What each scalar is before any run; a whole number stays one, a float is a float.
     """
 
-    floats: dict[str, Size]
-    integers: dict[str, Size]
+    floats: dict[str, Size] = field(default_factory=dict)
+    integers: dict[str, Size] = field(default_factory=dict)
     later_floats: dict[str, Size] = field(default_factory=dict)
     later_integers: dict[str, Size] = field(default_factory=dict)
+    scalars: dict[str, float] = field(default_factory=dict)
+
+
+def whole(*names: str) -> dict[str, float]:
+    """Return scalars that are whole numbers, 0 before any run."""
+    return dict.fromkeys(names, 0)
+
+
+def real(*names: str) -> dict[str, float]:
+    """Return scalars that are floats, 0 before any run."""
+    return dict.fromkeys(names, 0.0)
 
 
 def per(stride: int, count: str) -> Size:

@@ -2,12 +2,52 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, blocks, ends, fixed, per
+import math
+
+from nonsmooth.engine.memory.arrays.arrays import Arrays, blocks, ends, fixed, per, real, whole
 from nonsmooth.engine.memory.blocks import DELASSUS, GEOMETRY
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS
 
 ARRAYS = Arrays(
+    scalars={
+        **whole(
+            "n_bodies",
+            "n_slots",
+            "n_contacts",
+            "n_declared",
+            "n_units",
+            "n_partners",
+            "n_paired",
+            "n_pools",
+            "n_loads",
+            "n_joints",
+            "n_articulations",
+            "free_velocities",
+            "n_q",
+            "n_u",
+            "n_states",
+            "listings",
+            "n_grouped",
+            "fresh",
+            "work",
+            "patience",
+            "watch",
+            "stopped",
+        ),
+        **real(
+            "t",
+            "time_tolerance",
+            "gap_tolerance",
+            "velocity_tolerance",
+            "driven_power",
+            "load_power",
+            "margin_of_list",
+            "widest_margin",
+        ),
+        # no driven body is evaluated yet
+        "driven_t": -math.inf,
+    },
     floats={
         "y": per(1, "n_y"),
         "du": per(1, "n_u"),

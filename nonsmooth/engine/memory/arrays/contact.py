@@ -2,9 +2,29 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, per
+from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, per, real, whole
 
 ARRAYS = Arrays(
+    scalars={
+        **whole(
+            "n_unknown",
+            "deficient",
+            "null_banded",
+            "n_pivoted",
+            "solver",
+            "singular",
+            "turning",
+            "guess",
+            "unsettled",
+        ),
+        **real(
+            "ahead",
+            "effort",
+            "acceleration_scale",
+            "small_acceleration",
+            "small_force",
+        ),
+    },
     floats={
         "active_forces": per(3, "n_slots"),
         "active_directions": per(2, "n_slots"),

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, per
+from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, per, whole
 
 ARRAYS = Arrays(
+    scalars={
+        **whole(
+            "n_groups",
+        ),
+    },
     floats={},
     integers={
         "active": per(1, "n_slots"),

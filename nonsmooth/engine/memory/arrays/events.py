@@ -2,11 +2,56 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per
+import math
+
+from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per, real, whole
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.limits import LIMITS
 
 ARRAYS = Arrays(
+    scalars={
+        **whole(
+            "event_floats",
+            "event_integers",
+            "sample_capacity",
+            "n_events",
+            "floats_used",
+            "integers_used",
+            "last_floats",
+            "last_contact",
+            "last_integers",
+            "told",
+            "n_samples",
+            "started",
+            "resumed",
+            "steps",
+            "rejected",
+            "limit",
+            "impacts",
+            "policy",
+            "halting",
+            "recorded",
+            "sample_index",
+            "calls",
+        ),
+        **real(
+            "t_end",
+            "h_free",
+            "h_listed",
+            "h_first",
+            "h_closed",
+            "h_valid",
+            "end_of_valid",
+            "time_resolution",
+            "sample_start",
+            "sample_interval",
+            "next_sample",
+        ),
+        # in which samples fill half of their room
+        "sample_span": math.inf,
+        # nothing has happened yet
+        "chosen_t": -math.inf,
+    },
     floats={
         "event_head": fixed(5),
         "event_impulse": per(3, "n_slots"),

@@ -2,10 +2,50 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, guards, per
+import math
+
+from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, guards, per, real, whole
 from nonsmooth.engine.memory.layout import N_STAGES, PART_END, PARTS
 
 ARRAYS = Arrays(
+    scalars={
+        **whole(
+            "n_own_guards",
+            "n_y",
+            "gap_looks",
+            "failed",
+            "blamed",
+            "account_open",
+            "suspect",
+            "follows",
+            "replaced",
+            "n_doubtful",
+            "looked",
+            "n_astray",
+        ),
+        **real(
+            "h",
+            "step_error",
+            "relaxation",
+            "stage_time",
+            "h_max",
+            "rtol",
+            "driven_work",
+            "friction_loss",
+            "restitution_loss",
+            "closing_loss",
+            "found",
+            "allowed",
+            "kinetic_before",
+            "potential_before",
+            "booked_before",
+            "open_energy",
+            "open_share",
+            "open_t",
+        ),
+        # nothing has happened yet
+        "feature_t": -math.inf,
+    },
     floats={
         "y_new": per(1, "n_y"),
         "y_stage": per(1, "n_y"),

@@ -2,11 +2,39 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, per
+from nonsmooth.engine.memory.arrays.arrays import Arrays, per, real, whole
 from nonsmooth.engine.memory.blocks import GUARD
 from nonsmooth.engine.memory.layout import N_STAGES, TOTALS
 
 ARRAYS = Arrays(
+    scalars={
+        **whole(
+            "map_width",
+            "phases",
+            "impact_steps",
+            "culprit",
+            "impact_map",
+            "lossless",
+            "map_past",
+            "trigger",
+            "aimed",
+            "lone",
+            "n_colliding",
+            "may_be_lone",
+            "phases_kept",
+            "truncated",
+            "slow_steps",
+            "jammed",
+        ),
+        **real(
+            "impact_rtol",
+            "speed_scale",
+            "impact_h",
+            "faint",
+            "guard_slope",
+            "rest_speed",
+        ),
+    },
     floats={
         "map_block": lambda n: n["map_width"] * n["n_slots"],
         "impact_y": per(8, "n_slots"),

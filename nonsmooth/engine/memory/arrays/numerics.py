@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed
+from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, real, whole
 from nonsmooth.engine.memory.layout import N_STAGES
 
 ARRAYS = Arrays(
+    scalars={
+        **whole(
+            "n_active",
+            "first_grouped",
+            "half_band",
+            "crowded",
+            "null_half",
+        ),
+        **real(
+            "null_shift",
+        ),
+    },
     floats={
         "stages": fixed(6 * N_STAGES),
         "error_weights": fixed(N_STAGES),

@@ -1,0 +1,83 @@
+"""Calls of an engine's ``advance``, which must keep its contract: a status that there is, and a run that gets on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, final
+
+import numpy as np
+
+from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS
+from nonsmooth.engine.memory.tables import places
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.interfaces import Engine
+from nonsmooth.model.image import Image
+from nonsmooth.model.laid_out import LaidOut
+
+_STATUSES = tuple(status for status in REASONS if status != CONDITION_MET)
+_WATCH = places("work", "patience")
+"""What changes although nothing is done."""
+_IDLE = 2
+"""The first of two calls in a row may find full buffers."""
+
+
+@final
+class Advancing:
+    """Calls an engine on a model.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine.
+    model : LaidOut
+        What runs.
+    call : callable
+        What ``advance`` gets to call entry points with.
+    """
+
+    def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any]) -> None:
+        self._engine, self._memory, self._call = engine, model.memory, call
+        self._idle = 0
+
+    def advance(self, most_steps: int, wary: bool) -> int:
+        """Let the engine go on; return the status.
+
+        Raises
+        ------
+        InvalidInput
+            If it breaks its contract; the message names it and the rule.
+        """
+        thing = f"{type(self._engine).__name__}.advance"
+        try:
+            status = self._engine.advance(self._call, self._memory, most_steps, wary)
+        except UnknownName as error:
+            raise InvalidInput(f"{thing}: {error.thing}", error.rule, error.value, error.remedy) from error
+        if status not in _STATUSES:
+            names = "DONE, PAUSED, STOPPED or a failure of nonsmooth.engine.memory.modes"
+            raise InvalidInput(f"{thing}: its status", f"must be {names}", status, "Return PAUSED to be called again.")
+        t, t_end = (float(self._memory.record[name]) for name in ("t", "t_end"))
+        if status == DONE and t != t_end:
+            rule = f"must be at the end time {t_end:.9g} s where it is DONE"
+            raise InvalidInput(f"{thing}: S.t", rule, t, "Return PAUSED to be called again, or set S.t to S.t_end.")
+        return int(status)
+
+    def get_on(self, most_steps: int, before: Image) -> int:
+        """Let the engine go on that need not be wary, from an image that the memory has; as :meth:`advance`."""
+        status = self.advance(most_steps, False)
+        self._idle = self._idle + 1 if status == PAUSED and self._is_as(before) else 0
+        if self._idle == _IDLE:
+            raise InvalidInput(
+                f"{type(self._engine).__name__}.advance",
+                "must do a step where it need not be wary and the buffers are empty",
+                f"nothing done at t = {float(self._memory.record['t']):.9g} s",
+                "Return DONE at S.t_end; where time stops passing, STALLED.",
+            )
+        return status
+
+    def _is_as(self, image: Image) -> bool:
+        if self._memory.record["t"] != image.record["t"]:
+            return False
+        (now, *others), (then, *kept) = self._memory.bits, image.parts
+        differ = now != then
+        differ[_WATCH] = False
+        return not differ.any() and all(map(np.array_equal, others, kept))
