@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import evaluate_compliant_force, refresh_states
-from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry, evaluate_rates
+from nonsmooth.engine.bodies.kinematics import (
+    evaluate_bias,
+    evaluate_geometry,
+    evaluate_jacobian,
+    evaluate_rates,
+)
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -32,7 +37,8 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
         if contact.mode == OPEN and contact.gap > near:
             contact.touching = 0
             continue
-        evaluate_contact(S, w, k, c, 3)
+        evaluate_jacobian(S, w, k, c)
+        evaluate_bias(S, w, k, c, 3)
         if rate < -S.velocity_tolerance:
             approaching = 1
     return approaching
@@ -48,7 +54,8 @@ def _touch_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     if gap > end + S.gap_tolerance or (gap > end - S.gap_tolerance and not slow):
         contact.touching = 0
         return
-    evaluate_contact(S, w, k, c, 3)
+    evaluate_jacobian(S, w, k, c)
+    evaluate_bias(S, w, k, c, 3)
     evaluate_compliant_force(S, w, k, c)
 
 

@@ -11,6 +11,7 @@ from nonsmooth.engine.flow.clearance import foresee
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
+    BY_CLOSING,
     BY_END,
     BY_ERROR,
     BY_FIRST,
@@ -29,6 +30,12 @@ _BEGINS = 10.0
 """A compliant contact begins so many gap tolerances from its reach at most."""
 _FIRST_WAY = 1e-3
 """Way that surfaces go in the first step of one, in units of the smaller body."""
+_BEHIND = 1.1
+"""A first step goes so far, in units of the time in which a gap is expected to close: it is short, and tells when."""
+_EXACT = 0.4
+"""Only where that is below this part of the step does it make its error a hundred times smaller."""
+_SHORTEST = 0.01
+"""But it is no shorter than this part of what it would be."""
 _ATTEMPTS = 200
 """Lengths that are tried of one step."""
 
@@ -65,13 +72,15 @@ def wanted_step(S: Scalars, w: Floats, k: Integers) -> float:
 def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
     """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
     h = min(wanted, S.h_listed, S.sample_span, S.h_valid)
+    S.h_closing = 1e300
     if S.fresh == 0:
         for c in range(S.n_contacts):
             contact = contact_at(S, w, k, c)
             if contact.mode != OPEN:
                 S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
         h = min(h, S.h_first)
-        foresee(S, w, k, h)
+        S.h_closing = max(_SHORTEST * h, _BEHIND * foresee(S, w, k, h))
+        h = S.h_closing if S.h_closing < _EXACT * h else h
     return float(h)
 
 
@@ -84,6 +93,8 @@ def _limit(S: Scalars, wanted: float, h: float) -> int:
         return BY_LIST
     if h == S.sample_span:
         return BY_SAMPLES
+    if h == S.h_closing:
+        return BY_CLOSING
     return BY_END if h == S.h_valid else BY_FIRST
 
 

@@ -144,17 +144,38 @@ def _fall(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
     return fall, grows, rate
 
 
-@kernel("void(S, F, I, f8)")
-def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+@kernel("f8(S, F, I, i8, i8)")
+def _expected_closing(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> float:
+    """Return after what time the gap of ``c`` closes if its bodies go on as they accelerate now [s].
+
+    That is for balls to tell: where the surfaces turn with the bodies, gaps that do not close would shorten steps.
+    """
+    contact = contact_at(S, w, k, c)
+    if min(contact.lever_a, contact.lever_b) > 0.0:
+        return 1e300
+    gap, rate = contact.gap_end, contact.gap_rate_end
+    one, other = _acceleration(S, w, k, c, 0, 0, du), _acceleration(S, w, k, c, 1, 0, du)
+    square = rate * rate - 2.0 * dot(contact.normal, minus(other, one)) * gap
+    if gap <= S.gap_tolerance or square < 0.0 or math.sqrt(square) <= rate:
+        return 1e300
+    return float(2.0 * gap / (math.sqrt(square) - rate))
+
+
+@kernel("f8(S, F, I, f8)")
+def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
 
-    The bodies stand there; later they would have to be put there.
+    The bodies stand there; later they would have to be put there.  Return when the first of these gaps is expected to
+    close [s].
     """
+    soonest = 1e300
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         faces = contact.mode == OPEN and contact.past_first <= 0.0
         if faces and guard_at(S, w, k, normal_guard(c)).end <= 2.0 * h * contact.speed_first:
             contact.fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
+            soonest = min(soonest, _expected_closing(S, w, k, c, S.slopes + S.n_q))
+    return soonest
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
@@ -235,12 +256,27 @@ def _above_start(S: Scalars, w: Floats, k: Integers, c: int, gap: float) -> floa
     return float(gap - guard.start) if guard.deflated == 1 else gap
 
 
+@kernel("void(S, F, I, i8, f8)")
+def _write_gap_guard(S: Scalars, w: Floats, k: Integers, c: int, elapsed: float) -> None:
+    """Write the guard of the gap of ``c``, which has been evaluated when this time of the step had elapsed."""
+    contact, guard = contact_at(S, w, k, c), guard_at(S, w, k, normal_guard(c))
+    contact.gap_rate = contact.rate[0]
+    guard.value = grown(S, w, k, normal_guard(c), contact.gap, elapsed)
+
+
+@kernel("void(S, F, I, f8, f8, i8)")
+def look_at_gap(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
+    """Evaluate the gap of ``c`` alone at a fraction of the step, and write its guard."""
+    _put(S, w, k, h, theta, c)
+    evaluate_rates(S, w, k, c)
+    _write_gap_guard(S, w, k, c, theta * h)
+
+
 @kernel("void(S, F, I, f8, f8, i8, i8)")
 def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, n: int) -> None:
     """Keep end ``n`` of the parts of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
     contact, guard, end = contact_at(S, w, k, c), guard_at(S, w, k, normal_guard(c)), part_end(w, S.part_ends, n)
-    contact.gap_rate = contact.rate[0]
-    guard.value = grown(S, w, k, normal_guard(c), contact.gap, theta * h)
+    _write_gap_guard(S, w, k, c, theta * h)
     if guard.value > 0.0:
         guard.armed = 1
     end.theta, end.gap, end.rate = theta, _above_start(S, w, k, c, contact.gap), contact.gap_rate
@@ -250,8 +286,7 @@ def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, n:
 @kernel("void(S, F, I, f8, f8, i8, i8)")
 def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, n: int) -> None:
     """Evaluate the gap of ``c`` at a fraction of the step and keep it as end ``n`` of the parts of it."""
-    _put(S, w, k, h, theta, c)
-    evaluate_rates(S, w, k, c)
+    look_at_gap(S, w, k, h, theta, c)
     _keep(S, w, k, h, theta, c, n)
 
 

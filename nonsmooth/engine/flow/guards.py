@@ -74,9 +74,29 @@ def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
         contact.feature = int(contact.feature_now) if looks and contact.mode != OPEN else -1
 
 
+@kernel("void(S, F, I, i8)")
+def _write_gap(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+    """Evaluate the open contact ``c`` and write its guards."""
+    contact = contact_at(S, w, k, c)
+    evaluate_geometry(S, w, k, c)
+    evaluate_rates(S, w, k, c)
+    guard_at(S, w, k, normal_guard(c)).value = contact.gap
+    guard_at(S, w, k, friction_guard(S, c)).value = 1.0
+    contact.gap_rate = contact.rate[0]
+
+
 @entry_point("void(S, F, I, f8, i8, i8)")
 def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: int) -> None:
     """Write the guards after the right-hand side at ``t`` and ``y``; of closed contacts if ``forces`` are known (1)."""
+    _write_other_guards(S, w, k, t, y, forces)
+    for c in range(S.n_contacts):
+        if contact_at(S, w, k, c).mode == OPEN:
+            _write_gap(S, w, k, c)
+
+
+@kernel("void(S, F, I, f8, i8, i8)")
+def _write_other_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: int) -> None:
+    """Write the guards that are no gaps."""
     if S.n_grouped == 0:
         evaluate_driven_bodies(S, w, k, t, y)
     elif forces == 1:
@@ -90,14 +110,6 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
                 friction.value = contact.static_margin
             else:
                 friction.value = slip_guard(S, w, k, c)
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.mode == OPEN:
-            evaluate_geometry(S, w, k, c)
-            evaluate_rates(S, w, k, c)
-            guard_at(S, w, k, normal_guard(c)).value = contact.gap
-            guard_at(S, w, k, friction_guard(S, c)).value = 1.0
-            contact.gap_rate = contact.rate[0]
     for g in range(S.n_own_guards):
         own = own_guard_at(S, w, k, g)
         value = call_guard(own.function, t, at(w, y), at(w, y + S.n_q), at(w, own.parameters))
@@ -111,12 +123,19 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
 
 @kernel("void(S, F, I, f8, i8, f8, i8)")
 def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapsed: float, forces: int) -> None:
-    """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step."""
+    """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step.
+
+    Gaps that cannot close in the step are left as they are at its end.
+    """
     if forces == 1:
         right_hand_side(S, w, k, t, y, 0)
     else:
         evaluate_bodies(S, w, k, t, y)
-    write_guards(S, w, k, t, y, forces)
+    _write_other_guards(S, w, k, t, y, forces)
+    for i in range(S.n_doubtful):
+        _write_gap(S, w, k, k[S.doubtful + i])
+    for i in range(S.n_astray):
+        _write_gap(S, w, k, k[S.astray + i])
     deflate(S, w, k, elapsed)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing
+from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_own_guard,
@@ -89,9 +89,19 @@ def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, fo
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
 
 
+@kernel("i8(S, F, I, i8)")
+def _is_of_open_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is the gap of an open contact, on which nothing but its two bodies acts."""
+    return 1 if i < S.n_contacts and contact_at(S, w, k, i).mode == OPEN else 0
+
+
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
 def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
-    guards_within(S, w, k, h, theta, forces)
+    """Return guard ``i`` at the fraction ``theta`` of the step; of a gap nothing else is evaluated."""
+    if _is_of_open_gap(S, w, k, i) == 1:
+        look_at_gap(S, w, k, h, theta, i)
+    else:
+        guards_within(S, w, k, h, theta, forces)
     return float(guard_at(S, w, k, i).value)
 
 
@@ -267,8 +277,20 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
     """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
 
-    Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.  The guards are left
-    evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where the guard jumps.
+    The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where
+    the guard jumps.
+    """
+    theta = _vanishing(S, w, k, h, high, i, forces)
+    if _is_of_open_gap(S, w, k, i) == 1:
+        guards_within(S, w, k, h, theta, forces)
+    return theta
+
+
+@kernel("f8(S, F, I, f8, f8, i8, i8)")
+def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
+    """Return the same; of the guards ``i`` is evaluated there, those that are no gaps together with it.
+
+    Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.
     """
     fine = _FINE * S.time_tolerance
     low, g_low = 0.0, guard_at(S, w, k, i).first

@@ -9,12 +9,13 @@ from __future__ import annotations
     BY_LIST,
     BY_SAMPLES,
     BY_FIRST,
+    BY_CLOSING,
     BY_SINGULARITY,
     BY_STOP,
     BY_EVENT,
     BY_CROWD,
     BY_END,
-) = range(11)
+) = range(12)
 
 LIMITS = (
     "no step",
@@ -23,6 +24,7 @@ LIMITS = (
     "list of near contacts",
     "samples",
     "first step in contact",
+    "gap about to close",
     "Painleve singularity",
     "slip that stops",
     "event",

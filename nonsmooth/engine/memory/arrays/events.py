@@ -39,6 +39,7 @@ ARRAYS = Arrays(
             "h_free",
             "h_listed",
             "h_first",
+            "h_closing",
             "h_closed",
             "h_valid",
             "end_of_valid",
