@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.variables import of_events, of_samples, of_system
 
 if TYPE_CHECKING:
     import xarray
+
+    from nonsmooth.solution.solution import Solution
 
 
 def to_dataset(solution: Solution) -> xarray.Dataset:

@@ -17,6 +17,7 @@ from nonsmooth.parameters import UnusualValue
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation
 from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.make import make
 from nonsmooth.testing.property import Broken, NotChecked, Property, properties
 
 _POSES = 6
@@ -41,8 +42,6 @@ def check_distance_backend(backend: DistanceBackend) -> list[Property]:
 
 
 def _shapes() -> list[Shape]:
-    from nonsmooth.testing.registered import make
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnusualValue)
         kinds = registry.load_all("shapes").items()

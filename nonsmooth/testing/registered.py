@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
 import inspect
-import math
-import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -26,7 +23,6 @@ from nonsmooth.interfaces import (
     Shape,
     TractionLaw,
 )
-from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.plugins import registry
 from nonsmooth.testing.body import check_body
 from nonsmooth.testing.distances import check_distance_backend
@@ -37,6 +33,7 @@ from nonsmooth.testing.impact import check_impact_law
 from nonsmooth.testing.joint import check_joint
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from nonsmooth.testing.load import check_load
+from nonsmooth.testing.make import make
 from nonsmooth.testing.motion import check_motion
 from nonsmooth.testing.normal import check_normal_law
 from nonsmooth.testing.property import Property
@@ -116,38 +113,3 @@ def _installed(kind: type[Shape]) -> type[Shape]:
             "check", "must be of a pair of shapes that are installed", kind.__name__, "No installed shape is one."
         )
     return derived[0]
-
-
-def make(owner: Any, name: str, words: Mapping[str, str]) -> Any:
-    """Return a component with the parameters given, those of its example, and some value for others without default.
-
-    Raises
-    ------
-    InvalidInput
-        If a value is wrong, or a field without default is no declared number and not in the example.
-    """
-    values = {**owner.example(), **from_words(owner, words, name)}
-    for field in dataclasses.fields(owner):
-        if field.name in values or not field.init or field.default is not field.default_factory:
-            continue
-        rule = rules(owner)[field.name][1] if field.name in rules(owner) else Rule("", "")
-        if rule.unit == "" and not rule.choices:
-            raise InvalidInput(
-                f"{name}.{field.name}",
-                "must have a value to be looked at with",
-                None,
-                f"Let {owner.__name__}.example return one, or pass an object to the function of nonsmooth.testing.",
-            )
-        values[field.name] = rule.choices[0] if rule.choices else _typical(rule)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UnusualValue)
-        return owner(**values)
-
-
-def _typical(rule: Rule) -> float:
-    low, high = max(rule.minimum, rule.above), rule.maximum
-    if math.isfinite(low) and math.isfinite(high):
-        return 0.5 * (low + high)
-    if rule.usual[0] > 0.0 and math.isfinite(rule.usual[1]):
-        return math.sqrt(rule.usual[0] * rule.usual[1])
-    return low + 1.0 if math.isfinite(low) else high - 1.0 if math.isfinite(high) else 1.0

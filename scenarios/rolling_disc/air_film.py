@@ -7,16 +7,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.engine.memory.blocks import FORCE, LOAD_MOMENT, LOAD_POINT, SPIN
+from nonsmooth.engine.memory.blocks import FORCE, LOAD_MOMENT, LOAD_POINT, ROTATION, SPIN
 from nonsmooth.interfaces import Load
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
+_NORMAL = ROTATION + 2
+"""Where the third axis of a body begins, in steps of 3."""
+
 
 def _evaluate(t: float, a: Floats, b: Floats, out: Floats, viscosity: float, radius: float) -> None:
-    x = a[8] * b[11] - a[11] * b[8]
-    y = a[11] * b[5] - a[5] * b[11]
-    z = a[5] * b[8] - a[8] * b[5]
+    ax, ay, az = a[_NORMAL], a[_NORMAL + 3], a[_NORMAL + 6]
+    bx, by, bz = b[_NORMAL], b[_NORMAL + 3], b[_NORMAL + 6]
+    x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
     sine = math.sqrt(x * x + y * y + z * z)
     drag = 0.25 * math.pi * viscosity * (radius / sine) ** 3
     for i in range(3):

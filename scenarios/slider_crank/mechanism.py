@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.types import Floats
 
 
@@ -67,9 +68,9 @@ def slider(q: Floats, out: Floats, crank_length: float, rod_length: float) -> No
     out[0] = crank_length * math.cos(q[0]) + rod_length * math.cos(q[1])
     out[2] = crank_length * math.sin(q[0]) + rod_length * math.sin(q[1])
     c, s = math.cos(q[2]), math.sin(q[2])
-    out[3], out[5] = c, -s
-    out[7] = 1.0
-    out[9], out[11] = s, c
+    out[ROTATION], out[ROTATION + 2] = c, -s
+    out[ROTATION + 4] = 1.0
+    out[ROTATION + 6], out[ROTATION + 8] = s, c
 
 
 def slider_jacobian(q: Floats, out: Floats, crank_length: float, rod_length: float) -> None:

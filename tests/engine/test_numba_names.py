@@ -16,7 +16,7 @@ if PLAIN:
 from llvmlite import __version__, ir
 from llvmlite.binding import parse_assembly
 from numba import types
-from numba.core import ccallback, codegen, compiler, event, runtime, typing
+from numba.core import ccallback, cgutils, codegen, compiler, event, funcdesc, runtime, typing
 from numba.core.bytecode import FunctionIdentity
 from numba.core.dispatcher import Dispatcher
 from numba.core.registry import cpu_target
@@ -31,6 +31,8 @@ from nonsmooth.engine.native.types import FLOATS, call_at, moved
 NAMES: tuple[tuple[Any, str, str], ...] = (
     (codegen.JITCodeLibrary, "_optimize_final_module", "each kernel is optimised by itself, and again in every caller"),
     (codegen.JITCodeLibrary, "_finalize_final_module", "each kernel becomes machine code that nobody calls"),
+    (codegen.JITCodeLibrary, "_finalized", "callers do not take in what each kernel is lowered to"),
+    (codegen.JITCodeLibrary, "has_dynamic_globals", "code with addresses of this process is kept for others"),
     (codegen.JITCodeLibrary, "codegen", "raw code is told of its environment, at an address that it has not"),
     (codegen.JITCPUCodegen, "set_env", "the same"),
     (codegen.JITCPUCodegen, "magic_tuple", "code of another processor is loaded"),
@@ -38,6 +40,8 @@ NAMES: tuple[tuple[Any, str, str], ...] = (
     (compiler.CompilerBase, "define_pipelines", "numba's own passes run, for twice the time"),
     (compiler.PassManager, "add_pass_after", "functions are not numbered"),
     (compiler.DefaultPassBuilder, "define_nopython_pipeline", "laws are not compiled"),
+    (funcdesc.FunctionDescriptor, "llvm_cfunc_wrapper_name", "code from disk has nothing that can be called"),
+    (cgutils.create_struct_proxy(types.complex128), "_getvalue", "records with names have no value"),
     (compiler.CompileResult, "_reduce", "nothing is kept on disk"),
     (compiler.CompileResult, "_rebuild", "nothing is loaded from disk"),
     (
@@ -141,6 +145,26 @@ def test_numbers_of_functions_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None
         function.compile()
         names.append(function.native_name)
     assert names[0] != names[1]
+
+
+class _Asked:
+    """A store that keeps nothing, and lists what it is asked."""
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+
+    def load_overload(self, signature: Any, context: Any) -> None:
+        self.asked.append("load")
+
+    def save_overload(self, signature: Any, compiled: Any) -> None:
+        self.asked.append("save")
+
+
+def test_a_store_takes_the_place_of_numbas_cache() -> None:
+    """Numba's own would keep code by the file of its function: that of a shim is made, and in none."""
+    store: Any = _Asked()
+    CFunction(_shim(jit(_law)), types.float64(types.float64, FLOATS), store, ShimPasses).compile()
+    assert store.asked == ["load", "save"]
 
 
 @pytest.mark.skipif(

@@ -47,7 +47,7 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
             for i in range(active.first_unknown, active.end_unknown):
-                _write_held_row(S, w, k, a, i, n)
+                _write_frictionless_row(S, w, k, a, i, n)
         solve_doubtful(S, w, k, n)
     for i in range(n):
         set_force(S, w, k, i, w[S.x + i])
@@ -79,7 +79,7 @@ def _write_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> No
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
-def _write_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+def _write_frictionless_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without the friction of sliding contacts to ``matrix``."""
     active = active_at(S, w, k, a)
     r = unknown_at(S, w, k, i).direction

@@ -62,13 +62,19 @@ def _list_unknowns(S: Scalars, w: Floats, k: Integers) -> int:
     return n
 
 
+@kernel("i8(S, i8, i8)")
+def _row(S: Scalars, n: int, i: int) -> int:
+    """Return where row ``i`` of the tableau begins: factors of ``n`` unknowns, of the covering variable, constant."""
+    return int(S.tableau + i * (n + 2))
+
+
 @kernel("void(S, F, I, i8, f8, f8)")
 def _lay(S: Scalars, w: Floats, k: Integers, n: int, g: float, size: float) -> None:
     """Write the tableau: complementary quantities by unknowns, covering column, constant; ``g``, ``size``: scales."""
     for i in range(n):
         a, corner = k[S.lemke_contact + i], k[S.lemke_corner + i]
         active = active_at(S, w, k, a)
-        row = S.tableau + i * (n + 2)
+        row = _row(S, n, i)
         # a cover that differs from row to row keeps pivots from being equal
         w[row + n] = 1.0 + 0.3 * ((0.6180339887498949 * (i + 1)) % 1.0)
         w[row + n + 1] = 0.0
@@ -100,7 +106,7 @@ def _lay(S: Scalars, w: Floats, k: Integers, n: int, g: float, size: float) -> N
 @kernel("void(S, F, I, i8, i8, i8)")
 def _pivot(S: Scalars, w: Floats, k: Integers, n: int, r: int, s: int) -> None:
     """Exchange the quantity of row ``r`` for that of column ``s``."""
-    row = S.tableau + r * (n + 2)
+    row = _row(S, n, r)
     pivot = w[row + s]
     for j in range(n + 2):
         w[row + j] = -w[row + j] / pivot
@@ -108,7 +114,7 @@ def _pivot(S: Scalars, w: Floats, k: Integers, n: int, r: int, s: int) -> None:
     for i in range(n):
         if i == r:
             continue
-        other = S.tableau + i * (n + 2)
+        other = _row(S, n, i)
         t = w[other + s]
         if t != 0.0:
             for j in range(n + 2):
@@ -120,12 +126,13 @@ def _pivot(S: Scalars, w: Floats, k: Integers, n: int, r: int, s: int) -> None:
 @kernel("i8(S, F, I, i8)")
 def _first_row(S: Scalars, w: Floats, k: Integers, n: int) -> int:
     """Return the row that the covering variable enters at, or -1 if none is needed."""
-    row, worst = -1, 0.0
+    first, worst = -1, 0.0
     for i in range(n):
-        ratio = w[S.tableau + i * (n + 2) + n + 1] / w[S.tableau + i * (n + 2) + n]
+        row = _row(S, n, i)
+        ratio = w[row + n + 1] / w[row + n]
         if ratio < worst:
-            row, worst = i, ratio
-    return row
+            first, worst = i, ratio
+    return first
 
 
 @kernel("i8(S, F, I, i8, i8)")
@@ -133,15 +140,17 @@ def _leaving(S: Scalars, w: Floats, k: Integers, n: int, s: int) -> int:
     """Return the row that reaches zero first when column ``s`` grows, or -1; among equals the covering variable."""
     best, chosen = 1e300, -1
     for i in range(n):
-        entry = w[S.tableau + i * (n + 2) + s]
+        row = _row(S, n, i)
+        entry = w[row + s]
         if entry < -_ZERO:
-            ratio = max(0.0, w[S.tableau + i * (n + 2) + n + 1]) / -entry
+            ratio = max(0.0, w[row + n + 1]) / -entry
             if ratio < best:
                 best = ratio
     pivot = 0.0
     for i in range(n):
-        entry = w[S.tableau + i * (n + 2) + s]
-        if entry < -_ZERO and max(0.0, w[S.tableau + i * (n + 2) + n + 1]) / -entry <= best + _ZERO:
+        row = _row(S, n, i)
+        entry = w[row + s]
+        if entry < -_ZERO and max(0.0, w[row + n + 1]) / -entry <= best + _ZERO:
             if k[S.lemke_row + i] == 2 * n:
                 return i
             if -entry > pivot:
@@ -185,7 +194,7 @@ def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
         unknown = k[S.lemke_row + i] - n
         if unknown < 0 or unknown >= n:
             continue
-        value = w[S.tableau + i * (n + 2) + n + 1] * size / g
+        value = w[_row(S, n, i) + n + 1] * size / g
         a, j = k[S.lemke_contact + unknown], k[S.lemke_corner + unknown]
         active = active_at(S, w, k, a)
         if j == -1:

@@ -17,7 +17,7 @@ from nonsmooth.engine.native.kernel import (
 
 
 @kernel("i8(S, F, I, i8)")
-def _root(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+def _leader(S: Scalars, w: Floats, k: Integers, number: int) -> int:
     """Return the articulation that stands for all that contacts join to this one, shortening the way there."""
     root = number
     while articulation_at(S, w, k, root).root != root:
@@ -61,14 +61,14 @@ def group_members(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         a, b = contact.articulation_a, contact.articulation_b
         if contact.member == 1 and articulation_at(S, w, k, a).nu > 0 and articulation_at(S, w, k, b).nu > 0:
-            articulation_at(S, w, k, _root(S, w, k, b)).root = _root(S, w, k, a)
+            articulation_at(S, w, k, _leader(S, w, k, b)).root = _leader(S, w, k, a)
     groups = members = 0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.member == 0:
             continue
         number = _articulation(S, w, k, c)
-        root = articulation_at(S, w, k, _root(S, w, k, number))
+        root = articulation_at(S, w, k, _leader(S, w, k, number))
         # between two driven bodies every contact is an island of its own
         if articulation_at(S, w, k, number).nu == 0 or root.group < 0:
             root.group = groups

@@ -111,7 +111,6 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
 
     An impact without collision needs a speed for its ``seed`` [m/s].
     """
-    S.lossless = 1 if cause == PAINLEVE and S.policy == COMPLIANT else 0
     remember(S, w, k)
     if cause == JAM:
         free_acceleration(S, w, k)
@@ -159,6 +158,7 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
         c = active.slot
         contact = contact_at(S, w, k, c)
         contact.code_during = impact_code(S, w, k, c)
+        active.lossless = 1 if cause == PAINLEVE and S.policy == COMPLIANT else 0
         for r in range(3):
             active.rate_before[r] = contact.rate[r]
     S.phases, S.truncated = 1, 0

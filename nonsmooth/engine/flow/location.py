@@ -274,7 +274,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
-def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
+def _event_fraction(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
     """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
 
     The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where
@@ -444,7 +444,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             return -1.0
         roots += 1
         later = theta
-        theta = _root(S, w, k, h, later, first, closed)
+        theta = _event_fraction(S, w, k, h, later, first, closed)
         if roots > 1 and S.guard_slope == -math.inf and (later - theta) * h <= S.time_tolerance:
             # it jumps where the one before does
             first = -1

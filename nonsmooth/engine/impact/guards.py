@@ -149,7 +149,7 @@ def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int
 
 
 @kernel("f8(S, F, I, f8, f8, f8, i8)")
-def _root(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: float, i: int) -> float:
+def _switch_fraction(S: Scalars, w: Floats, k: Integers, h: float, high: float, g_high: float, i: int) -> float:
     """Return the fraction of the step at which guard ``i`` vanishes on the interpolant (Anderson-Bjorck).
 
     The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``.
@@ -199,7 +199,7 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if first < 0:
             break
         S.trigger = first
-        theta = _root(S, w, k, h, theta, w[S.impact_guard + first], first)
+        theta = _switch_fraction(S, w, k, h, theta, w[S.impact_guard + first], first)
         first = fired_guard(S, w, k, first)
         if first >= 0 and w[S.impact_guard + first] >= -TOGETHER:
             break

@@ -54,7 +54,7 @@ def normal_force(S: Scalars, w: Floats, k: Integers, a: int, x: float) -> float:
 def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float:
     """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
     active = active_at(S, w, k, a)
-    if S.lossless == 1:
+    if active.lossless == 1:
         return 1.0
     contact = contact_at(S, w, k, active.slot)
     return call_scalar(contact.efficiency_function, rate, at(w, contact.efficiency_parameters))

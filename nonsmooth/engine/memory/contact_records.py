@@ -204,7 +204,7 @@ ACTIVE: Fields = {
     "block_mark": one("block_mark"),
     "rank": one("rank"),
     # an impact
-    **rows("phase", "halted", "rest_slip", "impulse_scale", "stored", "returned", "rubbed", "impulse"),
+    **rows("phase", "halted", "lossless", "rest_slip", "impulse_scale", "stored", "returned", "rubbed", "impulse"),
     "rate": row("impact_z"),
     "gap_rate": one("impact_z"),
     "slip": vector("impact_z", 1),
