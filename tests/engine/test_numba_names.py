@@ -30,6 +30,9 @@ from nonsmooth.engine.native.types import FLOATS, call_at, moved
 
 NAMES: tuple[tuple[Any, str, str], ...] = (
     (codegen.JITCodeLibrary, "_optimize_final_module", "each kernel is optimised by itself, and again in every caller"),
+    (codegen.JITCodeLibrary, "_optimize_functions", "loops are unrolled, for a fifth more of the time"),
+    (cpu_target.target_context.codegen(), "_tm", "no passes of our own are built"),
+    (cpu_target.target_context.codegen(), "_data_layout", "code is optimised for a processor without vectors"),
     (codegen.JITCodeLibrary, "_finalize_final_module", "each kernel becomes machine code that nobody calls"),
     (codegen.JITCodeLibrary, "_finalized", "callers do not take in what each kernel is lowered to"),
     (codegen.JITCodeLibrary, "has_dynamic_globals", "code with addresses of this process is kept for others"),

@@ -164,17 +164,16 @@ def _missing() -> tuple[str, ...]:
 
 
 def _compile_apart(names: tuple[str, ...]) -> None:
-    """Compile entry points into the cache, half each in two processes of their own, or all in one on one processor.
+    """Compile entry points into the cache, in two processes that begin at either end, or in one on one processor.
 
     They may fail, as only the cache knows of them.  In this process the compiler would leave half a gigabyte.
     """
     if folders()[1] is None:
         return
     n = min(2, numba.config.NUMBA_DEFAULT_NUM_THREADS)
-    parts = [names[i * len(names) // n : (i + 1) * len(names) // n] for i in range(n)]
     with contextlib.ExitStack() as stack:
-        for part in parts:
-            if part and (helper := _helper(part)) is not None:
+        for ordered in (names, names[::-1])[:n]:
+            if (helper := _helper(ordered)) is not None:
                 stack.enter_context(helper)
 
 
@@ -194,17 +193,22 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
 
 
 def compile_entries(names: tuple[str, ...]) -> None:
-    """Compile some of ``ENTRY_POINTS`` into the cache."""
+    """Compile those of some ``ENTRY_POINTS`` that the cache lacks into it, one after another.
+
+    Two that begin at either end meet where both have had as long.
+    """
     with uncollected():
-        _compile(_kernels_of([_entries[name].function for name in names]))
         for name in names:
-            _compiled(name)
+            if not _store(name).is_filled():
+                _compile(_kernels_of([_entries[name].function]))
+                _compiled(name)
 
 
 def _compile(kernels: list[tuple[Any, Any]]) -> None:
     for inner, typed in kernels:
-        inner.compile(typed)
-        inner.disable_compile()  # a call with other types converts: none makes a further copy
+        if not inner.overloads:
+            inner.compile(typed)
+            inner.disable_compile()  # a call with other types converts: none makes a further copy
 
 
 def _kernels_of(functions: Iterable[Callable[..., Any]]) -> list[tuple[Any, Any]]:
