@@ -155,7 +155,7 @@ def _of_segment(a: _Point, b: _Point) -> _Nearest:
 
 
 def _of_triangle(a: _Point, b: _Point, c: _Point) -> _Nearest:
-    normal = _cross(_minus(b, a), _minus(c, a))
+    normal = _normal(a, b, c)
     square = _dot(normal, normal)
     if square > 0.0:
         # the origin is over the inside where it is on the inner side of all three
@@ -165,10 +165,21 @@ def _of_triangle(a: _Point, b: _Point, c: _Point) -> _Nearest:
             and _dot(_cross(c, a), normal) >= 0.0
         )
         if inside:
-            height = _dot(a, normal) / square
+            # of the corner next to the origin, which leaves the least round-off
+            height = _dot(min((a, b, c), key=lambda p: _dot(p, p)), normal) / square
             point = height * normal[0], height * normal[1], height * normal[2]
             return _dot(point, point), point, (a, b, c)
     return min(_of_segment(a, b), _of_segment(b, c), _of_segment(c, a))
+
+
+def _normal(a: _Point, b: _Point, c: _Point) -> _Point:
+    """Return the normal of a triangle, as long as twice its area, of its two shorter edges.
+
+    Of two long edges that are nearly parallel it would be off by as much as moves the height of a sliver.
+    """
+    edges = _minus(b, a), _minus(c, b), _minus(a, c)
+    longest = max(range(3), key=lambda i: _dot(edges[i], edges[i]))
+    return _cross(edges[(longest + 1) % 3], edges[(longest + 2) % 3])
 
 
 def _of_tetrahedron(a: _Point, b: _Point, c: _Point, d: _Point) -> _Nearest:
@@ -176,7 +187,7 @@ def _of_tetrahedron(a: _Point, b: _Point, c: _Point, d: _Point) -> _Nearest:
     best: _Nearest | None = None
     outside = volume == 0.0
     for p, q, r, opposite in ((a, b, c, d), (a, c, d, b), (a, d, b, c), (b, d, c, a)):
-        normal = _cross(_minus(q, p), _minus(r, p))
+        normal = _normal(p, q, r)
         if volume == 0.0 or _dot(p, normal) * _dot(_minus(p, opposite), normal) < 0.0:
             outside = True
             here = _of_triangle(p, q, r)
