@@ -74,7 +74,7 @@ def _with_losses(scenario: NewtonsCradle) -> Any:
     y = np.concatenate([np.zeros(n - 1), np.where(np.arange(n) < strikers, scenario.speed, 0.0)])
     t = 0.0
     while np.any(y[: n - 1] > 1e-12) or np.any(np.diff(y[n - 1 :]) < -1e-12):
-        done = solve_ivp(slope, (t, t + 20.0), y, method="DOP853", rtol=1e-12, atol=1e-14, max_step=0.02)
+        done = solve_ivp(slope, (t, t + 20.0), y, method="DOP853", rtol=1e-12, atol=1e-14, max_step=0.01)
         t, y = t + 20.0, done.y[:, -1]
         assert t < 1e4
     return y[n - 1 :]
