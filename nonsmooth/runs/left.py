@@ -65,7 +65,8 @@ class Left(NamedTuple):
             tolerances = float(record["rtol"]), float(record["impact_rtol"])
             bodies = dict(zip(self.system.names.bodies, self.system.bodies, strict=True))
             moved = samples[:, 0], samples[:, 1 : 1 + int(record["n_q"])]
-            found = suspicions(worst, state.energy, bodies, moved, tolerances, counters.steps)
+            scale = float(record["scale_energy"])
+            found = suspicions(worst, state.energy, bodies, moved, tolerances, counters.steps, scale)
             if found:
                 status, message = "suspect", f"{message}, but {found}"
         return End(state, counters, status, message)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -25,15 +26,17 @@ def suspicions(
     samples: tuple[NDArray[np.float64], NDArray[np.float64]],
     tolerances: tuple[float, float],
     steps: int,
+    scale: float,
 ) -> str:
     """Return what is wrong with a run, "" for nothing.
 
     ``worst_event`` has time [s], energy [J] and share of what is explained; ``bodies`` are those of the system by name;
-    ``samples`` t and q; ``tolerances`` are those of a step and of an impact, ``steps`` their number.
+    ``samples`` t and q; ``tolerances`` are those of a step and of an impact, ``steps`` their number; ``scale`` is
+    the kinetic energy of velocities as large as their scales [J].
     """
     found = (
         open_event(*worst_event),
-        open_run(energy, max(tolerances[0], _OF_IMPACTS * tolerances[1]), steps),
+        open_run(energy, max(tolerances[0], _OF_IMPACTS * tolerances[1]), steps, scale),
         long_quaternion(bodies, *samples, tolerances[0]),
     )
     return "; ".join(filter(None, found))
@@ -49,12 +52,17 @@ def open_event(time: float, energy: float, share: float) -> str:
     )
 
 
-def open_run(energy: EnergyAccount, tolerance: float, steps: int) -> str:
-    """Return what is wrong with the energy account of a run of so many steps of a relative tolerance, or ""."""
-    most = max(_EXPLAINED, steps) * tolerance
+def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float = 0.0) -> str:
+    """Return what is wrong with the energy account of a run of so many steps of a relative tolerance, or "".
+
+    Of slow motion the tolerance is a part of the scale of velocities, which have the kinetic energy ``scale`` [J].
+    """
+    slow = steps * tolerance * math.sqrt(energy.scale * scale)
     potential = max(abs(energy.potential_start), abs(energy.potential_end))
-    if energy.unexplained <= most * energy.scale + _ROUND_OFF * potential:
+    explained = max(_EXPLAINED, steps) * tolerance * energy.scale + slow + _ROUND_OFF * potential
+    if energy.unexplained <= explained:
         return ""
+    most = explained / energy.scale if energy.scale > 0.0 else explained
     return (
         f"the energy account of the run is open by {energy.unexplained:.3g} J, {energy.residual:.3g} of what was "
         f"exchanged, of which the tolerances explain {most:.3g}"

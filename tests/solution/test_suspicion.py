@@ -37,6 +37,14 @@ def test_round_off_of_a_large_potential_energy_is_none() -> None:
     assert open_run(_account(1e-2, 1e9), 1e-9, 10) != ""
 
 
+def test_slow_motion_is_known_to_a_part_of_the_scale_of_velocities() -> None:
+    """Ten steps, each to 1e-9 of velocities of a Joule, explain 1.4e-14 J of 2e-12 J."""
+    slow = EnergyAccount(0.0, 1e-12, 0.0, 0.0, 0.0, 0.0, 1e-12 - 1e-14, 0.0, 1e-12, 0.0)
+    assert "open by 1e-14 J" in open_run(slow, 1e-9, 10)
+    assert open_run(slow, 1e-9, 10, 1.0) == ""
+    assert "open by 1e-14 J" in open_run(slow, 1e-9, 5, 1.0)
+
+
 def test_an_event_is_named_with_time_and_energy() -> None:
     """From a share of one on."""
     assert open_event(0.5, 1e-3, 1.0) == ""
@@ -62,7 +70,7 @@ def test_all_that_is_found_is_said() -> None:
     """Nothing for nothing."""
     t: Any = np.zeros(0)
     samples = t, np.zeros((0, 0))
-    assert suspicions((0.0, 0.0, 0.0), _account(0.0), {}, samples, (1e-9, 1e-8), 10) == ""
-    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), {}, samples, (1e-9, 1e-8), 10)
+    assert suspicions((0.0, 0.0, 0.0), _account(0.0), {}, samples, (1e-9, 1e-8), 10, 0.0) == ""
+    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), {}, samples, (1e-9, 1e-8), 10, 0.0)
     assert "at the event" in both
     assert "; the energy account" in both

@@ -127,6 +127,18 @@ def close_account(S: Scalars, w: Floats, k: Integers) -> None:
         S.open_share, S.open_energy, S.open_t = share, change - booked, S.t
 
 
+@kernel("f8(S, F, I)")
+def _scale_energy(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return the kinetic energy of velocities as large as their scales, the bodies being evaluated [J]."""
+    total = 0.0
+    for number in range(S.n_bodies):
+        body = body_at(S, w, k, number)
+        masses, scales = body.tail + body.nq + body.nu, S.y_scale + S.n_q + body.u
+        for i in range(body.nu):
+            total += 0.5 * w[masses + i * (body.nu + 1)] * w[scales + i] ** 2
+    return total
+
+
 @kernel("void(S, F, I)")
 def check_end(S: Scalars, w: Floats, k: Integers) -> None:
     """Look at the state in which the run ends as at one in which a step begins."""
@@ -135,5 +147,6 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         evaluate_geometry(S, w, k, c)
         contact.gap_end = contact.gap
+    S.scale_energy = _scale_energy(S, w, k)
     close_account(S, w, k)
     check_gaps(S, w, k)

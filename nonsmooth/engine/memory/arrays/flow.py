@@ -41,6 +41,7 @@ ARRAYS = Arrays(
             "booked_before",
             "open_energy",
             "open_share",
+            "scale_energy",
             "open_t",
         ),
         # nothing has happened yet
