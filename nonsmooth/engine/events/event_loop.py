@@ -37,7 +37,7 @@ from nonsmooth.engine.flow.projection import (
     project_closed,
     project_joints,
 )
-from nonsmooth.engine.flow.self_check import check_change, check_end, check_gaps, close_account
+from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
@@ -364,8 +364,6 @@ def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
     if guard >= first_end_guard(S):
         which = guard - first_end_guard(S)
         changed = contact_at(S, w, k, which).beyond <= S.gap_tolerance
-        if changed:
-            check_change(S, w, k, which, h)
         _commit(S, w, k, h)
         if changed:
             S.feature_t = S.t

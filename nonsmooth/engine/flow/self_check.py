@@ -7,7 +7,6 @@ from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, RUNNING
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, frame_at, kernel
-from nonsmooth.engine.numerics.runge_kutta import dense_state
 from nonsmooth.engine.numerics.vectors import minus
 
 EXPLAINED = 1e3
@@ -62,22 +61,6 @@ def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
         # looked at closely only where it is not plainly explained
         if abs(gap) > EXPLAINED * S.gap_tolerance and abs(gap) > explained_gap(S, w, k, c):
             blame(S, GAP_UNEXPLAINED, c, gap, explained_gap(S, w, k, c))
-
-
-@kernel("void(S, F, I, i8, f8)")
-def check_change(S: Scalars, w: Floats, k: Integers, c: int, h: float) -> None:
-    """Look at compliant contact ``c``, which changes its features where a step of ``h`` ends: its gap must go on."""
-    contact = contact_at(S, w, k, c)
-    if contact.mode == OPEN or contact.normal_function == 0:
-        return
-    after, theta = contact.gap, max(0.0, 1.0 - 2.0 * S.time_tolerance / h)
-    dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
-    evaluate_bodies(S, w, k, S.t + theta * h, S.y_stage)
-    evaluate_geometry(S, w, k, c)
-    if abs(contact.gap - after) > explained_gap(S, w, k, c):
-        blame(S, GAP_UNEXPLAINED, c, after - contact.gap, explained_gap(S, w, k, c))
-    evaluate_bodies(S, w, k, S.t + h, S.y_new)
-    evaluate_geometry(S, w, k, c)
 
 
 @kernel("f8(S)")
