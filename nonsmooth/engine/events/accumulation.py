@@ -8,6 +8,7 @@ from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
+from nonsmooth.engine.events.contact_time import slow_modes
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
@@ -134,6 +135,22 @@ def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
     _begin_modes(S, w, k)
     _close(S, w, k, CLOSING)
     return closing
+
+
+@kernel("i8(S, F, I)")
+def close_slow(S: Scalars, w: Floats, k: Integers) -> int:
+    """Close islands in which what approaches is slow, in place of a collision; return 1 if all that approach are."""
+    if slow_modes(S, w, k) == 0:
+        return 0
+    remember(S, w, k)
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        contact.closes = 1 if contact.touching == 1 and contact.rate[0] < -S.velocity_tolerance else 0
+        if contact.mode == OPEN and contact.mode_agreed != OPEN:
+            begin_contact(S, w, k, c)
+        contact.mode = contact.mode_agreed
+    _close(S, w, k, CLOSING)
+    return 1
 
 
 @kernel("void(S, F, I, i8)")

@@ -14,7 +14,7 @@ from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_
 from nonsmooth.engine.contact.trial import slope_of_slip, small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
-from nonsmooth.engine.events.accumulation import close_contacts, hand_over, stop_creeping
+from nonsmooth.engine.events.accumulation import close_contacts, close_slow, hand_over, stop_creeping
 from nonsmooth.engine.events.record import (
     DRIVEN_WORK,
     FRICTION_LOSS,
@@ -342,7 +342,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = S.jammed = 0
-    resting = projected = 0
+    resting = projected = slowed = 0
     approaching = touch(S, w, k)
     open_account(S, w, k)
     if cause == JAM:
@@ -356,12 +356,17 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         if approaching == 1 and hand_over(S, w, k) == 1:
             approaching = touch(S, w, k)
             continue
+        if approaching == 1 and slowed == 0 and close_slow(S, w, k) == 1:
+            slowed = 1
+            approaching = touch(S, w, k)
+            continue
         if approaching == 1:
             status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k), 0.0)
             if status != RUNNING:
                 return status
             approaching = _approaches(S, w, k)
             continue
+        slowed = 0
         if S.recorded == 0 and projected == 0:
             remember(S, w, k)
         _expect(S, w, k, cause, which)

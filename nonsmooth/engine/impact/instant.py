@@ -77,7 +77,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
             scale = max(scale, abs(contact.bias[r]), abs(active.free[r]))
     # one that was too short to tell which contacts jam is followed by a longer one
     change = _MOMENT * S.velocity_tolerance * _LONGER ** float(S.jammed - 1)
-    _find_impulses(S, w, k, change / scale if scale > 0.0 else 0.0)
+    inelastic_impulses(S, w, k, change / scale if scale > 0.0 else 0.0)
     moved = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -92,11 +92,12 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
     return moved
 
 
-@kernel("void(S, F, I, f8)")
-def _find_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
+@kernel("i8(S, F, I, f8)")
+def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int:
     """Write to ``active_forces`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
 
-    The rates are those at hand and what the ``free_accelerations`` make of them in a ``moment`` [s].
+    The rates are those at hand and what the ``free_accelerations`` make of them in a ``moment`` [s]; those rates take
+    the place of the accelerations.  Return 1 if the impulses have settled.
     """
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
@@ -115,10 +116,12 @@ def _find_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> None:
         active = active_at(S, w, k, a)
         for r in range(3):
             active.force[r] *= 1.0 if active.normal_force > 0.0 else 0.0
+    found = 0
     for stage in range(STAGES):
         if search_by_newton(S, w, k, stage) == 1:
+            found = 1
             break
-    gauss_seidel(S, w, k, SWEEPS)
+    return max(found, int(gauss_seidel(S, w, k, SWEEPS)))
 
 
 @kernel()
