@@ -170,10 +170,17 @@ def test_let_go_upright_it_tips_a_little_early(build: Any, turned: float, feet: 
 
 
 @pytest.mark.parametrize("turned", [0.0, 0.8, math.pi / 3.0])
-def test_on_feet_of_a_millionth_of_its_radius_it_settles(build: Any, turned: float) -> None:
-    """Let go upright next to tipping, it drops by some ten nanometres from feet to rim and comes to rest."""
-    slope, feet = math.atan(THIN / LONG) * (1.0 - 1.5e-3), 1e-6
-    body = CylinderBody(THIN, LONG, foot_height=feet * THIN)
+@pytest.mark.parametrize("short", [1.5e-3, 4e-3])
+def test_on_feet_of_a_millionth_of_its_radius_energy_says_whether_it_goes_over(
+    build: Any, short: float, turned: float
+) -> None:
+    """Let go upright next to tipping, it drops by some ten nanometres from feet to rim, and goes on about the rim.
+
+    What strikes there has no moment about the rim, and next to none of the energy is lost: that with which it starts
+    is enough to pass the top or is not.
+    """
+    slope, feet = math.atan(THIN / LONG) * (1.0 - short), 1e-6 * THIN
+    body = CylinderBody(THIN, LONG, foot_height=feet)
     system = build.over(body, Rest(slope), friction=0.8)
     upright = Rotation.from_rotvec([0.0, slope, 0.0]) * Rotation.from_rotvec([0.0, 0.0, turned])
     system.place(
@@ -181,9 +188,11 @@ def test_on_feet_of_a_millionth_of_its_radius_it_settles(build: Any, turned: flo
         position=LONG * np.array([math.sin(slope), 0.0, math.cos(slope)]),
         orientation=tuple(np.roll(upright.as_quat(), 1).tolist()),
     )
+    spare = LONG * math.cos(slope) - math.hypot(THIN, LONG - feet) + THIN * math.sin(slope)
+    assert abs(spare) > 0.3 * feet
     solution = ns.simulate(system, 0.6)
-    assert abs(float(_lean(solution.q_end)) - math.sin(slope)) < 1e-5
-    assert np.max(np.abs(solution.u_end)) < 1e-4
+    fallen = float(_lean(solution.q_end)) - math.sin(slope)
+    assert (fallen > 0.3) if spare > 0.0 else (abs(fallen) < 1e-3)
     assert solution.counters.steps < 10000
 
 
