@@ -1,4 +1,4 @@
-"""Islands in which all is slower than a contact time of its accelerations makes it: they close in place of colliding."""
+"""Islands slower than a contact time of their accelerations makes them: they close in place of colliding."""
 
 from __future__ import annotations
 
