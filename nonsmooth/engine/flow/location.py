@@ -15,6 +15,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_own_guard,
     friction_guard,
+    is_friction_guard,
     normal_guard,
     number_of_guards,
 )
@@ -27,6 +28,7 @@ from nonsmooth.engine.flow.guards import (
     keep_end,
     write_guards,
 )
+from nonsmooth.engine.flow.self_check import explained_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
@@ -420,6 +422,23 @@ def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     return 0
 
 
+@kernel("i8(S, F, I, f8, i8)")
+def _hides_another(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> int:
+    """Return 1 if the gap of guard ``i``, which jumps, is so deep behind the jump that another one closed before.
+
+    It was between two looks that the features of that one came to face each other, and ceased to.  In a step in which
+    no gap can become so deep it is the jump of an evaluator.
+    """
+    if i >= first_own_guard(S) or is_friction_guard(S, i) == 1:
+        return 0
+    c = contact_of(S, i)
+    contact = contact_at(S, w, k, c)
+    if contact.mode != OPEN or contact.normal_function != 0:
+        return 0
+    reached = step * (contact.speed_first + contact.speed_end)
+    return 1 if explained_gap(S, w, k, c) < -contact.gap < reached else 0
+
+
 @entry_point("f8(S, F, I, f8, f8)")
 def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
@@ -462,6 +481,8 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         return -1.0
     S.trigger = fired
     step = theta * h
+    if S.guard_slope == -math.inf and _hides_another(S, w, k, step, fired) == 1:
+        return -1.0
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = (
         1
