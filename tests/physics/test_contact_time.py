@@ -9,7 +9,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Plate, Rest
-from laws import Coulomb, EnergeticImpact, Unilateral
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import CLOSING, IMPACT
 
 G, RADIUS, TIME = 9.81, 0.01, 1e-3
@@ -50,7 +50,7 @@ def test_what_is_faster_collides(part: float) -> None:
 
 
 def test_a_closing_does_not_rub() -> None:
-    """A slip that is no slower than its friction stops it within the contact time goes on as it was."""
+    """A slip that friction does not stop within the contact time loses nothing to the closing."""
     along = 0.3
     solution = ns.simulate(_groove(0.5 * G * TIME, along), 1e-6)
     slowing = 0.3 * math.sqrt(2.0) * G
@@ -58,8 +58,24 @@ def test_a_closing_does_not_rub() -> None:
     assert abs(solution.u_end[2]) < 1e-9
 
 
-def test_what_does_not_press_is_let_go() -> None:
-    """A ball that rises fast from one side and barely approaches the other is fast: they collide."""
+@pytest.mark.parametrize("part", [0.1, 0.5])
+def test_what_does_not_press_is_let_go(part: float) -> None:
+    """A ball that sinks onto the floor and leaves the wall that it touches: the floor closes, the wall does not."""
+    floor, wall, ball = Plate(), Plate(Rest(orientation=(math.sqrt(0.5), 0.0, math.sqrt(0.5), 0.0))), Ball(RADIUS)
+    system = ns.System([floor, wall, ball], G)
+    for side in (floor, wall):
+        law = EnergeticImpact(0.5, duration=TIME)
+        system.contact(side, ball, normal=Unilateral(), friction=Frictionless(), impact=law)
+    leaving = part * G * TIME
+    system.place(ball, position=(RADIUS, 0.0, RADIUS), velocity=(leaving, 0.0, -0.5 * G * TIME))
+    solution = ns.simulate(system, 1e-2)
+    assert IMPACT not in solution.events.cause
+    assert solution.u_end[0] == pytest.approx(leaving, rel=1e-12)
+    assert abs(solution.u_end[2]) < 1e-12
+
+
+def test_a_fast_gap_lets_its_island_collide() -> None:
+    """A ball that rises fast from one side, and hardly approaches the other, is in no slow island."""
     rising = 0.1 / math.sqrt(2.0)
     system = _groove(0.0)
     ball = system.bodies[2]

@@ -124,31 +124,32 @@ class _RawLibrary(_RolledLibrary):
         """Leave it: no code, no environment."""
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
-@final
-class LowerRaw(NativeLowering):
-    """Lowering that leaves what it makes to the callers; half of the time of compiling."""
+class _Lower(NativeLowering):
+    """Lowering to intermediate code into a library of one's own."""
 
-    _name = "raw_native_lowering"
+    _library: type[JITCodeLibrary]
 
     def run_pass(self, state: Any) -> bool:
-        """Lower to intermediate code."""
-        state.library = _RawLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
-        return bool(super().run_pass(state))
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-@final
-class LowerEntry(NativeLowering):
-    """Lowering into code with loops as they stand; a fifth of the time of compiling."""
-
-    _name = "entry_native_lowering"
-
-    def run_pass(self, state: Any) -> bool:
-        """Lower to intermediate code, and keep the machine code that is made of it."""
-        state.library = _RolledLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+        """Lower, and keep the machine code where the library makes any of it."""
+        state.library = self._library(state.targetctx.codegen(), state.func_id.func_qualname)
         state.library.enable_object_caching()
         return bool(super().run_pass(state))
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+@final
+class LowerRaw(_Lower):
+    """Lowering that leaves what it makes to the callers; half of the time of compiling."""
+
+    _name, _library = "raw_native_lowering", _RawLibrary
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+@final
+class LowerEntry(_Lower):
+    """Lowering into code with loops as they stand."""
+
+    _name, _library = "entry_native_lowering", _RolledLibrary
 
 
 _ENGINE = (
