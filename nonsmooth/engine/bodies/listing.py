@@ -39,7 +39,7 @@ from nonsmooth.engine.native.kernel import (
 from nonsmooth.engine.numerics.vectors import distance, dot
 
 _WIDTH = len(CATALOGUE)
-_MODE = CATALOGUE.index("mode")
+_MODE, _AVERAGED = CATALOGUE.index("mode"), CATALOGUE.index("averaged")
 _SPENT = 0.6
 """A list is drawn anew when a unit has used up this part of its way."""
 _NARROWEST = 2.0**-12
@@ -89,6 +89,7 @@ def _leave(S: Scalars, w: Floats, k: Integers) -> None:
         declared = contact.identity
         floats = at(w, S.catalogue_floats + CATALOGUE_FLOATS * declared)
         k[S.catalogue + _WIDTH * declared + _MODE] = contact.mode
+        k[S.catalogue + _WIDTH * declared + _AVERAGED] = contact.averaged
         floats[DIRECTION], floats[DIRECTION + 1] = contact.direction
         floats[CLOSING_RATE] = contact.closing_rate
     S.n_contacts = 0

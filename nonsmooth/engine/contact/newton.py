@@ -38,7 +38,7 @@ def _aim(S: Scalars, w: Floats, k: Integers, a: int) -> tuple[float, float]:
 
 
 @kernel("f8(S, F, I)")
-def _residual(S: Scalars, w: Floats, k: Integers) -> float:
+def write_natural_map(S: Scalars, w: Floats, k: Integers) -> float:
     """Write the natural map to ``right``; return its square."""
     square = 0.0
     for a in range(S.n_active):
@@ -140,7 +140,7 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
         sweeps *= 10
     width = 3 * S.n_active
     sweep(S, w, k, sweeps)
-    square = _residual(S, w, k)
+    square = write_natural_map(S, w, k)
     for _step in range(_STEPS):
         if interrupted(S, width + width * S.half_band * S.half_band // DEAR) == 1:
             return 0
@@ -161,7 +161,7 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
         for _halving in range(_HALVINGS):
             for i in range(width):
                 w[S.active_forces + i] = w[S.active_forces_kept + i] + share * w[S.x + i]
-            new = _residual(S, w, k)
+            new = write_natural_map(S, w, k)
             if new < (1.0 - 1e-4 * share) * square:
                 square, better = new, 1
                 break

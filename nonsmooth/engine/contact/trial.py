@@ -31,6 +31,7 @@ def hold_tried(S: Scalars, w: Floats, k: Integers) -> None:
         if mode == OPEN:
             active.normal_force = 0.0
     resolve(S, w, k)
+    S.evaluations += 1
     S.effort += float(S.n_unknown) ** 3
 
 

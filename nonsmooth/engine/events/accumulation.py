@@ -1,14 +1,16 @@
-"""Closing: the end of an accumulation of ever shorter bounces, Eq. (33)."""
+"""The end of an accumulation of ever shorter bounces, Eq. (33): of one contact by itself, and of an island."""
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.compliance import begin_contact
+from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
+from nonsmooth.engine.contact.inelastic import inelastic_impulses
+from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
-from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
-from nonsmooth.engine.events.contact_time import slow_modes
+from nonsmooth.engine.delassus.islands import activate_group, group_touching
+from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
@@ -19,153 +21,151 @@ _CREEPING = 1e-3
 """An approach below this part of what counts as zero is none."""
 
 
-@kernel("i8(S, F, I)")
-def _choose(S: Scalars, w: Floats, k: Integers) -> int:
-    """Mark the contacts whose bounces have become shorter than their contact time; return how many.
+@kernel("void(S, F, I, i8)")
+def provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+    """Give contact ``c`` the mode that its rates tell, until the instant is settled."""
+    contact = contact_at(S, w, k, c)
+    rigid = contact.normal_function == 0
+    if contact.touching == 0 or contact.released == 1 or (rigid and contact.rate[0] > S.velocity_tolerance):
+        contact.mode = OPEN
+        return
+    if contact.mode == OPEN:
+        begin_contact(S, w, k, c)
+    speed = slip_speed(S, w, k, c)
+    contact.mode = SLIDE if speed > S.velocity_tolerance else STICK
+    if speed > S.velocity_tolerance:
+        contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
-    What a jam has opened at this instant does not bounce: closed again it would jam again.
+
+@kernel("i8(S, F, I, i8)")
+def _is_short(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if contact ``c`` separates, but for no longer than its contact time.
+
+    How fast the next step may not be, lest it fly over the touch-down, is kept.
     """
-    closing = 0
-    S.h_first = 1e300
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        contact.closes = 0
-        rate = contact.rate[0]
-        if contact.touching == 0 or contact.normal_function != 0 or rate <= S.velocity_tolerance:
-            continue
-        approach = -(contact.bias[0] + row(S, w, k, c, 0, S.du))
-        if approach > 0.0:
-            # the next step shall not fly over the touch-down that is due after 2 rate / approach
-            S.h_first = min(S.h_first, 3.0 * rate / approach)
-        bounces = S.jammed == 0 and approach > 0.0 and rate <= approach * contact.contact_time
-        if bounces and closed_twin(S, w, k, c) < 0:
-            closing += 1
-            contact.closes = 1
-    return closing
-
-
-@kernel("i8(S, F, I)")
-def _join(S: Scalars, w: Floats, k: Integers) -> int:
-    """Close the contacts at rest that closing others makes approach, which is no collision; return how many."""
-    touch(S, w, k)
-    joining = 0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        rigid = contact.normal_function == 0
-        if rigid and contact.touching == 1 and contact.member == 0 and contact.rate[0] < -S.velocity_tolerance:
-            joining += 1
-            contact.member = 1
-            if take_over(S, w, k, c) == 0:
-                begin_contact(S, w, k, c)
-                contact.mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
-    return joining
-
-
-@kernel("void(S, F, I)")
-def _begin_modes(S: Scalars, w: Floats, k: Integers) -> None:
-    """Give the marked contacts modes, by their slips."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.closes == 1:
-            contact.mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
-
-
-@kernel("f8(S, F, I)")
-def _shut(S: Scalars, w: Floats, k: Integers) -> float:
-    """Bring the touching contacts that are closed to rest; return the energy that it takes [J].
-
-    Others are left alone, unless they are drawn in.
-    """
-    loss = 0.0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        contact.member = 1 if contact.touching == 1 and contact.mode != OPEN else 0
-    for _round in range(S.n_contacts):
-        group_members(S, w, k)
-        for group in range(S.n_groups):
-            activate_group(S, w, k, group)
-            loss += project_rates(S, w, k, 1)
-        if _join(S, w, k) == 0:
-            break
-    return loss
-
-
-@kernel("i8(S, F, I)")
-def _left_over(S: Scalars, w: Floats, k: Integers) -> int:
-    """Try to shut the marked contacts, and undo it; return the one of them that goes on separating most, or -1.
-
-    Contacts that all but repeat one another cannot be brought to rest together.
-    """
-    for i in range(S.n_u):
-        w[S.y_stage + S.n_q + i] = w[S.y + S.n_q + i]
-    work = S.driven_work
-    _begin_modes(S, w, k)
-    _shut(S, w, k)
-    which, worst = -1, S.velocity_tolerance
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.closes == 1 and contact.rate[0] > worst:
-            which, worst = c, contact.rate[0]
-    S.driven_work = work
-    for i in range(S.n_u):
-        w[S.y + S.n_q + i] = w[S.y_stage + S.n_q + i]
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        contact.mode = contact.mode_agreed
-    touch(S, w, k)
-    return which
+    contact = contact_at(S, w, k, c)
+    rate = contact.rate[0]
+    approach = -(contact.bias[0] + row(S, w, k, c, 0, S.du))
+    if rate <= S.velocity_tolerance or approach <= 0.0:
+        return 0
+    # the touch-down is due after 2 rate / approach
+    S.h_first = min(S.h_first, 3.0 * rate / approach)
+    return 1 if rate <= approach * contact.contact_time and closed_twin(S, w, k, c) < 0 else 0
 
 
 @kernel("i8(S, F, I)")
 def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
-    """Close the contacts whose bounces have become shorter than their contact time; return how many.
+    """End the bounces that have become shorter than their contact time; return how many.
 
+    One of a contact by itself is left out, and it closes; where several touch, the forces of their island are averaged.
     The modes must be those agreed on for this instant.
     """
-    closing = _choose(S, w, k)
-    while closing > 0:
-        which = _left_over(S, w, k)
+    S.h_first = 1e300
+    group_touching(S, w, k)
+    closing = 0
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        which = -1
+        for a in range(S.n_active):
+            c = active_at(S, w, k, a).slot
+            if _is_short(S, w, k, c) == 1:
+                which = c
         if which < 0:
-            break
-        contact_at(S, w, k, which).closes = 0
-        closing -= 1
-    if closing == 0:
-        return 0
-    remember(S, w, k)
-    _begin_modes(S, w, k)
-    _close(S, w, k, CLOSING)
+            continue
+        if S.n_active > 1:
+            closing += average_active(S, w, k)
+            continue
+        closing += 1
+        remember(S, w, k)
+        contact = contact_at(S, w, k, which)
+        contact.mode = SLIDE if slip_speed(S, w, k, which) > S.velocity_tolerance else STICK
+        before = S.driven_work
+        _book(S, w, k, project_rates(S, w, k, 1), before)
+        record_event(S, w, k, CLOSING, which, 0)
     return closing
 
 
+@kernel("void(S, F, I, f8, f8)")
+def _book(S: Scalars, w: Floats, k: Integers, loss: float, work_before: float) -> None:
+    """Book what a closing takes."""
+    w[S.event_head + CLOSING_LOSS] += loss
+    w[S.event_head + DRIVEN_WORK] += S.driven_work - work_before
+    S.closing_loss += loss
+
+
+@kernel("void(S, F, I)")
+def _stop_active(S: Scalars, w: Floats, k: Integers) -> None:
+    """Give the active contacts the impulses of an inelastic impact, of which none pulls, and book what they take."""
+    assemble_delassus(S, w, k)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        for r in range(3):
+            active.free[r] = active.force[r] = 0.0
+    inelastic_impulses(S, w, k, 0.0)
+    add_response(S, w, k, S.active_forces, S.y + S.n_q)
+    loss, before = 0.0, S.driven_work
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        for r in range(3):
+            impulse, rate = active.force[r], contact.rate[r]
+            loss -= 0.5 * impulse * add_product(S, w, k, 2.0 * rate, a, r, S.active_forces)
+            S.driven_work -= impulse * contact.prescribed_rate[r]
+            contact.event_impulse[r] = impulse
+    _book(S, w, k, loss, before)
+
+
 @kernel("i8(S, F, I)")
-def close_slow(S: Scalars, w: Floats, k: Integers) -> int:
-    """Close islands in which what approaches is slow, in place of a collision; return 1 if all that approach are."""
-    if slow_modes(S, w, k) == 0:
-        return 0
-    remember(S, w, k)
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        contact.closes = 1 if contact.touching == 1 and contact.rate[0] < -S.velocity_tolerance else 0
-        if contact.mode == OPEN and contact.mode_agreed != OPEN:
-            begin_contact(S, w, k, c)
-        contact.mode = contact.mode_agreed
-    _close(S, w, k, CLOSING)
-    return 1
+def _fastest_of_active(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return the active contact that approaches most, or -1 where none does."""
+    which, worst = -1, -S.velocity_tolerance
+    for a in range(S.n_active):
+        c = active_at(S, w, k, a).slot
+        rate = contact_at(S, w, k, c).rate[0]
+        if rate < worst:
+            which, worst = c, rate
+    return which
 
 
-@kernel("void(S, F, I, i8)")
-def _close(S: Scalars, w: Floats, k: Integers, cause: int) -> None:
-    """Shut the marked contacts, book what it takes, and record it."""
-    before = S.driven_work
-    w[S.event_head + CLOSING_LOSS] = _shut(S, w, k)
-    w[S.event_head + DRIVEN_WORK] = S.driven_work - before
-    S.closing_loss += w[S.event_head + CLOSING_LOSS]
-    which = -1
-    for c in range(S.n_contacts):
+@kernel("i8(S, F, I)")
+def _is_slow(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if no active gap changes faster than free accelerations, which must be written, make of it soon.
+
+    That is the greatest approach that they have, over the shortest contact time: Eq. (33), of an island in place of a
+    contact.
+    """
+    time, approach, fastest = 1e300, 0.0, 0.0
+    for a in range(S.n_active):
+        c = active_at(S, w, k, a).slot
         contact = contact_at(S, w, k, c)
-        if contact.closes == 1:
-            which = c
-    record_event(S, w, k, cause, which, 0)
+        time = min(time, contact.contact_time)
+        approach = max(approach, -(contact.bias[0] + row(S, w, k, c, 0, S.du)))
+        fastest = max(fastest, abs(contact.rate[0]))
+    return 1 if fastest <= approach * time else 0
+
+
+@kernel("i8(S, F, I)")
+def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
+    """Stop islands in which what approaches is slow, in place of a collision; return how many."""
+    free_acceleration(S, w, k)
+    push_compliant(S, w, k)
+    group_touching(S, w, k)
+    stopped, which = 0, -1
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        fastest = _fastest_of_active(S, w, k)
+        if fastest < 0 or _is_slow(S, w, k) == 0:
+            continue
+        if stopped == 0:
+            remember(S, w, k)
+        stopped, which = stopped + 1, fastest
+        _stop_active(S, w, k)
+    if stopped > 0:
+        touch(S, w, k)
+        for c in range(S.n_contacts):
+            provisional_mode(S, w, k, c)
+        record_event(S, w, k, CLOSING, which, 0)
+    return stopped
 
 
 @kernel("f8(S, F, I)")
@@ -217,10 +217,15 @@ def hand_over(S: Scalars, w: Floats, k: Integers) -> int:
         if approaches and closed_twin(S, w, k, c) < 0:
             return 0
     remember(S, w, k)
+    which = -1
     for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.closes == 1 and take_over(S, w, k, c) == 0:
-            # another one that approaches more has taken its twin's place
-            contact.closes = 0
-    _close(S, w, k, FEATURE_CHANGE)
+        if contact_at(S, w, k, c).closes == 1 and take_over(S, w, k, c) == 1:
+            # unless another one that approaches more has taken its twin's place
+            which = c
+    group_touching(S, w, k)
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        if _fastest_of_active(S, w, k) >= 0:
+            _stop_active(S, w, k)
+    record_event(S, w, k, FEATURE_CHANGE, which, 0)
     return 1

@@ -6,6 +6,7 @@ from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
+from nonsmooth.engine.events.averaging import average_island_of, holds_time_up
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import (
     CODE_HEAD,
@@ -42,6 +43,7 @@ from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
 from nonsmooth.engine.memory.modes import (
+    AVERAGING,
     DONE,
     FEATURE_CHANGE,
     FEATURE_END,
@@ -89,7 +91,7 @@ def _drifted(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        if contact.mode != OPEN:
+        if contact.mode != OPEN and contact.averaged == OPEN:
             rate, gap = abs(contact.rate_end[0]), abs(contact.gap_end)
             if contact.normal_function != 0:
                 rate = gap = 0.0
@@ -178,7 +180,9 @@ def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> in
     """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
     S.fresh = 0
     if stalls(S, w, k, which) == 1:
-        return STALLED
+        if average_island_of(S, w, k, which) == 0:
+            return STALLED
+        contact_at(S, w, k, which).crowd_events = 0
     return update_at_event(S, w, k, cause, which)
 
 
@@ -198,6 +202,9 @@ def _hardest_pressed(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I)")
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
+    if S.mean_until - S.t <= S.time_tolerance:
+        S.fresh = 0
+        return update_at_event(S, w, k, AVERAGING, -1)
     _evaluate_start(S, w, k)
     S.h_listed = longest_step(S, w, k) if S.n_units > 0 else 1e300
     if S.h_listed == 0.0:
@@ -211,6 +218,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
     orient_slips(S, w, k, 1)
     arm_guards(S, w, k)
+    which = holds_time_up(S, w, k) if S.n_grouped > 0 else -1
+    if which >= 0 and average_island_of(S, w, k, which) == 1:
+        S.fresh = 0
+        return update_at_event(S, w, k, AVERAGING, which)
     status = accepted_step(S, w, k)
     if status != RUNNING:
         return _without_step(S, w, k, status)
@@ -297,6 +308,8 @@ def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
             outcome = _carry_out(S, w, k, JAM, which)
             if outcome != NO_CONTACT_SOLUTION:
                 return int(outcome)
+            if average_island_of(S, w, k, which) == 1:
+                return update_at_event(S, w, k, AVERAGING, which)
     return _up_to_end(S, status)
 
 

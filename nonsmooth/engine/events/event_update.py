@@ -14,7 +14,14 @@ from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_
 from nonsmooth.engine.contact.trial import slope_of_slip, small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
-from nonsmooth.engine.events.accumulation import close_contacts, close_slow, hand_over, stop_creeping
+from nonsmooth.engine.events.accumulation import (
+    close_contacts,
+    hand_over,
+    provisional_mode,
+    stop_creeping,
+    stop_slow,
+)
+from nonsmooth.engine.events.averaging import average, average_active, keeps_averaging, reach_end
 from nonsmooth.engine.events.record import (
     DRIVEN_WORK,
     FRICTION_LOSS,
@@ -34,6 +41,7 @@ from nonsmooth.engine.impact.instant import jam_slips, map_impact
 from nonsmooth.engine.impact.problem import ENDLESS, FINISHED, energetic_impact
 from nonsmooth.engine.impact.window import LARGE, windowed_impact
 from nonsmooth.engine.memory.modes import (
+    AVERAGING,
     COMPLIANT,
     FEATURE_CHANGE,
     IMPACT,
@@ -140,7 +148,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.code_during != contact.code_before or contact.mode != OPEN:
-            _provisional_mode(S, w, k, c)
+            provisional_mode(S, w, k, c)
         contact.released = 0
     record_event(S, w, k, cause, which, S.phases)
     return RUNNING
@@ -190,21 +198,6 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
     return RUNNING
 
 
-@kernel("void(S, F, I, i8)")
-def _provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
-    contact = contact_at(S, w, k, c)
-    rigid = contact.normal_function == 0
-    if contact.touching == 0 or contact.released == 1 or (rigid and contact.rate[0] > S.velocity_tolerance):
-        contact.mode = OPEN
-        return
-    if contact.mode == OPEN:
-        begin_contact(S, w, k, c)
-    speed = slip_speed(S, w, k, c)
-    contact.mode = SLIDE if speed > S.velocity_tolerance else STICK
-    if speed > S.velocity_tolerance:
-        contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
-
-
 @kernel("i8(S, F, I, i8)")
 def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     """Return 1 if the normal force of a closed contact has gone together with that which fired."""
@@ -233,7 +226,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
         contact.mode_agreed = OPEN
         if contact.normal_function != 0:
             _expect_compliant(S, w, k, c, which, cause)
-        elif contact.touching == 1 and contact.rate[0] <= S.velocity_tolerance:
+        elif contact.touching == 1 and (contact.rate[0] <= S.velocity_tolerance or contact.averaged != OPEN):
             contact.member = 1
             # a slip about to start from rest is found anew, not remembered
             mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
@@ -267,19 +260,25 @@ def _expect_compliant(S: Scalars, w: Floats, k: Integers, c: int, which: int, ca
         contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
 
 
-@kernel("i8(S, F, I)")
-def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(S, F, I, i8)")
+def _solve_islands(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
     """Find modes and forces of the grouped contacts; return 1, or 0 with an island active that has no solution.
 
     Return 2 where all is to be done again, some friction having another bound than it seemed.
     """
     free_acceleration(S, w, k)
     push_compliant(S, w, k)
+    S.mean_until = 1e300
     turned = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
+        if keeps_averaging(S, w, k, ends) == 1:
+            average(S, w, k)
+            accelerate(S, w, k)
+            continue
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
+            contact_at(S, w, k, active.slot).averaged = OPEN
             active.mode_tried = contact_at(S, w, k, active.slot).mode_agreed
         set_up(S, w, k)
         if solve_contact(S, w, k) == 0:
@@ -343,6 +342,9 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = S.jammed = 0
     resting = projected = slowed = 0
+    ends = 1 if cause == AVERAGING and which < 0 else 0
+    if ends == 1:
+        reach_end(S, w, k)
     approaching = touch(S, w, k)
     open_account(S, w, k)
     if cause == JAM:
@@ -356,7 +358,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         if approaching == 1 and hand_over(S, w, k) == 1:
             approaching = touch(S, w, k)
             continue
-        if approaching == 1 and slowed == 0 and close_slow(S, w, k) == 1:
+        if approaching == 1 and slowed == 0 and stop_slow(S, w, k) > 0:
             slowed = 1
             approaching = touch(S, w, k)
             continue
@@ -370,7 +372,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         if S.recorded == 0 and projected == 0:
             remember(S, w, k)
         _expect(S, w, k, cause, which)
-        solved = _solve_islands(S, w, k)
+        solved = _solve_islands(S, w, k, ends)
         if solved == 2 and _attempt < _FACINGS:
             approaching = touch(S, w, k)
             continue
@@ -382,9 +384,14 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
                 if not (active.mu >= 0.0 and active.mu_static >= 0.0):
                     return NOT_FINITE
             resting += 1
-            if resting > _PAINLEVE_ATTEMPTS:
-                return NO_CONTACT_SOLUTION
-            status = _impact_without_collision(S, w, k)
+            status = NO_CONTACT_SOLUTION
+            if resting <= _PAINLEVE_ATTEMPTS:
+                status = _impact_without_collision(S, w, k)
+            if status == NO_CONTACT_SOLUTION and average_active(S, w, k) == 1:
+                # those that are averaged already begin anew with it
+                ends = 0
+                approaching = touch(S, w, k)
+                continue
             if status != RUNNING:
                 return status
             approaching = _approaches(S, w, k)
@@ -409,6 +416,8 @@ def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
         if contact.mode == OPEN and contact.mode_agreed != OPEN:
             begin_contact(S, w, k, c)
         contact.mode = contact.mode_agreed
+        if contact.mode == OPEN:
+            contact.averaged = OPEN
         if contact.mode == SLIDE:
             contact.direction = contact.direction_agreed
 

@@ -11,6 +11,7 @@ from nonsmooth.engine.flow.clearance import foresee
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
+    BY_AVERAGING,
     BY_CLOSING,
     BY_END,
     BY_ERROR,
@@ -71,7 +72,7 @@ def wanted_step(S: Scalars, w: Floats, k: Integers) -> float:
 @kernel("f8(S, F, I, f8)")
 def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
     """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
-    h = min(wanted, S.h_listed, S.sample_span, S.h_valid)
+    h = min(wanted, S.h_listed, S.sample_span, S.h_valid, S.mean_until - S.t)
     S.h_closing = 1e300
     if S.fresh == 0:
         for c in range(S.n_contacts):
@@ -91,6 +92,8 @@ def _limit(S: Scalars, wanted: float, h: float) -> int:
         return BY_LARGEST if wanted == S.h_max else BY_ERROR
     if h == S.h_listed:
         return BY_LIST
+    if h == S.mean_until - S.t:
+        return BY_AVERAGING
     if h == S.sample_span:
         return BY_SAMPLES
     if h == S.h_closing:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.step import STIFF
-from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -54,8 +54,8 @@ def share_before_stop(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     share, none = 1.0, _HELD * S.velocity_tolerance
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        stops = contact.mode == SLIDE and contact.traction_function == 0 and length(contact.slip) <= none
-        if stops and length(contact.slip_end) > none:
+        rubs = contact.mode == SLIDE and contact.traction_function == 0 and contact.averaged == OPEN
+        if rubs and length(contact.slip) <= none and length(contact.slip_end) > none:
             share = min(share, _share(S, w, k, c, h))
     return share
 
@@ -71,7 +71,7 @@ def stopping(S: Scalars, w: Floats, k: Integers) -> int:
         return int(S.halting)
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        if contact.mode == SLIDE and contact.traction_function == 0:
+        if contact.mode == SLIDE and contact.traction_function == 0 and contact.averaged == OPEN:
             speed = length(contact.slip_end)
             if speed <= S.velocity_tolerance and speed < guard_at(S, w, k, friction_guard(S, c)).first:
                 return c

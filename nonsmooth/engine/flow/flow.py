@@ -17,7 +17,7 @@ from nonsmooth.engine.contact.implicit_slip import hold_at_end
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
-from nonsmooth.engine.memory.modes import SLIDE, STICK
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
@@ -85,11 +85,15 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
 
 @kernel("i8(S, F, I)")
 def _slides(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if one of the active contacts slides."""
+    """Return 1 if one of the active contacts slides, and their forces are none that are averaged."""
+    slides = 0
     for a in range(S.n_active):
-        if contact_at(S, w, k, active_at(S, w, k, a).slot).mode == SLIDE:
-            return 1
-    return 0
+        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        if contact.averaged != OPEN:
+            return 0
+        if contact.mode == SLIDE:
+            slides = 1
+    return slides
 
 
 @kernel("f8(S, F, I, i8)")
@@ -98,6 +102,8 @@ def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     active = active_at(S, w, k, a)
     c = active.slot
     contact = contact_at(S, w, k, c)
+    if contact.averaged != OPEN:
+        return 1.0
     if active.tangent_held == 0:
         return float(S.velocity_tolerance - length(contact.slip))
     friction = facing_force(S, w, k, c, active.force[1]), active.force[2]
@@ -120,6 +126,12 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
         if contact.traction_function != 0:
             rub_by_traction(S, w, k, c, active.force, y)
             return
+    elif contact.averaged != OPEN:
+        active.normal_held = 0
+        active.normal_force = contact.mean_force[0]
+    if contact.averaged != OPEN:
+        active.friction = contact.mean_force[1], contact.mean_force[2]
+        return
     if contact.mode == STICK:
         active.mu_static = friction_coefficient(S, w, k, c, 0.0)
         if active.mu_static > 0.0:
@@ -134,10 +146,15 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
 
 @kernel("f8(S, F, I, i8)")
 def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
-    """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach."""
+    """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach.
+
+    Forces that are averaged end nothing.
+    """
     contact = contact_at(S, w, k, c)
     if contact.normal_function != 0:
         return float(contact.reach - contact.gap)
+    if contact.averaged != OPEN:
+        return 1.0
     return float(contact.force[0])
 
 
@@ -158,7 +175,7 @@ def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     In an implicit step, which stops and turns slips itself, it is the slip.
     """
     contact = contact_at(S, w, k, c)
-    if contact.traction_function != 0:
+    if contact.traction_function != 0 or contact.averaged != OPEN:
         return 1.0
     speed = length(contact.slip)
     if contact.normal_function != 0 and friction_coefficient(S, w, k, c, max(speed, _INCIPIENT)) == 0.0:
@@ -175,6 +192,7 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
     These are of the driven bodies, lost to friction, exchanged in all, and of the loads.  For ``choosing`` see
     :func:`right_hand_side`.
     """
+    S.evaluations += 1
     right_hand_side(S, w, k, t, y, choosing)
     for number in range(S.n_bodies):
         body = body_at(S, w, k, number)
@@ -192,7 +210,7 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
-        sticks = contact.mode == STICK
+        sticks = contact.mode == STICK and contact.averaged == OPEN
         if not sticks:
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]

@@ -12,7 +12,7 @@ import math
 from nonsmooth.engine.flow.flow import is_violated, slope
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
-from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
 
@@ -81,7 +81,7 @@ def relaxation(S: Scalars, w: Floats, k: Integers) -> float:
         contact = contact_at(S, w, k, c)
         if contact.normal_function != 0:
             return 0.0
-        if contact.mode == SLIDE:
+        if contact.mode == SLIDE and contact.averaged == OPEN:
             friction = math.hypot(contact.force[1], contact.force[2])
             speed = math.hypot(contact.slip_end[0], contact.slip_end[1])
             fastest = max(fastest, contact.mobility * friction / max(speed, _SLOWEST * S.velocity_tolerance))

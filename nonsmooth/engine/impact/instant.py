@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import row
-from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
-from nonsmooth.engine.contact.newton import STAGES, search_by_newton
-from nonsmooth.engine.contact.problem import friction_coefficient, write_friction
+from nonsmooth.engine.contact.inelastic import inelastic_impulses
+from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
@@ -74,6 +73,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         contact = contact_at(S, w, k, active.slot)
         for r in range(3):
             active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
+            active.force[r] = 0.0
             scale = max(scale, abs(contact.bias[r]), abs(active.free[r]))
     # one that was too short to tell which contacts jam is followed by a longer one
     change = _MOMENT * S.velocity_tolerance * _LONGER ** float(S.jammed - 1)
@@ -90,38 +90,6 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
                 moved = 1
     _split_loss(S, w, k)
     return moved
-
-
-@kernel("i8(S, F, I, f8)")
-def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int:
-    """Write to ``active_forces`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
-
-    The rates are those at hand and what the ``free_accelerations`` make of them in a ``moment`` [s]; those rates take
-    the place of the accelerations.  Return 1 if the impulses have settled.
-    """
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
-        write_friction(S, w, k, a)
-        rests, slips = abs(contact.rate[0]) <= S.velocity_tolerance, active.at_rest == 0
-        active.mu_static = active.mu = active.mu if slips else active.mu_static
-        active.at_rest = active.normal_held = active.tangent_held = 1
-        for r in range(3):
-            # what counts as zero must not hide what the accelerations do
-            still = rests if r == 0 else not slips
-            active.free[r] = moment * active.free[r] + (0.0 if still else contact.rate[r])
-    # from the impulses that stop all slips: those that only grow, sweep by sweep, from none would never be reached
-    resolve(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        for r in range(3):
-            active.force[r] *= 1.0 if active.normal_force > 0.0 else 0.0
-    found = 0
-    for stage in range(STAGES):
-        if search_by_newton(S, w, k, stage) == 1:
-            found = 1
-            break
-    return max(found, int(gauss_seidel(S, w, k, SWEEPS)))
 
 
 @kernel()

@@ -79,6 +79,8 @@ CONTACT: Fields = {
         # its mode, and the forces that it holds by
         "mode",
         "mode_agreed",
+        "averaged",
+        "mean_force",
         "force",
         "null_space_force",
         "slack",

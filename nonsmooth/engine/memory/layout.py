@@ -51,6 +51,7 @@ CATALOGUE = (
     "axis",
     "candidate",
     "mode",
+    "averaged",
 )
 """Integers of a declared contact; in a slot each of them is an array of its own."""
 CONTACT_TIME, DIRECTION, REACH, CLOSING_RATE, LEVERS, SIZE = 0, 1, 3, 4, 5, 7
@@ -77,5 +78,7 @@ N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair;"""
 LAST_STAGE = N_STAGES - 1
 """the slope of the last one is that at the end of the step."""
+SWEEPS_KEPT = 5
+"""Differences of sweeps from which the next one is foretold."""
 TOTALS = 9
 """Floats of a contact that go from one window of a large impact to the next."""

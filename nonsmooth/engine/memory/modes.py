@@ -13,6 +13,7 @@ START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, J
     12
 )
 FEATURE_CHANGE = 12
+AVERAGING = 13
 """Cause of an event."""
 
 CAUSES = (
@@ -29,6 +30,7 @@ CAUSES = (
     "touch of a compliant contact",
     "end of a feature",
     "change of feature",
+    "averaging of forces",
 )
 
 BY_LAW, COMPLIANT, REFUSE = range(3)

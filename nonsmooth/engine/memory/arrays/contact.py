@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, per, real, whole
+import math
+
+from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, fixed, per, real, whole
+from nonsmooth.engine.memory.layout import SWEEPS_KEPT
 
 ARRAYS = Arrays(
     scalars={
@@ -16,6 +19,7 @@ ARRAYS = Arrays(
             "turning",
             "guess",
             "unsettled",
+            "evaluations",
         ),
         **real(
             "ahead",
@@ -24,6 +28,8 @@ ARRAYS = Arrays(
             "small_acceleration",
             "small_force",
         ),
+        # no forces are averaged
+        "mean_until": math.inf,
     },
     floats={
         "active_forces": per(3, "n_slots"),
@@ -39,10 +45,18 @@ ARRAYS = Arrays(
         "margin": per(1, "n_slots"),
         "acceleration": per(3, "n_slots"),
         "null_space_force": per(3, "n_slots"),
+        "mean_force": per(3, "n_slots"),
         "slack": per(1, "n_slots"),
         "right": per(3, "n_slots"),
         "x": per(3, "n_slots"),
         "sigma": per(6, "n_slots"),
+        "sweep_start": per(3, "n_slots"),
+        "sweep_change": per(3, "n_slots"),
+        "sweep_end": per(3, "n_slots"),
+        "sweep_changes": per(3 * SWEEPS_KEPT, "n_slots"),
+        "sweep_ends": per(3 * SWEEPS_KEPT, "n_slots"),
+        "sweep_squares": fixed(SWEEPS_KEPT**2),
+        "sweep_weights": fixed(SWEEPS_KEPT),
     },
     integers={
         "mode_tried": per(1, "n_slots"),

@@ -33,6 +33,7 @@ ARRAYS = Arrays(
             "recorded",
             "sample_index",
             "calls",
+            "evaluated",
         ),
         **real(
             "t_end",
@@ -47,6 +48,8 @@ ARRAYS = Arrays(
             "sample_start",
             "sample_interval",
             "next_sample",
+            "crowd",
+            "crowd_t",
         ),
         # in which samples fill half of their room
         "sample_span": math.inf,

@@ -1,0 +1,90 @@
+"""Forces of an island that are constant over a contact time, where those of the instant lead nowhere.
+
+A step of Moreau's rule over the time T: with z0 the rates at its start, b the accelerations without forces, and
+z1 = z0 + T (b + G f) the rates at its end, 0 <= z1_N, f_N >= 0, z1_N f_N = 0, and friction on Coulomb's cone against the
+slip z1_T, or holding it at zero.  There is always a solution, as there need not be one of the instant; what happens within T
+is not told apart, as nothing rigid tells it in less than a contact time.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.compliance import decouple_normals
+from nonsmooth.engine.bodies.kinematics import row
+from nonsmooth.engine.contact.inelastic import inelastic_impulses
+from nonsmooth.engine.contact.trial import slope_of_slip
+from nonsmooth.engine.delassus.delassus import add_product, assemble_delassus
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.numerics.vectors import length
+
+
+@kernel("i8(S, F, I)")
+def is_averaged(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if the forces of the active contacts are averaged."""
+    for a in range(S.n_active):
+        if contact_at(S, w, k, active_at(S, w, k, a).slot).averaged != OPEN:
+            return 1
+    return 0
+
+
+@kernel("f8(S, F, I)")
+def averaging_time(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return over what time the forces of the active contacts may be averaged [s]: the shortest contact time.
+
+    It is 0 where one has none, or all give way.
+    """
+    time = 1e300
+    for a in range(S.n_active):
+        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        if contact.normal_function == 0:
+            time = min(time, contact.contact_time)
+    return time if time < 1e300 else 0.0
+
+
+@kernel("i8(S, F, I)")
+def is_settled(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if no active contact slips so slowly that its friction would stop it within a contact time."""
+    for a in range(S.n_active):
+        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        speed = length(contact.slip)
+        friction = length((contact.force[1], contact.force[2]))
+        slow = speed <= contact.contact_time * contact.mobility * friction
+        if slow and speed > S.velocity_tolerance and contact.force[0] > 0.0:
+            return 0
+    return 1
+
+
+@kernel("void(S, F, I)")
+def find_mean_forces(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write the mean forces of the active contacts, and what these do at the end of the averaging.
+
+    Their rates and the accelerations without forces must be written.  The ``active_forces`` are those, too.
+    """
+    time = averaging_time(S, w, k)
+    S.mean_until = min(S.mean_until, S.t + time)
+    assemble_delassus(S, w, k)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        contact.mobility = slope_of_slip(S, w, k, a)
+        for r in range(3):
+            active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
+            active.force[r] = time * contact.mean_force[r]
+    decouple_normals(S, w, k)
+    inelastic_impulses(S, w, k, time)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        v1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)
+        v2 = add_product(S, w, k, active.free[2], a, 2, S.active_forces)
+        speed = length((v1, v2))
+        active.mode_tried = OPEN
+        if active.normal_force > 0.0:
+            active.mode_tried = SLIDE if speed > S.velocity_tolerance else STICK
+        active.direction = v1 / speed if speed > 0.0 else 1.0, v2 / speed if speed > 0.0 else 0.0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        contact.averaged = active.mode_tried
+        for r in range(3):
+            active.force[r] /= time
+            contact.mean_force[r] = active.force[r]

@@ -1,0 +1,97 @@
+"""Islands whose forces are averaged over a contact time: when that begins, and when it ends."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.contact.mean_forces import averaging_time, find_mean_forces, is_averaged, is_settled
+from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.flow.projection import project_closed
+from nonsmooth.engine.memory.modes import OPEN, SLIDE
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.numerics.vectors import length
+
+_PACE = 6.0
+"""Evaluations of forces within a contact time, those of one step, beyond which time hardly passes,"""
+_BURST = 500.0
+"""and so many more are a stop of a slip, not yet a crowd of them."""
+
+
+@kernel("i8(S, F, I)")
+def average_active(S: Scalars, w: Floats, k: Integers) -> int:
+    """Let the forces of the active contacts be averaged from now on; return 0 where they cannot be, or are."""
+    if averaging_time(S, w, k) == 0.0 or is_averaged(S, w, k) == 1:
+        return 0
+    for a in range(S.n_active):
+        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        contact.averaged = SLIDE
+        for r in range(3):
+            contact.mean_force[r] = 0.0
+    return 1
+
+
+@kernel("i8(S, F, I, i8)")
+def average_island_of(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Let the forces of the island of closed contact ``c`` be averaged from now on; return 0 where they cannot be."""
+    if contact_at(S, w, k, c).mode == OPEN:
+        return 0
+    group_closed(S, w, k)
+    activate_group(S, w, k, contact_at(S, w, k, c).group_of)
+    return average_active(S, w, k)
+
+
+@kernel("i8(S, F, I, i8)")
+def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
+    """Return 1 if the forces of the active contacts are averaged, and are to be from now on, where the last ones end."""
+    if is_averaged(S, w, k) == 0:
+        return 0
+    return 1 if ends == 0 or is_settled(S, w, k) == 0 else 0
+
+
+@kernel("void(S, F, I)")
+def average(S: Scalars, w: Floats, k: Integers) -> None:
+    """Agree on the modes of the active contacts, whose forces are averaged: slips are those at hand."""
+    find_mean_forces(S, w, k)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        speed = length(contact.slip)
+        contact.mode_agreed = active.mode_tried
+        contact.direction_agreed = active.direction
+        if speed > S.velocity_tolerance and active.mode_tried != OPEN:
+            contact.mode_agreed = SLIDE
+            contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
+
+
+@kernel("void(S, F, I)")
+def reach_end(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take the modes that averaged forces were to end in, where they end."""
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.averaged != OPEN and contact.mode != OPEN:
+            contact.mode = contact.averaged
+    S.closing_loss += project_closed(S, w, k, 1)
+
+
+@kernel("i8(S, F, I)")
+def holds_time_up(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return the contact whose slow slip lets time hardly pass, or -1.
+
+    Evaluations of forces fill a store that empties with time.
+    """
+    time = 1e300
+    for i in range(S.n_grouped):
+        time = min(time, contact_at(S, w, k, k[S.grouped + i]).contact_time)
+    if time == 0.0:
+        return -1
+    S.crowd = max(0.0, S.crowd - _PACE * (S.t - S.crowd_t) / time) + float(S.evaluations - S.evaluated)
+    S.crowd_t, S.evaluated = S.t, S.evaluations
+    if S.crowd <= _BURST:
+        return -1
+    which, fastest = -1, 1.0
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        contact = contact_at(S, w, k, c)
+        speed, friction = length(contact.slip_end), length((contact.force[1], contact.force[2]))
+        turns = contact.contact_time * contact.mobility * friction / max(speed, S.velocity_tolerance)
+        if contact.mode == SLIDE and contact.averaged == OPEN and turns > fastest:
+            which, fastest = c, turns
+    return which
