@@ -98,5 +98,4 @@ def sweep_accelerated(S: Scalars, w: Floats, k: Integers, least: float, most: in
                 for i in range(n):
                     w[S.active_forces + i] = w[S.sweep_end + i]
                 followed = 0
-    S.listings += 1000000
     return 0

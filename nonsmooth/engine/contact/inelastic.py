@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from nonsmooth.engine.contact.accelerated import sweep_accelerated
+from nonsmooth.engine.contact.newton import step_by_newton
 from nonsmooth.engine.contact.problem import write_friction
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 
-_EXACT = 1e-2
+_EXACT = 0.5
 """Part of what counts as no velocity to which rates are found."""
-_SWEEPS = 1000
+_SWEEPS, _ROUNDS = 30, 6
+"""Newton's method follows so many sweeps, and twice as many in every further round."""
 
 
 @kernel("i8(S, F, I, f8)")
@@ -30,4 +32,12 @@ def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int
             # what counts as zero must not hide what the accelerations do
             still = rests if r == 0 else not slips
             active.free[r] = moment * active.free[r] + (0.0 if still else contact.rate[r])
-    return int(sweep_accelerated(S, w, k, _EXACT * S.velocity_tolerance, _SWEEPS))
+    sweeps = _SWEEPS
+    for _round in range(_ROUNDS):
+        if sweep_accelerated(S, w, k, _EXACT * S.velocity_tolerance, sweeps) == 1:
+            return 1
+        if step_by_newton(S, w, k) == 1:
+            return 1
+        sweeps *= 2
+    S.listings += 1000000
+    return 0

@@ -8,6 +8,8 @@ is not told apart, as nothing rigid tells it in less than a contact time.
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.compliance import decouple_normals
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
@@ -16,6 +18,9 @@ from nonsmooth.engine.delassus.delassus import add_product, assemble_delassus
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
+
+_LONGEST = 50.0
+"""Forces are averaged over so many contact times at most."""
 
 
 @kernel("i8(S, F, I)")
@@ -54,13 +59,48 @@ def is_settled(S: Scalars, w: Floats, k: Integers) -> int:
     return 1
 
 
+@kernel("f8(S, F, I, i8)")
+def _span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
+    """Return over what time the forces of the active contacts are averaged next [s]; as long as they can if it follows.
+
+    That is what the last averaging, to the end of which they came, left of accuracy.
+    """
+    least = averaging_time(S, w, k)
+    span = _LONGEST * least if follows == 1 else least
+    for a in range(S.n_active):
+        span = min(span, contact_at(S, w, k, active_at(S, w, k, a).slot).mean_span)
+    return max(least, span)
+
+
 @kernel("void(S, F, I)")
-def find_mean_forces(S: Scalars, w: Floats, k: Integers) -> None:
+def measure_spans(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write how long the next averaging may be: the rates of gaps that one leaves grow with its square."""
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.averaged != OPEN:
+            left = max(abs(contact.rate[0]), 0.25 * S.velocity_tolerance)
+            contact.mean_span *= math.sqrt(S.velocity_tolerance / left)
+
+
+@kernel("void(S, F, I, f8)")
+def _keep_span(S: Scalars, w: Floats, k: Integers, span: float) -> None:
+    """Keep the span of this averaging if all active contacts end it as they ended the last, else none."""
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        if contact_at(S, w, k, active.slot).averaged != active.mode_tried:
+            span = 0.0
+    for a in range(S.n_active):
+        contact_at(S, w, k, active_at(S, w, k, a).slot).mean_span = span
+
+
+@kernel("void(S, F, I, i8)")
+def find_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
     """Write the mean forces of the active contacts, and what these do at the end of the averaging.
 
-    Their rates and the accelerations without forces must be written.  The ``active_forces`` are those, too.
+    Their rates and the accelerations without forces must be written.  The ``active_forces`` are those, too.  An
+    averaging that follows another one (1) may be longer.
     """
-    time = averaging_time(S, w, k)
+    time = _span(S, w, k, follows)
     S.mean_until = min(S.mean_until, S.t + time)
     assemble_delassus(S, w, k)
     for a in range(S.n_active):
@@ -81,6 +121,7 @@ def find_mean_forces(S: Scalars, w: Floats, k: Integers) -> None:
         if active.normal_force > 0.0:
             active.mode_tried = SLIDE if speed > S.velocity_tolerance else STICK
         active.direction = v1 / speed if speed > 0.0 else 1.0, v2 / speed if speed > 0.0 else 0.0
+    _keep_span(S, w, k, time)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)

@@ -138,8 +138,14 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     sweeps = _SWEEPS
     for _stage in range(stage):
         sweeps *= 10
-    width = 3 * S.n_active
     sweep(S, w, k, sweeps)
+    return step_by_newton(S, w, k)
+
+
+@kernel("i8(S, F, I)")
+def step_by_newton(S: Scalars, w: Floats, k: Integers) -> int:
+    """Improve the forces by Newton steps; return 1 if settled."""
+    width = 3 * S.n_active
     square = write_natural_map(S, w, k)
     for _step in range(_STEPS):
         if interrupted(S, width + width * S.half_band * S.half_band // DEAR) == 1:

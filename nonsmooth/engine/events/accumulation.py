@@ -127,21 +127,20 @@ def _fastest_of_active(S: Scalars, w: Floats, k: Integers) -> int:
     return which
 
 
-@kernel("i8(S, F, I)")
-def _is_slow(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if no active gap changes faster than free accelerations, which must be written, make of it soon.
+@kernel("f8(S, F, I)")
+def slow_speed(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return the speed of a gap below which nothing bounces among the active contacts [m/s].
 
-    That is the greatest approach that they have, over the shortest contact time: Eq. (33), of an island in place of a
-    contact.
+    It is what the greatest approach of the free accelerations, which must be written, makes of it in the shortest
+    contact time: Eq. (33), of an island in place of a contact.
     """
-    time, approach, fastest = 1e300, 0.0, 0.0
+    time, approach = 1e300, 0.0
     for a in range(S.n_active):
         c = active_at(S, w, k, a).slot
         contact = contact_at(S, w, k, c)
         time = min(time, contact.contact_time)
         approach = max(approach, -(contact.bias[0] + row(S, w, k, c, 0, S.du)))
-        fastest = max(fastest, abs(contact.rate[0]))
-    return 1 if fastest <= approach * time else 0
+    return float(approach * time)
 
 
 @kernel("i8(S, F, I)")
@@ -154,7 +153,7 @@ def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         fastest = _fastest_of_active(S, w, k)
-        if fastest < 0 or _is_slow(S, w, k) == 0:
+        if fastest < 0 or -contact_at(S, w, k, fastest).rate[0] > slow_speed(S, w, k):
             continue
         if stopped == 0:
             remember(S, w, k)

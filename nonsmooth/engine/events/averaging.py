@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.mean_forces import averaging_time, find_mean_forces, is_averaged, is_settled
+from nonsmooth.engine.bodies.touching import touch
+from nonsmooth.engine.contact.mean_forces import (
+    averaging_time,
+    find_mean_forces,
+    is_averaged,
+    is_settled,
+    measure_spans,
+)
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
@@ -23,6 +30,7 @@ def average_active(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
         contact.averaged = SLIDE
+        contact.mean_span = 0.0
         for r in range(3):
             contact.mean_force[r] = 0.0
     return 1
@@ -46,10 +54,10 @@ def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
     return 1 if ends == 0 or is_settled(S, w, k) == 0 else 0
 
 
-@kernel("void(S, F, I)")
-def average(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel("void(S, F, I, i8)")
+def average(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
     """Agree on the modes of the active contacts, whose forces are averaged: slips are those at hand."""
-    find_mean_forces(S, w, k)
+    find_mean_forces(S, w, k, follows)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
@@ -68,6 +76,8 @@ def reach_end(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         if contact.averaged != OPEN and contact.mode != OPEN:
             contact.mode = contact.averaged
+    touch(S, w, k)
+    measure_spans(S, w, k)
     S.closing_loss += project_closed(S, w, k, 1)
 
 

@@ -18,6 +18,7 @@ from nonsmooth.engine.events.accumulation import (
     close_contacts,
     hand_over,
     provisional_mode,
+    slow_speed,
     stop_creeping,
     stop_slow,
 )
@@ -120,9 +121,8 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
     An impact without collision needs a speed for its ``seed`` [m/s].
     """
     remember(S, w, k)
-    if cause == JAM:
-        free_acceleration(S, w, k)
-        push_compliant(S, w, k)
+    free_acceleration(S, w, k)
+    push_compliant(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
     for group in range(S.n_groups):
@@ -170,6 +170,7 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
         for r in range(3):
             active.rate_before[r] = contact.rate[r]
     S.phases, S.truncated = 1, 0
+    S.slow_speed = slow_speed(S, w, k)
     if cause == JAM:
         if jam_slips(S, w, k) == 0:
             return NO_CONTACT_SOLUTION
@@ -273,7 +274,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         if keeps_averaging(S, w, k, ends) == 1:
-            average(S, w, k)
+            average(S, w, k, ends)
             accelerate(S, w, k)
             continue
         for a in range(S.n_active):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
@@ -92,37 +91,30 @@ def end_trapped(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("i8(S, F, I)")
 def faded(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if what is left of the impact, stored or about to be, is below the tolerance."""
+    """Return 1 if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
     small = max(S.impact_rtol, 1e-11)
+    slow = max(S.slow_speed, small * S.speed_scale)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         state = impact_state(w, S.impact_y, a)
-        stored = state.energy
-        if active.phase == IDLE:
-            stored = 0.0
-        if active.gap_rate < -small * S.speed_scale or stored > small * small * active.energy_scale:
+        stored = state.energy if active.phase != IDLE else 0.0
+        least = max(small * small * active.energy_scale, 0.5 * S.slow_speed**2 / diagonal_block(S, w, k, a).nn)
+        if active.gap_rate < -slow or stored > least:
             return 0
-        if active.gap_rate > small * S.speed_scale and stored > 0.0 and active.phase == EXPANSION:
+        if active.gap_rate > slow and stored > 0.0 and active.phase == EXPANSION:
             return 0
     return 1
 
 
 @kernel()
 def cut_short(S: Scalars, w: Floats, k: Integers) -> None:
-    """End a cascade of ever smaller compressions: stop the approach that is left, by the impulses that do so."""
+    """End a cascade of ever smaller compressions; what still approaches is for the instant to stop."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        active.normal_held = 1 if active.gap_rate < 0.0 else 0
-        active.tangent_held = 0
-        active.normal_force = active.mu = 0.0
-        for r in range(3):
-            active.free[r] = active.rate[r]
+        account(S, w, k, a)
         active.phase = IDLE
-    resolve(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
-        state.impulse[0] += active.normal_force
+        active.tangent_held = 0
+        empty(S, w, a)
     S.truncated = 1
 
 

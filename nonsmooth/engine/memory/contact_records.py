@@ -81,6 +81,7 @@ CONTACT: Fields = {
         "mode_agreed",
         "averaged",
         "mean_force",
+        "mean_span",
         "force",
         "null_space_force",
         "slack",

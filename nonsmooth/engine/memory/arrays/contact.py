@@ -46,6 +46,7 @@ ARRAYS = Arrays(
         "acceleration": per(3, "n_slots"),
         "null_space_force": per(3, "n_slots"),
         "mean_force": per(3, "n_slots"),
+        "mean_span": per(1, "n_slots"),
         "slack": per(1, "n_slots"),
         "right": per(3, "n_slots"),
         "x": per(3, "n_slots"),

@@ -28,6 +28,7 @@ ARRAYS = Arrays(
         **real(
             "impact_rtol",
             "speed_scale",
+            "slow_speed",
             "impact_h",
             "faint",
             "guard_slope",
