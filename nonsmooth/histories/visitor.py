@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
     from nonsmooth.solution.track import Track
 
-_MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
+_MODE, _AVERAGED, _PLACE = (CATALOGUE.index(name) for name in ("mode", "averaged", "candidate"))
 _BOOKED = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
 _MODES = np.array([OPEN, STICK, OPEN, OPEN, OPEN, SLIDE, OPEN, OPEN])
 """Mode of a contact by its bits of Eq. (29) after an event."""
@@ -181,13 +181,14 @@ class Visitor:
         numbers, kept = events.listed[listed], events.listed_memory[listed]
         rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
         floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
-        rows[:, _MODE] = OPEN
+        rows[:, _MODE] = rows[:, _AVERAGED] = OPEN
         rows[numbers, _MODE] = _MODES[events.codes[listed] >> AFTER & CODE]
+        rows[numbers, _AVERAGED] = kept[:, 4]
         floats[numbers, DIRECTION : DIRECTION + 2], floats[numbers, CLOSING_RATE] = kept[:, :2], kept[:, 2]
         # which features the contacts of a pool have is found anew, but for the closed ones
         places = rows[:, _PLACE]
         memory.floats[places[places > 0]] = 0.0
-        for number, features in zip(numbers.tolist(), kept[:, 4:], strict=True):
+        for number, features in zip(numbers.tolist(), kept[:, 5:], strict=True):
             if places[number] > 0:
                 memory.floats[places[number] : places[number] + len(features)] = features
         memory.scalars["n_contacts"] = 0

@@ -60,7 +60,7 @@ class Events:
         Their normal and two tangential impulses [N s], shape [n_listed, 3].
     listed_memory : array
         What they go on with: slip direction, rate at which they closed last [m/s], way of slip that an oriented law
-        takes them to face, features; shape [n_listed, 7].
+        takes them to face, the mode in which averaged forces end, features; shape [n_listed, 8].
     """
 
     time: Floats

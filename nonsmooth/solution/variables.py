@@ -40,6 +40,7 @@ _REMEMBERED = (
     ("second part of the slip direction", "1"),
     ("rate of closing", "m/s"),
     ("way of slip that an oriented law faces", "1"),
+    ("mode in which its averaged forces end", "1"),
     *((f"feature {number}", "1") for number in range(CANDIDATE)),
 )
 _MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}

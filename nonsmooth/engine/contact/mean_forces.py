@@ -1,9 +1,9 @@
 """Forces of an island that are constant over a contact time, where those of the instant lead nowhere.
 
 A step of Moreau's rule over the time T: with z0 the rates at its start, b the accelerations without forces, and
-z1 = z0 + T (b + G f) the rates at its end, 0 <= z1_N, f_N >= 0, z1_N f_N = 0, and friction on Coulomb's cone against the
-slip z1_T, or holding it at zero.  There is always a solution, as there need not be one of the instant; what happens within T
-is not told apart, as nothing rigid tells it in less than a contact time.
+z1 = z0 + T (b + G f) the rates at its end, 0 <= z1_N, f_N >= 0, z1_N f_N = 0, and friction on Coulomb's cone against
+the slip z1_T, or holding it at zero.  There is always a solution, as there need not be one of the instant; what happens
+within T is not told apart, as nothing rigid tells it in less than a contact time.
 """
 
 from __future__ import annotations
@@ -68,7 +68,8 @@ def _span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
     least = averaging_time(S, w, k)
     span = _LONGEST * least if follows == 1 else least
     for a in range(S.n_active):
-        span = min(span, contact_at(S, w, k, active_at(S, w, k, a).slot).mean_span)
+        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        span = min(span, contact.mean_span if contact.averaged != OPEN else 0.0)
     return max(least, span)
 
 
@@ -84,13 +85,29 @@ def measure_spans(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("void(S, F, I, f8)")
 def _keep_span(S: Scalars, w: Floats, k: Integers, span: float) -> None:
-    """Keep the span of this averaging if all active contacts end it as they ended the last, else none."""
+    """Keep the span of this averaging if all active contacts end it as they ended the last, else half of it."""
+    part = 1.0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         if contact_at(S, w, k, active.slot).averaged != active.mode_tried:
-            span = 0.0
+            part = 0.5
     for a in range(S.n_active):
-        contact_at(S, w, k, active_at(S, w, k, a).slot).mean_span = span
+        contact_at(S, w, k, active_at(S, w, k, a).slot).mean_span = part * span
+
+
+@kernel("i8(S, F, I, f8)")
+def _solve(S: Scalars, w: Floats, k: Integers, time: float) -> int:
+    """Write the impulses of the active contacts in a ``time`` to ``active_forces``; return 1 if they are found."""
+    assemble_delassus(S, w, k)
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        contact = contact_at(S, w, k, active.slot)
+        contact.mobility = slope_of_slip(S, w, k, a)
+        for r in range(3):
+            active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
+            active.force[r] = time * contact.mean_force[r] if contact.averaged != OPEN else 0.0
+    decouple_normals(S, w, k)
+    return int(inelastic_impulses(S, w, k, time))
 
 
 @kernel("void(S, F, I, i8)")
@@ -101,17 +118,10 @@ def find_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
     averaging that follows another one (1) may be longer.
     """
     time = _span(S, w, k, follows)
+    if _solve(S, w, k, time) == 0 and time > averaging_time(S, w, k):
+        time = averaging_time(S, w, k)
+        _solve(S, w, k, time)
     S.mean_until = min(S.mean_until, S.t + time)
-    assemble_delassus(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
-        contact.mobility = slope_of_slip(S, w, k, a)
-        for r in range(3):
-            active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
-            active.force[r] = time * contact.mean_force[r]
-    decouple_normals(S, w, k)
-    inelastic_impulses(S, w, k, time)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         v1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)

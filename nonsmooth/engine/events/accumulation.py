@@ -7,6 +7,7 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
+from nonsmooth.engine.contact.mean_forces import averaging_time
 from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_touching
@@ -14,11 +15,14 @@ from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
+from nonsmooth.engine.flow.self_check import EXPLAINED
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 
 _CREEPING = 1e-3
 """An approach below this part of what counts as zero is none."""
+_RESTS = 1.0 - 1e-6
+"""What comes to rest this near the end of an averaging, in parts of it, is not told from what does not."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -37,9 +41,9 @@ def provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
-@kernel("i8(S, F, I, i8)")
-def _is_short(S: Scalars, w: Floats, k: Integers, c: int) -> int:
-    """Return 1 if contact ``c`` separates, but for no longer than its contact time.
+@kernel("i8(S, F, I, i8, f8)")
+def _is_short(S: Scalars, w: Floats, k: Integers, c: int, time: float) -> int:
+    """Return 1 if contact ``c`` separates, but no faster than it approaches after a ``time``.
 
     How fast the next step may not be, lest it fly over the touch-down, is kept.
     """
@@ -50,39 +54,48 @@ def _is_short(S: Scalars, w: Floats, k: Integers, c: int) -> int:
         return 0
     # the touch-down is due after 2 rate / approach
     S.h_first = min(S.h_first, 3.0 * rate / approach)
-    return 1 if rate <= approach * contact.contact_time and closed_twin(S, w, k, c) < 0 else 0
+    return 1 if rate <= approach * time and closed_twin(S, w, k, c) < 0 else 0
 
 
 @kernel("i8(S, F, I)")
 def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
-    """End the bounces that have become shorter than their contact time; return how many.
+    """End the bounces that have become shorter than their contact time; return how many contacts or islands have one.
 
-    One of a contact by itself is left out, and it closes; where several touch, the forces of their island are averaged.
-    The modes must be those agreed on for this instant.
+    One of a contact by itself is left out.  Where several touch, the forces of their island are averaged, so that all
+    land together.  The modes must be those agreed on for this instant.
     """
     S.h_first = 1e300
     group_touching(S, w, k)
     closing = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
+        time, fastest = averaging_time(S, w, k), 1e300
+        if S.n_active > 1:
+            # what is averaged comes to rest within that time, on its way up
+            time *= _RESTS
+            fastest = 2.0 * EXPLAINED * S.gap_tolerance / max(time, S.time_tolerance)
         which = -1
         for a in range(S.n_active):
             c = active_at(S, w, k, a).slot
-            if _is_short(S, w, k, c) == 1:
+            if contact_at(S, w, k, c).rate[0] <= fastest and _is_short(S, w, k, c, time) == 1:
                 which = c
-        if which < 0:
-            continue
-        if S.n_active > 1:
+        if which >= 0 and S.n_active == 1:
+            _close(S, w, k, which)
+            closing += 1
+        elif which >= 0:
             closing += average_active(S, w, k)
-            continue
-        closing += 1
-        remember(S, w, k)
-        contact = contact_at(S, w, k, which)
-        contact.mode = SLIDE if slip_speed(S, w, k, which) > S.velocity_tolerance else STICK
-        before = S.driven_work
-        _book(S, w, k, project_rates(S, w, k, 1), before)
-        record_event(S, w, k, CLOSING, which, 0)
     return closing
+
+
+@kernel("void(S, F, I, i8)")
+def _close(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+    """Leave out the last bounce of contact ``c``, the only active one, and record that."""
+    remember(S, w, k)
+    contact = contact_at(S, w, k, c)
+    contact.mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
+    before = S.driven_work
+    _book(S, w, k, project_rates(S, w, k, 1), before)
+    record_event(S, w, k, CLOSING, c, 0)
 
 
 @kernel("void(S, F, I, f8, f8)")

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.touching import touch
 from nonsmooth.engine.contact.mean_forces import (
     averaging_time,
     find_mean_forces,
     is_averaged,
     is_settled,
-    measure_spans,
 )
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -24,8 +21,11 @@ _BURST = 500.0
 
 @kernel("i8(S, F, I)")
 def average_active(S: Scalars, w: Floats, k: Integers) -> int:
-    """Let the forces of the active contacts be averaged from now on; return 0 where they cannot be, or are."""
-    if averaging_time(S, w, k) == 0.0 or is_averaged(S, w, k) == 1:
+    """Let the forces of the active contacts be averaged from now on; return 0 where they cannot be, or are.
+
+    A contact by itself has a solution of its own.
+    """
+    if S.n_active == 1 or averaging_time(S, w, k) == 0.0 or is_averaged(S, w, k) == 1:
         return 0
     for a in range(S.n_active):
         contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
@@ -48,7 +48,7 @@ def average_island_of(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 @kernel("i8(S, F, I, i8)")
 def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
-    """Return 1 if the forces of the active contacts are averaged, and are to be from now on, where the last ones end."""
+    """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1)."""
     if is_averaged(S, w, k) == 0:
         return 0
     return 1 if ends == 0 or is_settled(S, w, k) == 0 else 0
@@ -67,18 +67,6 @@ def average(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
         if speed > S.velocity_tolerance and active.mode_tried != OPEN:
             contact.mode_agreed = SLIDE
             contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
-
-
-@kernel("void(S, F, I)")
-def reach_end(S: Scalars, w: Floats, k: Integers) -> None:
-    """Take the modes that averaged forces were to end in, where they end."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.averaged != OPEN and contact.mode != OPEN:
-            contact.mode = contact.averaged
-    touch(S, w, k)
-    measure_spans(S, w, k)
-    S.closing_loss += project_closed(S, w, k, 1)
 
 
 @kernel("i8(S, F, I)")

@@ -119,7 +119,7 @@ def _take_over(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     if S.n_joints > 0:
         project_joints(S, w, k)
     if _drifted(S, w, k) == 1:
-        S.closing_loss += project_closed(S, w, k, 0)
+        S.closing_loss += project_closed(S, w, k, 0, 0)
 
 
 @kernel("i8(S, i8)")

@@ -22,7 +22,7 @@ from nonsmooth.engine.events.accumulation import (
     stop_creeping,
     stop_slow,
 )
-from nonsmooth.engine.events.averaging import average, average_active, keeps_averaging, reach_end
+from nonsmooth.engine.events.averaging import average, average_active, keeps_averaging
 from nonsmooth.engine.events.record import (
     DRIVEN_WORK,
     FRICTION_LOSS,
@@ -35,6 +35,7 @@ from nonsmooth.engine.events.record import (
     remember,
 )
 from nonsmooth.engine.events.twins import has_replaced
+from nonsmooth.engine.flow.averaged import reach_end
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.flow.self_check import open_account
@@ -302,7 +303,6 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
 @kernel("i8(S, F, I, i8)")
 def _jam(S: Scalars, w: Floats, k: Integers, which: int) -> int:
     """Run the impact of a jam on the island of contact ``which``; return the status."""
-    S.jammed += 1
     return PARADOX_REFUSED if S.policy == REFUSE else int(collide(S, w, k, JAM, which, 0.0))
 
 
@@ -319,7 +319,7 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
             contact_at(S, w, k, which).impacting = 1
             seed = max(seed, slip_speed(S, w, k, which))
     if which < 0:
-        return _jam(S, w, k, active_at(S, w, k, 0).slot)
+        return NO_CONTACT_SOLUTION
     if S.policy == REFUSE:
         return PARADOX_REFUSED
     return int(collide(S, w, k, PAINLEVE, which, seed))
@@ -341,10 +341,11 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
 @entry_point("i8(S, F, I, i8, i8)")
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
-    S.recorded = S.jammed = 0
+    S.recorded = 0
     resting = projected = slowed = 0
     ends = 1 if cause == AVERAGING and which < 0 else 0
     if ends == 1:
+        touch(S, w, k)
         reach_end(S, w, k)
     approaching = touch(S, w, k)
     open_account(S, w, k)
@@ -400,11 +401,11 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         _adopt(S, w, k)
         if close_contacts(S, w, k) == 0:
             if _creeps(S, w, k) == 0 or projected == _PROJECTIONS:
-                _finish(S, w, k, cause, which)
+                _finish(S, w, k, cause, which, ends)
                 return RUNNING
             # what brings others to rest may turn so slow a slip, and modes follow from its direction
             projected += 1
-            S.closing_loss += project_closed(S, w, k, 1)
+            S.closing_loss += project_closed(S, w, k, 1, 0)
         approaching = touch(S, w, k)
     return UPDATE_ENDLESS
 
@@ -423,10 +424,10 @@ def _adopt(S: Scalars, w: Floats, k: Integers) -> None:
             contact.direction = contact.direction_agreed
 
 
-@kernel("void(S, F, I, i8, i8)")
-def _finish(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
+@kernel("void(S, F, I, i8, i8, i8)")
+def _finish(S: Scalars, w: Floats, k: Integers, cause: int, which: int, ends: int) -> None:
     """Put the closed contacts exactly on their constraints and write the event."""
-    S.closing_loss += project_closed(S, w, k, 1) + stop_creeping(S, w, k)
+    S.closing_loss += project_closed(S, w, k, 1, 0) + stop_creeping(S, w, k)
     if S.recorded > 0:
         amend_last(S, w, k)
         return
@@ -435,7 +436,8 @@ def _finish(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
     changed = 0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        if code(S, w, k, c) != contact.code_before:
+        begun_or_ended = (contact.averaged != OPEN) != (contact.averaged_before != OPEN)
+        if code(S, w, k, c) != contact.code_before or begun_or_ended:
             changed = 1
-    if changed == 1 or cause == START or cause == FEATURE_CHANGE:
+    if changed == 1 or cause == START or cause == FEATURE_CHANGE or (cause == AVERAGING and ends == 0):
         record_event(S, w, k, cause, which, 0)

@@ -17,7 +17,7 @@ EVENT_HEAD = 5
 Coordinates follow, velocities before and after, what else is integrated, what is booked, and :data:`LISTED` floats of
 each contact listed.
 """
-IMPULSES, SLIP_DIRECTION, CLOSED_WITH, FACING, FEATURES = 0, 3, 5, 6, 7
+IMPULSES, SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES = 0, 3, 5, 6, 7, 8
 """Where what is kept of a contact begins among its floats with an event,"""
 LISTED = FEATURES + CANDIDATE
 """which are so many."""
@@ -62,6 +62,7 @@ def remember(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         contact.code_before = code(S, w, k, c)
         contact.code_during = contact.code_before
+        contact.averaged_before = contact.averaged
         for r in range(3):
             contact.event_impulse[r] = 0.0
     for i in range(S.n_u):
@@ -97,6 +98,7 @@ def _list_contact(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
         w[out + IMPULSES + r] = contact.event_impulse[r]
     w[out + SLIP_DIRECTION], w[out + SLIP_DIRECTION + 1] = contact.direction
     w[out + CLOSED_WITH], w[out + FACING] = contact.closing_rate, float(contact.facing)
+    w[out + AVERAGED] = float(contact.averaged)
     candidate = contact.candidate
     for r in range(CANDIDATE):
         w[out + FEATURES + r] = w[candidate + r] if candidate > 0 else 0.0

@@ -11,6 +11,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.flow.averaged import reach_end, renew_mean_forces
 from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.leap import leap
@@ -130,6 +131,8 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
     group_closed(S, w, k)
     _measure_mobilities(S, w, k)
     wanted = S.h_max
+    if S.mean_until <= S.t:
+        renew_mean_forces(S, w, k, 0)
     while S.t < t:
         S.stage_time, S.follows, S.replaced = 0.0, 0, 0
         slope(S, w, k, S.t, S.y, S.slopes, 0)
@@ -142,7 +145,7 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
             contact.rate_end = contact.velocity
         S.relaxation = relaxation(S, w, k)
         left = t - S.t
-        h = _found_step(S, w, k, min(wanted, left))
+        h = _found_step(S, w, k, min(wanted, left, S.mean_until - S.t))
         if h < 0.0 and S.stopped == 0 and leap(S, w, k, S.time_tolerance) == 1:
             h = S.time_tolerance
         if h < 0.0:
@@ -154,7 +157,11 @@ def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
         normalise_quaternions(S, w, k)
         if S.n_joints > 0:
             project_joints(S, w, k)
-        S.closing_loss += project_closed(S, w, k, 0)
+        if S.mean_until - S.t <= S.time_tolerance:
+            reach_end(S, w, k)
+            renew_mean_forces(S, w, k, 1)
+        else:
+            S.closing_loss += project_closed(S, w, k, 0, 0)
         if S.failed != RUNNING:
             return int(S.failed)
         wanted = min(S.h_max, 2.0 * h)
@@ -185,6 +192,8 @@ def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
     """
     group_closed(S, w, k)
     S.stage_time = 0.0
+    if choosing == 1 or S.mean_until <= S.t:
+        renew_mean_forces(S, w, k, 0)
     evaluate_driven_bodies(S, w, k, S.t, S.y)
     right_hand_side(S, w, k, S.t, S.y, choosing)
     turned = _turned_round(S, w, k)

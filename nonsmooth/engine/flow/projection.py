@@ -7,6 +7,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_free_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
@@ -163,11 +164,12 @@ def _displace(S: Scalars, w: Floats, k: Integers) -> None:
     normalise_quaternions(S, w, k)
 
 
-@entry_point("f8(S, F, I, i8)")
-def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
+@entry_point("f8(S, F, I, i8, i8)")
+def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int, averaged: int) -> float:
     """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
 
     What the gaps take counts at an event (1); within a step it is the error of the step, which no energy paid for.
+    Of islands whose forces are ``averaged`` (1) only these come to rest, where that ends; else only the others (0).
     """
     group_closed(S, w, k)
     if S.n_grouped == 0:
@@ -179,6 +181,8 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     moved = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
+        if is_averaged(S, w, k) != averaged:
+            continue
         past = 0.0
         for a in range(S.n_active):
             active = active_at(S, w, k, a)

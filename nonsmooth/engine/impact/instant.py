@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
-from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, call_map, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _NEXT_TO_ZERO = 1e-3
 """A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
-_MOMENT = 1e-3
-"""In a moment accelerations change velocities by this part of their tolerance;"""
-_LONGER = 10.0
-"""at one instant it is so many times longer every time;"""
-_MOVED = 0.1
-"""what impulses change by this part of it is more than that."""
 
 
 @kernel("i8(S, F, I)")
-def _stop_singular(S: Scalars, w: Floats, k: Integers) -> int:
+def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
     """Stop the slips that are at the Painleve singularity; return 1 if there are any and pushing impulses do that.
 
     In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
@@ -54,42 +46,6 @@ def _stop_singular(S: Scalars, w: Floats, k: Integers) -> int:
             active.impulse[r] = active.force[r]
     _split_loss(S, w, k)
     return 1
-
-
-@kernel("i8(S, F, I)")
-def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
-    """Find the impulses of a moment in which the forces have no bound; return 1 if they change a velocity or a mode.
-
-    They are those of the inelastic impact on Coulomb's cone, its slip being the one that it leaves, under what the
-    accelerations do in so short a time that they change no velocity beyond its tolerance.  Where there are forces that
-    is all; where there are none the impulses are finite in the limit, and bring slips to rest.  Forces without bound
-    may also vanish: closed contacts without an impulse are ``released``.
-    """
-    if _stop_singular(S, w, k) == 1:
-        return 1
-    scale = 0.0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
-        for r in range(3):
-            active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
-            active.force[r] = 0.0
-            scale = max(scale, abs(contact.bias[r]), abs(active.free[r]))
-    # one that was too short to tell which contacts jam is followed by a longer one
-    change = _MOMENT * S.velocity_tolerance * _LONGER ** float(S.jammed - 1)
-    inelastic_impulses(S, w, k, change / scale if scale > 0.0 else 0.0)
-    moved = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
-        contact.released = 1 if contact.mode != OPEN and active.force[0] == 0.0 else 0
-        moved = max(moved, contact.released)
-        for r in range(3):
-            active.impulse[r] = active.force[r]
-            if abs(add_product(S, w, k, 0.0, a, r, S.active_forces)) > _MOVED * S.velocity_tolerance:
-                moved = 1
-    _split_loss(S, w, k)
-    return moved
 
 
 @kernel()

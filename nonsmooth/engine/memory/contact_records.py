@@ -107,6 +107,7 @@ CONTACT: Fields = {
         # what an event does to it
         "code_before",
         "code_during",
+        "averaged_before",
         "event_impulse",
         "prescribed_rate",
         "closes",

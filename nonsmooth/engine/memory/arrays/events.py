@@ -65,6 +65,7 @@ ARRAYS = Arrays(
     integers={
         "code_before": per(1, "n_slots"),
         "code_during": per(1, "n_slots"),
+        "averaged_before": per(1, "n_slots"),
         "mode_agreed": per(1, "n_slots"),
         "closes": per(1, "n_slots"),
         "listed": per(1, "n_slots"),

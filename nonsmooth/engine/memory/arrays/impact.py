@@ -23,7 +23,6 @@ ARRAYS = Arrays(
             "phases_kept",
             "truncated",
             "slow_steps",
-            "jammed",
         ),
         **real(
             "impact_rtol",
