@@ -135,6 +135,9 @@ def find_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
+        # a gap that opens comes to rest there
+        way = time * max(0.0, contact.rate[0])
+        contact.mean_way = way + (contact.mean_way if contact.averaged != OPEN else 0.0)
         contact.averaged = active.mode_tried
         for r in range(3):
             active.force[r] /= time

@@ -13,9 +13,9 @@ from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_PACE = 6.0
-"""Evaluations of forces within a contact time, those of one step, beyond which time hardly passes,"""
-_BURST = 500.0
+_PACE = 1.0
+"""Evaluations of forces within a contact time beyond which time hardly passes,"""
+_BURST = 5000.0
 """and so many more are a stop of a slip, not yet a crowd of them."""
 
 

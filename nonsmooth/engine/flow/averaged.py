@@ -22,6 +22,8 @@ def reach_end(S: Scalars, w: Floats, k: Integers) -> None:
         if contact.averaged != OPEN and contact.mode != OPEN:
             contact.mode = contact.averaged
     S.closing_loss += project_closed(S, w, k, 1, 1)
+    for c in range(S.n_contacts):
+        contact_at(S, w, k, c).mean_way = 0.0
 
 
 @kernel("void(S, F, I, i8)")

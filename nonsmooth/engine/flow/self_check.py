@@ -33,7 +33,8 @@ def held_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the gap that a closed contact may have, or an open one lack, by the tolerances [m].
 
-    Those are of gaps, of steps, relative to where the witness points are, and of event times.
+    Those are of gaps, of steps, relative to where the witness points are, and of event times; where forces are averaged
+    a gap may have gone the way on which it comes to rest.
     """
     contact = contact_at(S, w, k, c)
     farthest = 0.0
@@ -45,7 +46,8 @@ def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
             far += abs(point[i]) + abs(arm[i])
         farthest = max(farthest, far)
     late = S.time_tolerance * abs(contact.gap_rate_first)
-    return float(EXPLAINED * (S.gap_tolerance + S.rtol * farthest + late))
+    way = contact.mean_way if contact.averaged != OPEN else 0.0
+    return float(EXPLAINED * (S.gap_tolerance + S.rtol * farthest + late) + way)
 
 
 @kernel("void(S, F, I)")

@@ -82,6 +82,7 @@ CONTACT: Fields = {
         "averaged",
         "mean_force",
         "mean_span",
+        "mean_way",
         "force",
         "null_space_force",
         "slack",
