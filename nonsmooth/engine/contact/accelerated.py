@@ -70,6 +70,8 @@ def _foretell(S: Scalars, w: Floats, k: Integers, kept: int) -> None:
 def sweep_accelerated(S: Scalars, w: Floats, k: Integers, least: float, most: int) -> int:
     """Improve the forces until they leave rates wrong by ``least`` at most; return 1 if ``most`` sweeps do that.
 
+    By how much they are wrong before the last sweep foretells better ones is ``sweep_left``.
+
     All contacts must be at rest, or their slips unknown.
     """
     n, stride = 3 * S.n_active, 3 * S.n_slots
@@ -80,7 +82,7 @@ def sweep_accelerated(S: Scalars, w: Floats, k: Integers, least: float, most: in
         for i in range(n):
             w[S.sweep_start + i] = w[S.active_forces + i]
         sweep(S, w, k, 1)
-        left = _velocity_residual(S, w, k)
+        left = S.sweep_left = _velocity_residual(S, w, k)
         if left <= least:
             return 1
         place = stride * ((followed - 1) % SWEEPS_KEPT)

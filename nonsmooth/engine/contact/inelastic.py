@@ -7,8 +7,10 @@ from nonsmooth.engine.contact.newton import step_by_newton
 from nonsmooth.engine.contact.problem import write_friction
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 
-_EXACT = 0.5
-"""Part of what counts as no velocity to which rates are found."""
+_EXACT = 1e-4
+"""Part of what counts as no velocity to which rates are found,"""
+_TRUE = 0.5
+"""and to which they have to be where sweeps lead no nearer."""
 _SWEEPS, _ROUNDS = 30, 6
 """Newton's method follows so many sweeps, and twice as many in every further round."""
 
@@ -36,7 +38,7 @@ def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int
     for _round in range(_ROUNDS):
         if sweep_accelerated(S, w, k, _EXACT * S.velocity_tolerance, sweeps) == 1:
             return 1
-        if step_by_newton(S, w, k) == 1:
+        if S.sweep_left <= _TRUE * S.velocity_tolerance or step_by_newton(S, w, k) == 1:
             return 1
         sweeps *= 2
     return 0

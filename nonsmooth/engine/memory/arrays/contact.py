@@ -27,6 +27,7 @@ ARRAYS = Arrays(
             "acceleration_scale",
             "small_acceleration",
             "small_force",
+            "sweep_left",
         ),
         # no forces are averaged
         "mean_until": math.inf,
