@@ -22,6 +22,8 @@ from nonsmooth.types import Array
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 _WIDTH = len(CATALOGUE)
+_OWN = CATALOGUE[-2:]
+"""Of a contact in a slot, not of its declaration: its mode, and that in which its averaged forces end."""
 _REMEDY = "It is damaged, or of another model: take one that a run left."
 _UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
 
@@ -187,12 +189,13 @@ class Difference:
         catalogue = memory.array("catalogue", _WIDTH * declared).reshape(declared, _WIDTH)
         _check("n_contacts", np.array([n]), slots + 1)
         _check("identity", memory.array("identity", n), declared)
-        _check("mode", np.append(memory.array("mode", n), catalogue[:, -1]), SLIDE + 1)
+        for name in _OWN:
+            _check(name, np.append(memory.array(name, n), catalogue[:, CATALOGUE.index(name)]), SLIDE + 1)
         units = int(record["n_units"])
         _check("unit_order", memory.array("unit_order", units), units)
-        # the arrays of the catalogue's entries follow one another, and the mode, which is last, is each slot's own
+        # the arrays of the catalogue's entries follow one another, and the last are each slot's own
         own = memory.array(CATALOGUE[0], _WIDTH * slots).reshape(_WIDTH, slots)
-        own[:-1, :n] = catalogue[memory.array("identity", n), :-1].T
+        own[: -len(_OWN), :n] = catalogue[memory.array("identity", n), : -len(_OWN)].T
 
 
 def _check(name: str, numbers: Integers, bound: int) -> None:

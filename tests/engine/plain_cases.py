@@ -27,6 +27,7 @@ from bodies import (
     PlanarBody,
     Plate,
     Point,
+    Rest,
     Spring,
     SuperellipsoidBody,
     TriangleMesh,
@@ -241,6 +242,18 @@ def _flat() -> Numbers:
     return _numbers(system, 2e-3)
 
 
+def _groove() -> Numbers:
+    """Let a ball sink into a groove, slower than bounces are, and slip along it."""
+    half = math.pi / 8.0
+    sides = [Plate(Rest(orientation=(math.cos(half), 0.0, sign * math.sin(half), 0.0))) for sign in (1.0, -1.0)]
+    ball = Ball(0.01)
+    system = ns.System([*sides, ball])
+    for side in sides:
+        system.contact(side, ball, **_rigid(EnergeticImpact(0.5, duration=1e-3), Coulomb(0.3)))
+    system.place(ball, position=(0.0, 0.0, math.sqrt(2.0) * 0.01), velocity=(0.0, 0.05, -5e-3))
+    return _numbers(system, 5e-3)
+
+
 def _contact_problem(seed: int, n: int, n_u: int, solver: str, sliding: bool) -> Numbers:
     """Solve for random contacts, more of them than the velocities need where n_u is small."""
     rng = np.random.default_rng(seed)
@@ -313,6 +326,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "hills": _hills,
     "border": lambda: _border(60.0, 1e-9),
     "flat": _flat,
+    "groove": _groove,
     "slow border": lambda: _border(12.0, 3e-9),
     **{
         f"contact problem, {solver}, {n} contacts, {n_u} velocities, sliding {sliding}": (

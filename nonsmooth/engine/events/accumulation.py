@@ -15,6 +15,7 @@ from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
+from nonsmooth.engine.flow.self_check import EXPLAINED
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 
@@ -68,12 +69,15 @@ def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
     closing = 0
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
-        # what is averaged comes to rest within that time, on its way up
-        time = averaging_time(S, w, k) * (1.0 if S.n_active == 1 else _RESTS)
+        time, fastest = averaging_time(S, w, k), 1e300
+        if S.n_active > 1:
+            # what is averaged comes to rest within that time, on its way up, which is none that can be told
+            time *= _RESTS
+            fastest = EXPLAINED * S.gap_tolerance / max(time, S.time_tolerance)
         which = -1
         for a in range(S.n_active):
             c = active_at(S, w, k, a).slot
-            if _is_short(S, w, k, c, time) == 1:
+            if contact_at(S, w, k, c).rate[0] <= fastest and _is_short(S, w, k, c, time) == 1:
                 which = c
         if which >= 0 and S.n_active == 1:
             _close(S, w, k, which)

@@ -15,7 +15,7 @@ from nonsmooth.engine.numerics.vectors import length
 
 _PACE = 1.0
 """Evaluations of forces within a contact time beyond which time hardly passes,"""
-_BURST = 5000.0
+_BURST = 20000.0
 """and so many more are a stop of a slip, not yet a crowd of them."""
 
 
