@@ -106,6 +106,8 @@ def _solve(S: Scalars, w: Floats, k: Integers, time: float) -> int:
         for r in range(3):
             active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
             active.force[r] = time * contact.mean_force[r] if contact.averaged != OPEN else 0.0
+        # what is left of a gap may close
+        active.free[0] += max(0.0, contact.gap) / (time * time)
     decouple_normals(S, w, k)
     return int(inelastic_impulses(S, w, k, time))
 

@@ -54,7 +54,9 @@ def _is_short(S: Scalars, w: Floats, k: Integers, c: int, time: float) -> int:
         return 0
     # the touch-down is due after 2 rate / approach
     S.h_first = min(S.h_first, 3.0 * rate / approach)
-    return 1 if rate <= approach * time and closed_twin(S, w, k, c) < 0 else 0
+    # (a gap that is left closes first)
+    short = (rate - approach * time) * time <= -max(0.0, contact.gap)
+    return 1 if short and closed_twin(S, w, k, c) < 0 else 0
 
 
 @kernel("i8(S, F, I)")
