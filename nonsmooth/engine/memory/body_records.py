@@ -101,6 +101,9 @@ UNIT: Fields = {
 }
 """Of a unit (:mod:`nonsmooth.engine.bodies.listing`)."""
 
+WALL = without("wall_", "wall_contact", "wall_unit", "wall_frame", "wall_steady", "wall_ceiling")
+"""Of an unbounded shape in a contact (:mod:`nonsmooth.engine.bodies.listing`)."""
+
 POOL = without(
     "pool_",
     "pool_function",
