@@ -13,6 +13,7 @@ import numpy as np
 from bodies.blocks import put
 from bodies.inertia import Triple, check_inertia, tensor_of
 from bodies.values import Word, read_start, unit_quaternion
+from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
@@ -105,6 +106,61 @@ def _evaluate(
     out[_ENERGY + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
 
 
+@compiled
+def _turn(out: Floats, a: float, b: float, c: float, d: float, x: float, y: float, z: float) -> None:
+    """Write the quaternion (a, b, c, d), turned by a rotation vector in axes of the body."""
+    angle = math.sqrt(x * x + y * y + z * z)
+    k, s = math.cos(0.5 * angle), math.sin(0.5 * angle) / angle if angle > 0.0 else 0.5
+    x, y, z = s * x, s * y, s * z
+    out[3] = a * k - b * x - c * y - d * z
+    out[4] = b * k + a * x + c * z - d * y
+    out[5] = c * k + a * y + d * x - b * z
+    out[6] = d * k + a * z + b * y - c * x
+
+
+def _fly(
+    t: float,
+    q: Floats,
+    u: Floats,
+    out: Floats,
+    inertia_x: float,
+    inertia_y: float,
+    inertia_z: float,
+    gravity_x: float,
+    gravity_y: float,
+    gravity_z: float,
+) -> None:
+    half = 0.5 * t
+    out[0] = q[0] + t * (u[0] + half * gravity_x)
+    out[1] = q[1] + t * (u[1] + half * gravity_y)
+    out[2] = q[2] + t * (u[2] + half * gravity_z)
+    out[7] = u[0] + t * gravity_x
+    out[8] = u[1] + t * gravity_y
+    out[9] = u[2] + t * gravity_z
+    ox, oy, oz = u[3], u[4], u[5]
+    # the angular momentum over the moment of inertia across the axis of symmetry stays in space; what the spin about
+    # that axis has more turns with the body
+    ex = ey = ez = 0.0
+    if inertia_y == inertia_z:
+        ex = (1.0 - inertia_x / inertia_y) * ox
+    elif inertia_x == inertia_z:
+        ey = (1.0 - inertia_y / inertia_x) * oy
+    else:
+        ez = (1.0 - inertia_z / inertia_x) * oz
+    _turn(out, q[3], q[4], q[5], q[6], t * (ox - ex), t * (oy - ey), t * (oz - ez))
+    if ex + ey + ez != 0.0:
+        _turn(out, out[3], out[4], out[5], out[6], t * ex, t * ey, t * ez)
+        angle = t * (ex + ey + ez)
+        c, s = math.cos(angle), math.sin(angle)
+        if ex != 0.0:
+            oy, oz = c * oy + s * oz, c * oz - s * oy
+        elif ey != 0.0:
+            oz, ox = c * oz + s * ox, c * ox - s * oz
+        else:
+            ox, oy = c * ox + s * oy, c * oy - s * ox
+    out[10], out[11], out[12] = ox, oy, oz
+
+
 @functools.lru_cache(maxsize=256)
 def _mobility(name: str, mass: float, moments: Triple, products: Triple) -> tuple[float, ...]:
     """Return J^-1 in the order of moments and products, of which bodies that are alike have one; all of it checked."""
@@ -182,6 +238,12 @@ class FreeBody(Body):
     def evaluator(self) -> Callable[..., None]:
         """Newton-Euler equations."""
         return _evaluate
+
+    @property
+    def flight(self) -> Callable[..., None] | None:
+        """That of a symmetric top about an axis of the frame, which a ball is; of others there is none."""
+        x, y, z = self.inertia
+        return _fly if not any(self.products) and (x == y or y == z or x == z) else None
 
     @property
     def time_scale(self) -> float:

@@ -73,7 +73,7 @@ def slow_modes(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         contact.mode_agreed = contact.mode
-    free_acceleration(S, w, k)
+    free_acceleration(S, w, k, 1)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     slow = 0

@@ -113,7 +113,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
     """
     remember(S, w, k)
     if cause == JAM:
-        free_acceleration(S, w, k)
+        free_acceleration(S, w, k, 1)
         push_compliant(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
@@ -273,7 +273,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers) -> int:
 
     Return 2 where all is to be done again, some friction having another bound than it seemed.
     """
-    free_acceleration(S, w, k)
+    free_acceleration(S, w, k, 1)
     push_compliant(S, w, k)
     turned = 0
     for group in range(S.n_groups):

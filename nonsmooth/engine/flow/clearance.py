@@ -15,6 +15,7 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
+from nonsmooth.engine.flow.flight import body_within
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.guards import grown, has_fired
 from nonsmooth.engine.memory.blocks import FRAME
@@ -32,7 +33,6 @@ from nonsmooth.engine.native.kernel import (
     kernel,
     part_end,
 )
-from nonsmooth.engine.numerics.runge_kutta import dense_part
 from nonsmooth.engine.numerics.vectors import Vector, cross, distance, dot, minus, scaled
 
 _CURVED = 4.0
@@ -63,9 +63,11 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     """Write how fast the gaps of the open contacts can change where the bodies stand, to ``speed_end``.
 
     Seen from one body the other's surface moves along a normal no faster than its origin, and its lever by turning.
+    The fastest turning of one that flies counts for the length of the step.
     """
     last_a = last_b = -1
     speed = turning = 0.0
+    S.fastest_turn = 0.0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode != OPEN:
@@ -79,6 +81,8 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
             last_a, last_b = a, b
         if lever > 0.0 and turning < 0.0:
             turning = distance(frame_at(w, b).spin, frame_at(w, a).spin)
+            if body_at(S, w, k, contact.body_a).flies + body_at(S, w, k, contact.body_b).flies > 0:
+                S.fastest_turn = max(S.fastest_turn, turning)
         contact.speed_end = speed + turning * lever if lever > 0.0 else speed
         if lever > 0.0:
             contact.arm_end = _arm(S, w, k, c)
@@ -161,21 +165,33 @@ def _expected_closing(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> fl
     return float(2.0 * gap / (math.sqrt(square) - rate))
 
 
+@kernel("i8(S, F, I, i8, f8)")
+def _will_be_doubtful(S: Scalars, w: Floats, k: Integers, c: int, h: float) -> int:
+    """Return 1 if the gap of ``c`` may close within the time ``h`` as far as the speeds at its start tell."""
+    contact = contact_at(S, w, k, c)
+    faces = contact.mode == OPEN and contact.past_first <= 0.0
+    return 1 if faces and guard_at(S, w, k, normal_guard(c)).end <= 2.0 * h * contact.speed_first else 0
+
+
 @kernel("f8(S, F, I, f8)")
 def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
-
-    The bodies stand there; later they would have to be put there.  Return when the first of these gaps is expected to
-    close [s].
-    """
+    """Return when the first of the gaps that will be doubtful after a step of ``h`` is expected to close [s]."""
     soonest = 1e300
     for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        faces = contact.mode == OPEN and contact.past_first <= 0.0
-        if faces and guard_at(S, w, k, normal_guard(c)).end <= 2.0 * h * contact.speed_first:
-            contact.fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
+        if _will_be_doubtful(S, w, k, c, min(h, soonest)) == 1:
             soonest = min(soonest, _expected_closing(S, w, k, c, S.slopes + S.n_q))
     return soonest
+
+
+@kernel("void(S, F, I, f8)")
+def keep_falls(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+    """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
+
+    The bodies stand there; later they would have to be put there.
+    """
+    for c in range(S.n_contacts):
+        if _will_be_doubtful(S, w, k, c, h) == 1:
+            contact_at(S, w, k, c).fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
@@ -229,10 +245,7 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
         state = S.y if theta == 0.0 else S.y_new
         if 0.0 < theta < 1.0:
             state = S.y_stage
-            for part in range(2):
-                i = body.q if part == 0 else S.n_q + body.u
-                n = body.nq if part == 0 else body.nu
-                dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, state + i)
+            body_within(S, w, k, h, theta, number, state)
         evaluate_body(S, w, k, S.t + theta * h, state, number)
     evaluate_geometry(S, w, k, c)
 

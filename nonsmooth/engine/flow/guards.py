@@ -128,7 +128,7 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
     Gaps that cannot close in the step are left as they are at its end.
     """
     if forces == 1:
-        right_hand_side(S, w, k, t, y, 0)
+        right_hand_side(S, w, k, t, y, 0, 1)
     else:
         evaluate_bodies(S, w, k, t, y)
     _write_other_guards(S, w, k, t, y, forces)

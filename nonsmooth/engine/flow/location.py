@@ -11,6 +11,7 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap
+from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_own_guard,
@@ -34,7 +35,6 @@ from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.roots import weakened
-from nonsmooth.engine.numerics.runge_kutta import dense_state
 
 _MIDDLE = 0.5
 _NEAR = 0.2
@@ -87,7 +87,7 @@ def _asks_forces(S: Scalars, w: Floats, k: Integers) -> int:
 @entry_point("void(S, F, I, f8, f8, i8)")
 def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
-    dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
+    state_within(S, w, k, h, theta, S.y_stage)
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
 
 
@@ -492,7 +492,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         else 0
     )
     if S.step_error <= _NEGLIGIBLE or jumps == 1:
-        dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
+        state_within(S, w, k, h, theta, S.y_new)
         return step
     if S.guard_slope == -math.inf:
         return _behind_jump(S, w, k, step, fired)

@@ -194,7 +194,7 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
     if moved > 0:
         before = energy_of_bodies(S, w, k, 1)
         _displace(S, w, k)
-        evaluate_free_bodies(S, w, k, S.t, S.y)
+        evaluate_free_bodies(S, w, k, S.t, S.y, 1)
         if at_event == 1:
             loss += before - energy_of_bodies(S, w, k, 1)
     return loss

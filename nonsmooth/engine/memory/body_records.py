@@ -33,6 +33,10 @@ BODY = without(
     "body_out",
     "body_tail",
     "body_quaternion",
+    "body_flight",
+    "body_flight_parameters",
+    "body_flight_out",
+    "body_flies",
 )
 """Of a body."""
 

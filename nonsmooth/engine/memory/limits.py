@@ -15,7 +15,8 @@ from __future__ import annotations
     BY_EVENT,
     BY_CROWD,
     BY_END,
-) = range(12)
+    BY_TURN,
+) = range(13)
 
 LIMITS = (
     "no step",
@@ -30,5 +31,6 @@ LIMITS = (
     "event",
     "crowded events",
     "end of the run",
+    "turning in flight",
 )
 """Their words; without a step are the events that begin where another ended, and new lists of near contacts."""

@@ -17,13 +17,21 @@ def stage_state(
     S: Scalars, w: Floats, stages: int, start: int, slopes: int, n: int, stage: int, h: float, out: int
 ) -> None:
     """Write the state at which the slope of ``stage`` is evaluated, by the weights of ``stages``."""
+    stage_part(S, w, stages, start, slopes, n, n, stage, h, out)
+
+
+@kernel("void(S, F, i8, i8, i8, i8, i8, i8, f8, i8)")
+def stage_part(
+    S: Scalars, w: Floats, stages: int, start: int, slopes: int, n: int, stride: int, stage: int, h: float, out: int
+) -> None:
+    """Write ``n`` components of that state, the slopes of two stages lying ``stride`` apart."""
     weight = h * w[stages + 6 * stage]
     for i in range(n):
         w[out + i] = w[start + i] + weight * w[slopes + i]
     for j in range(1, stage):
         weight = h * w[stages + 6 * stage + j]
         for i in range(n):
-            w[out + i] += weight * w[slopes + j * n + i]
+            w[out + i] += weight * w[slopes + j * stride + i]
 
 
 @kernel("void(S, F, i8, i8, i8, f8, f8, i8)")
@@ -51,13 +59,19 @@ def dense_part(
 @kernel("void(S, F, i8, i8, i8, f8, i8)")
 def weigh_slopes(S: Scalars, w: Floats, weights: int, slopes: int, n: int, h: float, out: int) -> None:
     """Write ``h`` times the weighted sum of the slopes, by which errors of a step are estimated."""
+    weigh_part(S, w, weights, slopes, n, n, h, out)
+
+
+@kernel("void(S, F, i8, i8, i8, i8, f8, i8)")
+def weigh_part(S: Scalars, w: Floats, weights: int, slopes: int, n: int, stride: int, h: float, out: int) -> None:
+    """Write ``n`` components of that sum, the slopes of two stages lying ``stride`` apart."""
     weight = h * w[weights]
     for i in range(n):
         w[out + i] = weight * w[slopes + i]
     for j in range(1, N_STAGES):
         weight = h * w[weights + j]
         for i in range(n):
-            w[out + i] += weight * w[slopes + j * n + i]
+            w[out + i] += weight * w[slopes + j * stride + i]
 
 
 @kernel("void(S, F, i8, i8, i8, i8, f8, i8)")

@@ -40,6 +40,7 @@ ARRAYS = Arrays(
             "h_listed",
             "h_first",
             "h_closing",
+            "h_turn",
             "h_closed",
             "h_valid",
             "end_of_valid",
