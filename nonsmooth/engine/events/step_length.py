@@ -7,13 +7,14 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.events.stopping import share_before_stop
-from nonsmooth.engine.flow.clearance import foresee, keep_falls
+from nonsmooth.engine.flow.clearance import first_of_flying, foresee, keep_falls
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
     BY_CLOSING,
     BY_END,
     BY_ERROR,
+    BY_EVENT,
     BY_FIRST,
     BY_LARGEST,
     BY_LIST,
@@ -77,17 +78,21 @@ def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
     """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
     S.h_turn = _TURN / S.fastest_turn if S.fastest_turn > 0.0 else 1e300
     h = min(wanted, S.h_listed, S.sample_span, S.h_valid, S.h_turn)
-    S.h_closing = 1e300
+    S.h_closing = S.h_arrival = 1e300
+    soonest = foresee(S, w, k, h) if S.fresh == 0 or S.n_flying > 0 else 1e300
     if S.fresh == 0:
         for c in range(S.n_contacts):
             contact = contact_at(S, w, k, c)
             if contact.mode != OPEN:
                 S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
         h = min(h, S.h_first)
-        S.h_closing = max(_SHORTEST * h, _BEHIND * foresee(S, w, k, h))
-        h = S.h_closing if S.h_closing < _EXACT * h else h
-        keep_falls(S, w, k, h)
-    return float(h)
+        S.h_closing = max(_SHORTEST * h, _BEHIND * soonest)
+        keep_falls(S, w, k, min(h, S.h_closing))
+    if S.n_flying > 0 and soonest < h:
+        S.h_arrival = first_of_flying(S, w, k, soonest)
+    if S.h_arrival < h:
+        return float(S.h_arrival)
+    return float(S.h_closing if S.h_closing < _EXACT * h else h)
 
 
 @kernel("i8(S, f8, f8)")
@@ -101,6 +106,8 @@ def _limit(S: Scalars, wanted: float, h: float) -> int:
         return BY_SAMPLES
     if h == S.h_turn:
         return BY_TURN
+    if h == S.h_arrival:
+        return BY_EVENT
     if h == S.h_closing:
         return BY_CLOSING
     return BY_END if h == S.h_valid else BY_FIRST

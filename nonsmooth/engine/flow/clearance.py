@@ -15,7 +15,7 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
-from nonsmooth.engine.flow.flight import body_within
+from nonsmooth.engine.flow.flight import body_within, fly
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.guards import grown, has_fired
 from nonsmooth.engine.memory.blocks import FRAME
@@ -43,6 +43,12 @@ WAY = 0.02
 """Part of the size of the smaller body that features may move unseen where they do not face each other."""
 _RESTS = 10.0
 """A gap and a rate of so many tolerances at both ends are those of neighbours at rest, which are sampled."""
+_NEXT_TO_CLOSED = 0.01
+"""Part of the gap tolerance that a step between bodies that fly leaves of a gap at whose closing it ends."""
+_CLOSINGS = 8
+"""Steps of Newton's method to there,"""
+_ABOUT = 1.2
+"""and of gaps that are due within this factor of the first one."""
 _COARSE = 0.125
 """Part of a step to which the gap of neighbours at rest is looked at."""
 
@@ -175,12 +181,67 @@ def _will_be_doubtful(S: Scalars, w: Floats, k: Integers, c: int, h: float) -> i
 
 @kernel("f8(S, F, I, f8)")
 def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Return when the first of the gaps that will be doubtful after a step of ``h`` is expected to close [s]."""
+    """Return when the first of the gaps that will be doubtful after a step of ``h`` is expected to close [s].
+
+    When each of them is stays with it.
+    """
     soonest = 1e300
     for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        contact.due = 1e300
         if _will_be_doubtful(S, w, k, c, min(h, soonest)) == 1:
-            soonest = min(soonest, _expected_closing(S, w, k, c, S.slopes + S.n_q))
+            contact.due = _expected_closing(S, w, k, c, S.slopes + S.n_q)
+            soonest = min(soonest, contact.due)
     return soonest
+
+
+@kernel("i8(S, F, I, i8)")
+def _flies(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Return 1 if it is known without a step where a body will be."""
+    body = body_at(S, w, k, number)
+    return 1 if body.nu == 0 or body.flies == 1 else 0
+
+
+@kernel("f8(S, F, I, i8)")
+def _closing_of_flying(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return when the gap of ``c`` is next to none, but open, if its bodies fly on [s]; 1e300 if that is not found.
+
+    Newton's method, from when it is due.
+    """
+    contact, aim = contact_at(S, w, k, c), _NEXT_TO_CLOSED * S.gap_tolerance
+    elapsed = contact.due
+    for _iteration in range(_CLOSINGS):
+        for side in range(2):
+            number = contact.body_a if side == 0 else contact.body_b
+            if body_at(S, w, k, number).nu == 0:
+                evaluate_driven_bodies(S, w, k, S.t + elapsed, S.y)
+            else:
+                fly(S, w, k, elapsed, number, S.y_stage)
+                evaluate_body(S, w, k, S.t + elapsed, S.y_stage, number)
+        evaluate_geometry(S, w, k, c)
+        evaluate_rates(S, w, k, c)
+        left, rate = contact.gap - aim, contact.rate[0]
+        if abs(left) <= 0.5 * aim:
+            return elapsed
+        if not rate < -S.velocity_tolerance or contact.beyond > 0.0 or not elapsed > left / rate:
+            return 1e300
+        elapsed -= left / rate
+    return 1e300
+
+
+@kernel("f8(S, F, I, f8)")
+def first_of_flying(S: Scalars, w: Floats, k: Integers, soonest: float) -> float:
+    """Return when the first gap between bodies that fly is closed, those being due that are due about ``soonest`` [s].
+
+    The bodies do not stand at the start any more.
+    """
+    first = 1e300
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        fly_both = _flies(S, w, k, contact.body_a) == 1 and _flies(S, w, k, contact.body_b) == 1
+        if contact.due <= min(_ABOUT * soonest, first) and fly_both:
+            first = min(first, _closing_of_flying(S, w, k, c))
+    return first
 
 
 @kernel("void(S, F, I, f8)")

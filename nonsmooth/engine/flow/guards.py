@@ -16,7 +16,7 @@ zero at the start does not fire while the next one does.
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
+from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.flow import WRONG_FORCE, hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.flow.guard_numbers import (
@@ -34,6 +34,7 @@ from nonsmooth.engine.native.kernel import (
     Integers,
     Scalars,
     at,
+    body_at,
     call_guard,
     contact_at,
     entry_point,
@@ -121,21 +122,34 @@ def _write_other_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, fo
             end.value = _feature_guard(S, w, k, c)
 
 
+@kernel("void(S, F, I, f8, i8, i8)")
+def _write_gap_within(S: Scalars, w: Floats, k: Integers, t: float, y: int, c: int) -> None:
+    """Write the guards of the open contact ``c``, after what of its bodies flies has been put to where it is."""
+    contact = contact_at(S, w, k, c)
+    for side in range(2):
+        number = contact.body_a if side == 0 else contact.body_b
+        if body_at(S, w, k, number).flies == 1:
+            evaluate_body(S, w, k, t, y, number)
+    _write_gap(S, w, k, c)
+
+
 @kernel("void(S, F, I, f8, i8, f8, i8)")
 def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapsed: float, forces: int) -> None:
     """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step.
 
-    Gaps that cannot close in the step are left as they are at its end.
+    Gaps that cannot close in the step, and bodies that fly and cannot meet anything in it, are left as they are at its
+    end.
     """
     if forces == 1:
-        right_hand_side(S, w, k, t, y, 0, 1)
+        right_hand_side(S, w, k, t, y, 0, 0)
     else:
-        evaluate_bodies(S, w, k, t, y)
+        evaluate_driven_bodies(S, w, k, t, y)
+        evaluate_free_bodies(S, w, k, t, y, 0)
     _write_other_guards(S, w, k, t, y, forces)
     for i in range(S.n_doubtful):
-        _write_gap(S, w, k, k[S.doubtful + i])
+        _write_gap_within(S, w, k, t, y, k[S.doubtful + i])
     for i in range(S.n_astray):
-        _write_gap(S, w, k, k[S.astray + i])
+        _write_gap_within(S, w, k, t, y, k[S.astray + i])
     deflate(S, w, k, elapsed)
 
 

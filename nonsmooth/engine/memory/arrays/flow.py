@@ -78,6 +78,7 @@ ARRAYS = Arrays(
         "fall_first": per(3, "n_slots"),
         "arm_end": per(3, "n_slots"),
         "arm_first": per(3, "n_slots"),
+        "due": per(1, "n_slots"),
         "leap_start": per(6, "n_slots"),
         "leap_way": per(6, "n_slots"),
         "small_force_of": per(1, "n_slots"),
