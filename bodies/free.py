@@ -107,11 +107,8 @@ def _evaluate(
 
 
 @compiled
-def _turn(out: Floats, a: float, b: float, c: float, d: float, x: float, y: float, z: float) -> None:
-    """Write the quaternion (a, b, c, d), turned by a rotation vector in axes of the body."""
-    angle = math.sqrt(x * x + y * y + z * z)
-    k, s = math.cos(0.5 * angle), math.sin(0.5 * angle) / angle if angle > 0.0 else 0.5
-    x, y, z = s * x, s * y, s * z
+def _turn(out: Floats, a: float, b: float, c: float, d: float, k: float, x: float, y: float, z: float) -> None:
+    """Write the product of the quaternions (a, b, c, d) and (k, x, y, z)."""
     out[3] = a * k - b * x - c * y - d * z
     out[4] = b * k + a * x + c * z - d * y
     out[5] = c * k + a * y + d * x - b * z
@@ -147,11 +144,16 @@ def _fly(
         ey = (1.0 - inertia_y / inertia_x) * oy
     else:
         ez = (1.0 - inertia_z / inertia_x) * oz
-    _turn(out, q[3], q[4], q[5], q[6], t * (ox - ex), t * (oy - ey), t * (oz - ez))
+    x, y, z = ox - ex, oy - ey, oz - ez
+    rate = math.sqrt(x * x + y * y + z * z)
+    c, s = math.cos(half * rate), math.sin(half * rate) / rate if rate > 0.0 else half
+    _turn(out, q[3], q[4], q[5], q[6], c, s * x, s * y, s * z)
     if ex + ey + ez != 0.0:
-        _turn(out, out[3], out[4], out[5], out[6], t * ex, t * ey, t * ez)
-        angle = t * (ex + ey + ez)
-        c, s = math.cos(angle), math.sin(angle)
+        c, s = math.cos(half * (ex + ey + ez)), math.sin(half * (ex + ey + ez))
+        x, y, z = s if ex != 0.0 else 0.0, s if ey != 0.0 else 0.0, s if ez != 0.0 else 0.0
+        _turn(out, out[3], out[4], out[5], out[6], c, x, y, z)
+        # twice that angle
+        c, s = c * c - s * s, 2.0 * c * s
         if ex != 0.0:
             oy, oz = c * oy + s * oz, c * oz - s * oy
         elif ey != 0.0:

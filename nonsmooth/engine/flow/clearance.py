@@ -43,7 +43,7 @@ WAY = 0.02
 """Part of the size of the smaller body that features may move unseen where they do not face each other."""
 _RESTS = 10.0
 """A gap and a rate of so many tolerances at both ends are those of neighbours at rest, which are sampled."""
-_NEXT_TO_CLOSED = 0.01
+_NEXT_TO_CLOSED = 1e-3
 """Part of the gap tolerance that a step between bodies that fly leaves of a gap at whose closing it ends."""
 _CLOSINGS = 8
 """Steps of Newton's method to there,"""
@@ -222,7 +222,7 @@ def _closing_of_flying(S: Scalars, w: Floats, k: Integers, c: int) -> float:
         evaluate_rates(S, w, k, c)
         left, rate = contact.gap - aim, contact.rate[0]
         if abs(left) <= 0.5 * aim:
-            return elapsed
+            return float(elapsed)
         if not rate < -S.velocity_tolerance or contact.beyond > 0.0 or not elapsed > left / rate:
             return 1e300
         elapsed -= left / rate

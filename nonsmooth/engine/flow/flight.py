@@ -140,11 +140,10 @@ def state_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, out
     for span in range(S.n_spans):
         i, n = k[S.span_first + span], k[S.span_length + span]
         dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, out + i)
-    if S.n_flying == 0:
-        return
-    for i in range(S.n_flying):
-        fly(S, w, k, theta * h, k[S.flying + i], out)
     if S.n_spans == 0:
         for i in range(S.n_q + S.n_u, S.n_y):
             w[out + i] = w[S.y + i]
-    w[out + S.n_q + S.n_u + EXCHANGED] += theta * S.exchanged_in_flight
+    if S.n_flying > 0:
+        for i in range(S.n_flying):
+            fly(S, w, k, theta * h, k[S.flying + i], out)
+        w[out + S.n_q + S.n_u + EXCHANGED] += theta * S.exchanged_in_flight

@@ -123,14 +123,30 @@ def _write_other_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, fo
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
-def _write_gap_within(S: Scalars, w: Floats, k: Integers, t: float, y: int, c: int) -> None:
-    """Write the guards of the open contact ``c``, after what of its bodies flies has been put to where it is."""
+def _evaluate_flying(S: Scalars, w: Floats, k: Integers, t: float, y: int, c: int) -> None:
+    """Let the bodies of contact ``c`` that fly write their output blocks."""
     contact = contact_at(S, w, k, c)
     for side in range(2):
         number = contact.body_a if side == 0 else contact.body_b
         if body_at(S, w, k, number).flies == 1:
             evaluate_body(S, w, k, t, y, number)
-    _write_gap(S, w, k, c)
+
+
+@kernel("void(S, F, I, f8, i8)")
+def _evaluate_doubtful(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+    """Evaluate the bodies that fly and may meet something in the step."""
+    for i in range(S.n_doubtful):
+        _evaluate_flying(S, w, k, t, y, k[S.doubtful + i])
+    for i in range(S.n_astray):
+        _evaluate_flying(S, w, k, t, y, k[S.astray + i])
+
+
+@kernel("void(S, F, I, f8, i8)")
+def stand_at(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+    """Evaluate the bodies that move at ``t`` and ``y``, but for those that fly and can meet nothing in the step."""
+    evaluate_driven_bodies(S, w, k, t, y)
+    evaluate_free_bodies(S, w, k, t, y, 0)
+    _evaluate_doubtful(S, w, k, t, y)
 
 
 @kernel("void(S, F, I, f8, i8, f8, i8)")
@@ -142,14 +158,14 @@ def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapse
     """
     if forces == 1:
         right_hand_side(S, w, k, t, y, 0, 0)
+        _evaluate_doubtful(S, w, k, t, y)
     else:
-        evaluate_driven_bodies(S, w, k, t, y)
-        evaluate_free_bodies(S, w, k, t, y, 0)
+        stand_at(S, w, k, t, y)
     _write_other_guards(S, w, k, t, y, forces)
     for i in range(S.n_doubtful):
-        _write_gap_within(S, w, k, t, y, k[S.doubtful + i])
+        _write_gap(S, w, k, k[S.doubtful + i])
     for i in range(S.n_astray):
-        _write_gap_within(S, w, k, t, y, k[S.astray + i])
+        _write_gap(S, w, k, k[S.astray + i])
     deflate(S, w, k, elapsed)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
@@ -27,6 +26,7 @@ from nonsmooth.engine.flow.guards import (
     first_fired,
     is_gap,
     keep_end,
+    stand_at,
     write_guards,
 )
 from nonsmooth.engine.flow.self_check import explained_gap
@@ -261,7 +261,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if theta > 0.0:
             return theta
     if looks > 0:
-        evaluate_bodies(S, w, k, S.t + h, S.y_new)
+        stand_at(S, w, k, S.t + h, S.y_new)
         for i in range(number_of_guards(S)):
             guard_at(S, w, k, i).value = guard_at(S, w, k, i).end
         for c in range(S.n_contacts):
