@@ -72,7 +72,7 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
 def _blocks_of_flights(model: LaidOut) -> Iterator[Block]:
     names = model.system.names.bodies
     for i, body in enumerate(model.system.bodies):
-        if body.flight is not None and _entry(model, "body_flight", i) != 0:
+        if body.flight is not None and _entry(model, "body_flight_function", i) != 0:
             label, size = functools.partial("body {!r}, {!r} in flight:".format, names[i], body), body.n_q + body.n_u
             yield Block(label, body.flight, _entry(model, "body_flight_out", i), size, size)
 

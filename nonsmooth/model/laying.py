@@ -84,7 +84,7 @@ def _flight(
     owner, size = type(body).__name__, body.n_q + body.n_u
     address, values = bind(function, "body", offered, owner)
     try_out(function, "body", offered, values, size, owner, (0.0, *map(tuple, start)))
-    return {"flight": address, "flight_parameters": heap.store(values), "flight_out": heap.output(size)}
+    return {"flight_function": address, "flight_parameters": heap.store(values), "flight_out": heap.output(size)}
 
 
 def lay_joints(memory: Memory, heap: Heap, articulations: Sequence[Articulation], places: Places) -> None:

@@ -44,7 +44,7 @@ WAY = 0.02
 _RESTS = 10.0
 """A gap and a rate of so many tolerances at both ends are those of neighbours at rest, which are sampled."""
 _NEXT_TO_CLOSED = 1e-3
-"""Part of the gap tolerance that a step between bodies that fly leaves of a gap at whose closing it ends."""
+"""Part of the tolerances of gaps and times that a step of bodies that fly leaves of a gap at whose closing it ends."""
 _CLOSINGS = 8
 """Steps of Newton's method to there,"""
 _ABOUT = 1.2
@@ -208,7 +208,7 @@ def _closing_of_flying(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 
     Newton's method, from when it is due.
     """
-    contact, aim = contact_at(S, w, k, c), _NEXT_TO_CLOSED * S.gap_tolerance
+    contact = contact_at(S, w, k, c)
     elapsed = contact.due
     for _iteration in range(_CLOSINGS):
         for side in range(2):
@@ -220,7 +220,9 @@ def _closing_of_flying(S: Scalars, w: Floats, k: Integers, c: int) -> float:
                 evaluate_body(S, w, k, S.t + elapsed, S.y_stage, number)
         evaluate_geometry(S, w, k, c)
         evaluate_rates(S, w, k, c)
-        left, rate = contact.gap - aim, contact.rate[0]
+        rate = contact.rate[0]
+        aim = _NEXT_TO_CLOSED * min(S.gap_tolerance, S.time_tolerance * abs(rate))
+        left = contact.gap - aim
         if abs(left) <= 0.5 * aim:
             return float(elapsed)
         if not rate < -S.velocity_tolerance or contact.beyond > 0.0 or not elapsed > left / rate:

@@ -42,7 +42,7 @@ def choose_integrated(S: Scalars, w: Floats, k: Integers) -> None:
     """
     for number in range(S.n_bodies):
         body = body_at(S, w, k, number)
-        body.flies = 1 if body.flight != 0 else 0
+        body.flies = 1 if body.flight_function != 0 else 0
     for i in range(S.n_grouped):
         contact = contact_at(S, w, k, k[S.grouped + i])
         one, two = body_at(S, w, k, contact.body_a), body_at(S, w, k, contact.body_b)
@@ -89,7 +89,7 @@ def fly(S: Scalars, w: Floats, k: Integers, elapsed: float, number: int, out: in
     body = body_at(S, w, k, number)
     found = body.flight_out
     q, u = at(w, S.y + body.q), at(w, S.y + S.n_q + body.u)
-    call_body(body.flight, elapsed, q, u, at(w, body.flight_parameters), at(w, found))
+    call_body(body.flight_function, elapsed, q, u, at(w, body.flight_parameters), at(w, found))
     for i in range(body.nq):
         w[out + body.q + i] = w[found + i]
     for i in range(body.nu):

@@ -92,7 +92,7 @@ ARRAYS = Arrays(
         "body_parameters": per(1, "n_bodies"),
         "body_out": per(1, "n_bodies"),
         "body_tail": per(1, "n_bodies"),
-        "body_flight": per(1, "n_bodies"),
+        "body_flight_function": per(1, "n_bodies"),
         "body_flight_parameters": per(1, "n_bodies"),
         "body_flight_out": per(1, "n_bodies"),
         "body_flies": per(1, "n_bodies"),
