@@ -89,7 +89,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "n_units": len(units.radii),
         "n_partners": len(units.pairs),
         "n_paired": len(units.contacts),
-        "n_walls": len(units.walls),
+        "n_walls": len(units.walls) if len(units.radii) > 0 else 0,
         "n_pools": len(units.pools),
         "n_own_guards": len(system.guards),
         "n_loads": len(system.loads),
