@@ -32,7 +32,7 @@ from nonsmooth.engine.native.kernel import (
     kernel,
     part_end,
 )
-from nonsmooth.engine.numerics.runge_kutta import dense_part
+from nonsmooth.engine.numerics.runge_kutta import dense_part, dense_weights
 from nonsmooth.engine.numerics.vectors import Vector, cross, distance, dot, minus, scaled
 
 _CURVED = 4.0
@@ -228,11 +228,10 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
             continue
         state = S.y if theta == 0.0 else S.y_new
         if 0.0 < theta < 1.0:
-            state = S.y_stage
-            for part in range(2):
-                i = body.q if part == 0 else S.n_q + body.u
-                n = body.nq if part == 0 else body.nu
-                dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, state + i)
+            state, q, u = S.y_stage, body.q, S.n_q + body.u
+            early, late = dense_weights(S, w, h, theta, 0), dense_weights(S, w, h, theta, 1)
+            dense_part(w, S.y + q, S.slopes + q, body.nq, S.n_y, early, late, state + q)
+            dense_part(w, S.y + u, S.slopes + u, body.nu, S.n_y, early, late, state + u)
         evaluate_body(S, w, k, S.t + theta * h, state, number)
     evaluate_geometry(S, w, k, c)
 

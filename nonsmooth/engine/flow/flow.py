@@ -77,7 +77,8 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
             contact = contact_at(S, w, k, c)
             contact.redundant = active.redundant
             contact.holds = active.tangent_held
-            contact.static_margin = _static_margin(S, w, k, a)
+            if contact.mode == STICK:
+                contact.static_margin = _static_margin(S, w, k, a)
             for r in range(3):
                 contact.force[r] = active.force[r]
     return keeps

@@ -93,12 +93,14 @@ def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
         for r in range(3):
             for s in range(3):
                 moved += own[3 * r + s] * w[line + r] * w[line + s]
-        for r in range(2, STRIDE):
-            error = math.sqrt(abs(moved) / energy)
-            if r >= DEFORMATION:
-                error = abs(w[line + r]) / (active.deformation_scale if r == DEFORMATION else energy)
-            if error > worst or error != error:
-                worst = error
+        deformed = abs(w[line + DEFORMATION])
+        booked, seen = 0.0, abs(moved) + deformed
+        for r in range(DEFORMATION + 1, STRIDE):
+            booked, seen = max(booked, abs(w[line + r])), seen + abs(w[line + r])
+        # a maximum does not show what is not a number
+        if not seen < _UNUSABLE:
+            return math.inf
+        worst = max(worst, math.sqrt(abs(moved) / energy), deformed / active.deformation_scale, booked / energy)
     return worst / float(S.impact_rtol)
 
 
