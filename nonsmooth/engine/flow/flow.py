@@ -28,6 +28,7 @@ from nonsmooth.engine.native.kernel import (
     entry_point,
     kernel,
 )
+from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.vectors import length
 
 _INCIPIENT = 1e-300
@@ -177,19 +178,15 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
     :func:`right_hand_side`.
     """
     right_hand_side(S, w, k, t, y, choosing)
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
-        rates = body.tail
-        for i in range(body.nq):
-            w[out + body.q + i] = w[rates + i]
-    for i in range(S.n_u):
-        w[out + S.n_q + i] = w[S.du + i]
     lost = own = 0.0
     for number in range(S.n_bodies):
         body = body_at(S, w, k, number)
-        h = body.tail + body.nq
-        for i in range(body.nu):
-            own += w[h + i] * w[y + S.n_q + body.u + i]
+        rates, n_q = body.tail, body.nq
+        for i in range(n_q):
+            w[out + body.q + i] = w[rates + i]
+        own = product(w, own, rates + n_q, y + S.n_q + body.u, body.nu)
+    for i in range(S.n_u):
+        w[out + S.n_q + i] = w[S.du + i]
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
