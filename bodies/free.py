@@ -14,7 +14,7 @@ from bodies.blocks import put
 from bodies.inertia import Triple, check_inertia, tensor_of
 from bodies.values import Word, read_start, unit_quaternion
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, ROTATION, SPIN, VELOCITY
+from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
 from nonsmooth.types import Floats
@@ -59,23 +59,23 @@ def _evaluate(
 ) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
     ox, oy, oz = u[3], u[4], u[5]
-    for i in range(3):
-        out[i] = q[i]
-        out[VELOCITY + i] = u[i]
+    put(out, POSITION, q[0], q[1], q[2])
+    put(out, VELOCITY, u[0], u[1], u[2])
     # homogeneous in the quaternion, so that its length does not matter between two normalisations
-    put(out, ROTATION, a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c))
-    put(out, ROTATION + 3, 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b))
-    put(out, ROTATION + 6, 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d)
-    for i in range(3):
-        r = ROTATION + 3 * i
-        out[SPIN + i] = out[r] * ox + out[r + 1] * oy + out[r + 2] * oz
-        # Jacobian of (velocity, angular velocity): identity and rotation
-        out[JACOBIAN + 7 * i] = 1.0
-        for j in range(3):
-            out[JACOBIAN + 18 + 6 * i + 3 + j] = out[ROTATION + 3 * i + j]
+    xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
+    yx, yy, yz = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
+    zx, zy, zz = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
+    put(out, ROTATION, xx, xy, xz)
+    put(out, ROTATION + 3, yx, yy, yz)
+    put(out, ROTATION + 6, zx, zy, zz)
+    put(out, SPIN, xx * ox + xy * oy + xz * oz, yx * ox + yy * oy + yz * oz, zx * ox + zy * oy + zz * oz)
+    # Jacobian of (velocity, angular velocity): identity and rotation
+    out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
+    put(out, JACOBIAN + 21, xx, xy, xz)
+    put(out, JACOBIAN + 27, yx, yy, yz)
+    put(out, JACOBIAN + 33, zx, zy, zz)
     # coordinate rates: velocity and half the quaternion product q (0, omega)
-    for i in range(3):
-        out[_RATES + i] = u[i]
+    put(out, _RATES, u[0], u[1], u[2])
     out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)
     out[_RATES + 4] = 0.5 * (a * ox + c * oz - d * oy)
     out[_RATES + 5] = 0.5 * (a * oy + d * ox - b * oz)
@@ -92,8 +92,7 @@ def _evaluate(
     out[_FORCE + 5] = (inertia_x - inertia_y) * ox * oy + (
         inertia_xy * (oy * oy - ox * ox) + oz * (inertia_xz * oy - inertia_yz * ox)
     )
-    for i in range(3):
-        out[_INVERSE + 7 * i] = 1.0 / mass
+    out[_INVERSE] = out[_INVERSE + 7] = out[_INVERSE + 14] = 1.0 / mass
     put(out, _INVERSE + 21, mobility_x, mobility_xy, mobility_xz)
     put(out, _INVERSE + 27, mobility_xy, mobility_y, mobility_yz)
     put(out, _INVERSE + 33, mobility_xz, mobility_yz, mobility_z)

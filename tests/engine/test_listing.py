@@ -14,7 +14,7 @@ from nonsmooth.model.assembly import assemble
 from nonsmooth.model.laid_out import LaidOut
 
 RADIUS, WIDTH = 0.01, 0.2
-LAWS = {"normal": Unilateral(), "friction": Coulomb(0.3), "impact": EnergeticImpact(0.8)}
+NORMAL, FRICTION, IMPACT = Unilateral(), Coulomb(0.3), EnergeticImpact(0.8)
 TURN = 0.5**0.5
 UPSIDE_DOWN = (0.0, 1.0, 0.0, 0.0)
 
@@ -27,7 +27,7 @@ def _system(places: np.ndarray, floor: Motion) -> tuple[System, list[Ball]]:
     system = System([*plates, *balls], gravity=9.81)
     for i, ball in enumerate(balls):
         for other in (*plates, *balls[:i]):
-            system.contact(other, ball, **LAWS)
+            system.contact(other, ball, normal=NORMAL, friction=FRICTION, impact=IMPACT)
     for ball, place in zip(balls, places, strict=True):
         system.place(ball, position=tuple(place))
     return system, balls

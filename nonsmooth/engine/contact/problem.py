@@ -35,6 +35,7 @@ from nonsmooth.engine.native.kernel import (
     entry_point,
     kernel,
 )
+from nonsmooth.engine.numerics.linear import multiply
 from nonsmooth.engine.numerics.vectors import length
 
 _INCIPIENT = 1e-300
@@ -73,11 +74,7 @@ def accelerate_freely(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     body = body_at(S, w, k, number)
     n_u = body.nu
     force = body.tail + body.nq
-    for i in range(n_u):
-        total = 0.0
-        for j in range(n_u):
-            total += w[force + n_u + i * n_u + j] * w[force + j]
-        w[S.du + body.u + i] = total
+    multiply(w, force + n_u, n_u, force, S.du + body.u)
 
 
 @kernel("void(S, F, I, i8)")

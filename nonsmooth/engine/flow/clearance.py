@@ -16,7 +16,8 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.flight import body_within, fly
-from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.flow import slip_guard
+from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
 from nonsmooth.engine.flow.guards import grown, has_fired
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
@@ -346,6 +347,15 @@ def look_at_gap(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: i
     _put(S, w, k, h, theta, c)
     evaluate_rates(S, w, k, c)
     _write_gap_guard(S, w, k, c, theta * h)
+
+
+@kernel("void(S, F, I, f8, f8, i8)")
+def look_at_slip(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
+    """Evaluate the slip of the rigid contact ``c`` alone at a fraction of the step, and write its guard."""
+    _put(S, w, k, h, theta, c)
+    evaluate_rates(S, w, k, c)
+    i = friction_guard(S, c)
+    guard_at(S, w, k, i).value = grown(S, w, k, i, slip_guard(S, w, k, c), theta * h)
 
 
 @kernel("void(S, F, I, f8, f8, i8, i8)")

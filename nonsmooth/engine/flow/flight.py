@@ -20,7 +20,7 @@ from nonsmooth.engine.native.kernel import (
     contact_at,
     kernel,
 )
-from nonsmooth.engine.numerics.runge_kutta import dense_part
+from nonsmooth.engine.numerics.runge_kutta import dense_part, dense_weights
 
 
 @kernel("void(S, I, i8, i8)")
@@ -128,18 +128,19 @@ def body_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, numb
     if body.flies == 1:
         fly(S, w, k, theta * h, number, out)
         return
-    for part in range(2):
-        i = body.q if part == 0 else S.n_q + body.u
-        n = body.nq if part == 0 else body.nu
-        dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, out + i)
+    q, u = body.q, S.n_q + body.u
+    early, late = dense_weights(S, w, h, theta, 0), dense_weights(S, w, h, theta, 1)
+    dense_part(w, S.y + q, S.slopes + q, body.nq, S.n_y, early, late, out + q)
+    dense_part(w, S.y + u, S.slopes + u, body.nu, S.n_y, early, late, out + u)
 
 
 @kernel("void(S, F, I, f8, f8, i8)")
 def state_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, out: int) -> None:
     """Write the state at a fraction of the step."""
+    early, late = dense_weights(S, w, h, theta, 0), dense_weights(S, w, h, theta, 1)
     for span in range(S.n_spans):
         i, n = k[S.span_first + span], k[S.span_length + span]
-        dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, out + i)
+        dense_part(w, S.y + i, S.slopes + i, n, S.n_y, early, late, out + i)
     if S.n_spans == 0:
         for i in range(S.n_q + S.n_u, S.n_y):
             w[out + i] = w[S.y + i]

@@ -28,6 +28,7 @@ from nonsmooth.engine.native.kernel import (
     entry_point,
     kernel,
 )
+from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.vectors import length
 
 _INCIPIENT = 1e-300
@@ -78,7 +79,8 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
             contact = contact_at(S, w, k, c)
             contact.redundant = active.redundant
             contact.holds = active.tangent_held
-            contact.static_margin = _static_margin(S, w, k, a)
+            if contact.mode == STICK:
+                contact.static_margin = _static_margin(S, w, k, a)
             for r in range(3):
                 contact.force[r] = active.force[r]
     return keeps
@@ -177,18 +179,17 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
     ``choosing`` and ``every`` see :func:`right_hand_side`.
     """
     right_hand_side(S, w, k, t, y, choosing, every)
+    lost = own = 0.0
     for i in range(S.n_bodies if every == 1 else S.n_integrated):
         body = body_at(S, w, k, i if every == 1 else k[S.integrated + i])
-        for j in range(body.nq):
-            w[out + body.q + j] = w[body.tail + j]
-        for j in range(body.nu):
-            w[out + S.n_q + body.u + j] = w[S.du + body.u + j]
-    lost = own = 0.0
-    for i in range(S.n_integrated):
-        body = body_at(S, w, k, k[S.integrated + i])
-        h = body.tail + body.nq
-        for j in range(body.nu):
-            own += w[h + j] * w[y + S.n_q + body.u + j]
+        rates, n_q, n_u = body.tail, body.nq, body.nu
+        accelerations, velocities = S.du + body.u, S.n_q + body.u
+        for j in range(n_q):
+            w[out + body.q + j] = w[rates + j]
+        for j in range(n_u):
+            w[out + velocities + j] = w[accelerations + j]
+        if body.flies == 0:
+            own = product(w, own, rates + n_q, y + velocities, n_u)
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)

@@ -336,6 +336,17 @@ def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
 
 
 @kernel("i8(S, F, I, i8)")
+def kinematic(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is the gap of an open contact, 2 if the slip of a rigid one: they hang on no force."""
+    if i >= first_own_guard(S):
+        return 0
+    contact = contact_at(S, w, k, contact_of(S, i))
+    if is_friction_guard(S, i) == 0:
+        return 1 if contact.mode == OPEN else 0
+    return 2 if contact.mode == SLIDE and contact.normal_function == 0 else 0
+
+
+@kernel("i8(S, F, I, i8)")
 def _closes_now(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     """Return 1 if guard ``i`` is a gap that has closed no longer ago than instants are told apart."""
     contact = contact_at(S, w, k, contact_of(S, i))

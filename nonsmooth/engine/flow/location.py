@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap
+from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap, look_at_slip
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -26,6 +26,7 @@ from nonsmooth.engine.flow.guards import (
     first_fired,
     is_gap,
     keep_end,
+    kinematic,
     stand_at,
     write_guards,
 )
@@ -91,17 +92,14 @@ def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, fo
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
 
 
-@kernel("i8(S, F, I, i8)")
-def _is_of_open_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
-    """Return 1 if guard ``i`` is the gap of an open contact, on which nothing but its two bodies acts."""
-    return 1 if i < S.n_contacts and contact_at(S, w, k, i).mode == OPEN else 0
-
-
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
 def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
-    """Return guard ``i`` at the fraction ``theta`` of the step; of a gap nothing else is evaluated."""
-    if _is_of_open_gap(S, w, k, i) == 1:
+    """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
+    alone = kinematic(S, w, k, i)
+    if alone == 1:
         look_at_gap(S, w, k, h, theta, i)
+    elif alone == 2:
+        look_at_slip(S, w, k, h, theta, contact_of(S, i))
     else:
         guards_within(S, w, k, h, theta, forces)
     return float(guard_at(S, w, k, i).value)
@@ -283,7 +281,7 @@ def _event_fraction(S: Scalars, w: Floats, k: Integers, h: float, high: float, i
     the guard jumps.
     """
     theta = _vanishing(S, w, k, h, high, i, forces)
-    if _is_of_open_gap(S, w, k, i) == 1:
+    if kinematic(S, w, k, i) > 0:
         guards_within(S, w, k, h, theta, forces)
     return theta
 

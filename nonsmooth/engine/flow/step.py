@@ -40,10 +40,11 @@ _SHARE = tableau.NODES[1] / tableau.NODES[2]
 def _worst_error(S: Scalars, w: Floats, first: int, end: int, worst: float) -> float:
     """Return the largest error of some components relative to the tolerance, or ``worst`` if that is larger."""
     for i in range(first, end):
-        scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
-        error = abs(w[S.y_stage + i]) / (S.rtol * scale)
-        if error > worst or error != error:
-            worst = error
+        explained = S.rtol * (w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i])))
+        error = abs(w[S.y_stage + i])
+        # few of them are divided
+        if error > worst * explained or error != error:
+            worst = error / explained
     return worst
 
 
@@ -76,7 +77,8 @@ def _unseen(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         for i in range(body.u, body.u + body.nu):
             change = h * abs(w[second + i] - (1.0 - _SHARE) * w[first + i] - _SHARE * w[third + i])
             explained = rtol * (w[y_scale + i] + max(abs(w[y + i]), abs(w[y_new + i])))
-            worst = max(worst, change / explained)
+            if change > worst * explained:
+                worst = change / explained
     return worst if worst > 1.0 else 0.0
 
 
