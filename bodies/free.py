@@ -13,7 +13,8 @@ import numpy as np
 from bodies.blocks import put
 from bodies.inertia import Triple, check_inertia, tensor_of
 from bodies.values import Word, read_start, unit_quaternion
-from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, ROTATION, SPIN, VELOCITY
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
 from nonsmooth.types import Floats
@@ -58,23 +59,23 @@ def _evaluate(
 ) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
     ox, oy, oz = u[3], u[4], u[5]
-    for i in range(3):
-        out[i] = q[i]
-        out[VELOCITY + i] = u[i]
+    put(out, POSITION, q[0], q[1], q[2])
+    put(out, VELOCITY, u[0], u[1], u[2])
     # homogeneous in the quaternion, so that its length does not matter between two normalisations
-    put(out, ROTATION, a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c))
-    put(out, ROTATION + 3, 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b))
-    put(out, ROTATION + 6, 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d)
-    for i in range(3):
-        r = ROTATION + 3 * i
-        out[SPIN + i] = out[r] * ox + out[r + 1] * oy + out[r + 2] * oz
-        # Jacobian of (velocity, angular velocity): identity and rotation
-        out[JACOBIAN + 7 * i] = 1.0
-        for j in range(3):
-            out[JACOBIAN + 18 + 6 * i + 3 + j] = out[ROTATION + 3 * i + j]
+    xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
+    yx, yy, yz = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
+    zx, zy, zz = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
+    put(out, ROTATION, xx, xy, xz)
+    put(out, ROTATION + 3, yx, yy, yz)
+    put(out, ROTATION + 6, zx, zy, zz)
+    put(out, SPIN, xx * ox + xy * oy + xz * oz, yx * ox + yy * oy + yz * oz, zx * ox + zy * oy + zz * oz)
+    # Jacobian of (velocity, angular velocity): identity and rotation
+    out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
+    put(out, JACOBIAN + 21, xx, xy, xz)
+    put(out, JACOBIAN + 27, yx, yy, yz)
+    put(out, JACOBIAN + 33, zx, zy, zz)
     # coordinate rates: velocity and half the quaternion product q (0, omega)
-    for i in range(3):
-        out[_RATES + i] = u[i]
+    put(out, _RATES, u[0], u[1], u[2])
     out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)
     out[_RATES + 4] = 0.5 * (a * ox + c * oz - d * oy)
     out[_RATES + 5] = 0.5 * (a * oy + d * ox - b * oz)
@@ -91,8 +92,7 @@ def _evaluate(
     out[_FORCE + 5] = (inertia_x - inertia_y) * ox * oy + (
         inertia_xy * (oy * oy - ox * ox) + oz * (inertia_xz * oy - inertia_yz * ox)
     )
-    for i in range(3):
-        out[_INVERSE + 7 * i] = 1.0 / mass
+    out[_INVERSE] = out[_INVERSE + 7] = out[_INVERSE + 14] = 1.0 / mass
     put(out, _INVERSE + 21, mobility_x, mobility_xy, mobility_xz)
     put(out, _INVERSE + 27, mobility_xy, mobility_y, mobility_yz)
     put(out, _INVERSE + 33, mobility_xz, mobility_yz, mobility_z)
@@ -103,6 +103,63 @@ def _evaluate(
         + inertia_z * oz * oz
     ) + (inertia_yz * oy * oz + inertia_xz * ox * oz + inertia_xy * ox * oy)
     out[_ENERGY + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
+
+
+@compiled
+def _turn(out: Floats, a: float, b: float, c: float, d: float, k: float, x: float, y: float, z: float) -> None:
+    """Write the product of the quaternions (a, b, c, d) and (k, x, y, z)."""
+    out[3] = a * k - b * x - c * y - d * z
+    out[4] = b * k + a * x + c * z - d * y
+    out[5] = c * k + a * y + d * x - b * z
+    out[6] = d * k + a * z + b * y - c * x
+
+
+def _fly(
+    t: float,
+    q: Floats,
+    u: Floats,
+    out: Floats,
+    inertia_x: float,
+    inertia_y: float,
+    inertia_z: float,
+    gravity_x: float,
+    gravity_y: float,
+    gravity_z: float,
+) -> None:
+    half = 0.5 * t
+    out[0] = q[0] + t * (u[0] + half * gravity_x)
+    out[1] = q[1] + t * (u[1] + half * gravity_y)
+    out[2] = q[2] + t * (u[2] + half * gravity_z)
+    out[7] = u[0] + t * gravity_x
+    out[8] = u[1] + t * gravity_y
+    out[9] = u[2] + t * gravity_z
+    ox, oy, oz = u[3], u[4], u[5]
+    # the angular momentum over the moment of inertia across the axis of symmetry stays in space; what the spin about
+    # that axis has more turns with the body
+    ex = ey = ez = 0.0
+    if inertia_y == inertia_z:
+        ex = (1.0 - inertia_x / inertia_y) * ox
+    elif inertia_x == inertia_z:
+        ey = (1.0 - inertia_y / inertia_x) * oy
+    else:
+        ez = (1.0 - inertia_z / inertia_x) * oz
+    x, y, z = ox - ex, oy - ey, oz - ez
+    rate = math.sqrt(x * x + y * y + z * z)
+    c, s = math.cos(half * rate), math.sin(half * rate) / rate if rate > 0.0 else half
+    _turn(out, q[3], q[4], q[5], q[6], c, s * x, s * y, s * z)
+    if ex + ey + ez != 0.0:
+        c, s = math.cos(half * (ex + ey + ez)), math.sin(half * (ex + ey + ez))
+        x, y, z = s if ex != 0.0 else 0.0, s if ey != 0.0 else 0.0, s if ez != 0.0 else 0.0
+        _turn(out, out[3], out[4], out[5], out[6], c, x, y, z)
+        # twice that angle
+        c, s = c * c - s * s, 2.0 * c * s
+        if ex != 0.0:
+            oy, oz = c * oy + s * oz, c * oz - s * oy
+        elif ey != 0.0:
+            oz, ox = c * oz + s * ox, c * ox - s * oz
+        else:
+            ox, oy = c * ox + s * oy, c * oy - s * ox
+    out[10], out[11], out[12] = ox, oy, oz
 
 
 @functools.lru_cache(maxsize=256)
@@ -182,6 +239,12 @@ class FreeBody(Body):
     def evaluator(self) -> Callable[..., None]:
         """Newton-Euler equations."""
         return _evaluate
+
+    @property
+    def flight(self) -> Callable[..., None] | None:
+        """That of a symmetric top about an axis of the frame, which a ball is; of others there is none."""
+        x, y, z = self.inertia
+        return _fly if not any(self.products) and (x == y or y == z or x == z) else None
 
     @property
     def time_scale(self) -> float:

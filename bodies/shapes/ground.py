@@ -28,3 +28,9 @@ class Ground(Shape):
     def extent(self) -> float:
         """Infinite [m]."""
         return math.inf
+
+    @property
+    @final
+    def ceiling(self) -> float:
+        """The height [m]."""
+        return self.height

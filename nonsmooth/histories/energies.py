@@ -100,7 +100,7 @@ class Energies:
         def keep(i: int) -> None:
             record = scalars[0]
             driven, rubbed, _, loads = y[first : first + N_ACCOUNTS]
-            call_entry("evaluate_free_bodies", laid.memory, float(record["t"]), int(record["y"]))
+            call_entry("evaluate_free_bodies", laid.memory, float(record["t"]), int(record["y"]), 1)
             table[:2, i] = energies(laid.system.bodies, tails, laid.memory.floats)
             table[2:4, i] = record["driven_work"] + driven, loads
             table[4:, i] = record["restitution_loss"], record["friction_loss"] + rubbed, record["closing_loss"]

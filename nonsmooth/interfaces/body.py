@@ -34,7 +34,10 @@ class Body(Component, ABC):
     2. M du/dt = h + contact forces, dq/dt = B(q) u; the Jacobian maps u to the velocity of the frame
        origin and its angular velocity, both in world axes.
     3. A driven body has no coordinates and writes the motion of its frames only.
-    4. ``state`` turns what a user says of the start into q and u, or raises InvalidInput.
+    4. ``flight``, if it is known, is a plain function ``fly(t, q, u, out, ...)`` with such further arguments.  It
+       writes the q, and behind it the u, to which q and u come in a time t [s] of free motion: h alone acts, and does
+       not change with time.  The engine then integrates the body only where something touches or holds it.
+    5. ``state`` turns what a user says of the start into q and u, or raises InvalidInput.
     """
 
     @property
@@ -71,6 +74,11 @@ class Body(Component, ABC):
     @abstractmethod
     def evaluator(self) -> Callable[..., None]:
         """The function of point 1."""
+
+    @property
+    def flight(self) -> Callable[..., None] | None:
+        """The function of point 4; None, by default, where there is no closed form."""
+        return None
 
     @property
     @abstractmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 
 from nonsmooth.interfaces.solid import Solid
@@ -41,6 +42,14 @@ class Shape(Component, ABC):
         It bounds how fast a gap can close; the extent always does, and a ball about the origin has none.
         """
         return self.extent
+
+    @property
+    def ceiling(self) -> float:
+        """Height over the origin along the third axis of the body frame, above which it has no point [m].
+
+        It tells what is far from an unbounded shape; infinite, by default, where no such height is known.
+        """
+        return math.inf
 
     @property
     def advice(self) -> str:

@@ -79,7 +79,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in kinds)
     groups = articulations(system)
     table = ContactTable.of(bodies, contacts)
-    units = find_units(contacts, table)
+    units = find_units(contacts, table, bodies)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     head = EVENT_HEAD + n_u + n_y + BOOKED
     counts = {
@@ -88,7 +88,8 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "n_declared": len(contacts),
         "n_units": len(units.radii),
         "n_partners": len(units.pairs),
-        "n_paired": len(contacts),
+        "n_paired": len(units.contacts),
+        "n_walls": len(units.walls) if len(units.radii) > 0 else 0,
         "n_pools": len(units.pools),
         "n_own_guards": len(system.guards),
         "n_loads": len(system.loads),

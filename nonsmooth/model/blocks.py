@@ -44,6 +44,7 @@ class Block(NamedTuple):
 def blocks(model: LaidOut) -> Iterator[Block]:
     """Yield the blocks of loads, bodies and listed contacts; bodies feel loads, contacts both."""
     yield from _blocks_of_bodies(model)
+    yield from _blocks_of_flights(model)
     for slot in range(int(model.memory.scalars["n_contacts"][0])):
         yield _block_of_slot(model, slot)
 
@@ -66,6 +67,14 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
             rates + body.n_u**2 + 2,
             written,
         )
+
+
+def _blocks_of_flights(model: LaidOut) -> Iterator[Block]:
+    names = model.system.names.bodies
+    for i, body in enumerate(model.system.bodies):
+        if body.flight is not None and _entry(model, "body_flight_function", i) != 0:
+            label, size = functools.partial("body {!r}, {!r} in flight:".format, names[i], body), body.n_q + body.n_u
+            yield Block(label, body.flight, _entry(model, "body_flight_out", i), size, size)
 
 
 def _block_of_slot(model: LaidOut, slot: int) -> Block:
@@ -122,6 +131,7 @@ def written_past(model: LaidOut, guards: Guards) -> str:
     pairs = [_block_of_slot(model, int(slot)) for slot in written if slot < listed]
     for block in (
         *_blocks_of_bodies(model),
+        *_blocks_of_flights(model),
         *pairs,
         *_blocks_of_searches(model),
         *_blocks_of_joints_and_laws(model),

@@ -58,6 +58,7 @@ def _given(model: LaidOut) -> Iterator[tuple[str, Integers, Sequence[object]]]:
     }
     for kind, parts in owners.items():
         yield "parameters", memory.array(f"{kind}_parameters", len(parts)), parts
+    yield "parameters in flight", memory.array("body_flight_parameters", len(system.bodies)), owners["body"]
     for name in _GIVEN:
         yield name.replace("_", " "), rows[:, CATALOGUE.index(name)], system.contacts
 
@@ -68,6 +69,8 @@ def _written(model: LaidOut, rows: Integers) -> Integers:
     counts = {"body": "n_bodies", "joint": "n_joints", "load": "n_loads", "pool": "n_pools"}
     found = [memory.array(f"{kind}_out", int(s[count])) for kind, count in counts.items()]
     found += [rows[:, CATALOGUE.index(name)] for name in _WRITTEN]
+    flights = memory.array("body_flight_out", int(s["n_bodies"]))
+    found.append(flights[flights > 0])
     n = int(s["n_articulations"])
     jointed = memory.array("articulation_rows", n) > 0
     found += [memory.array(f"articulation_{name}", n)[jointed] for name in _OF_JOINTS]

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from nonsmooth.binding.bounds import FRAMES, try_out
 from nonsmooth.binding.compile import bind
 from nonsmooth.engine.memory.blocks import FRAME, JOINT_ROW, LOAD
 from nonsmooth.engine.memory.memory import Heap, Memory
-from nonsmooth.interfaces import Joint, Load
+from nonsmooth.interfaces import Body, Joint, Load
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.articulations import Articulation
+from nonsmooth.parameters import Value
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
@@ -41,6 +43,7 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
     gravity = dict(zip(("gravity_x", "gravity_y", "gravity_z"), system.gravity, strict=True))
     n_q = sum(body.n_q for body in system.bodies)
     scale = memory.array("y_scale", int(memory.scalars["n_y"][0]))
+    held = {id(body) for tie in (*system.joints, *system.loads) for body in (tie.first, tie.second)}
     places = {}
     i_q = i_u = 0
     for i, body in enumerate(system.bodies):
@@ -63,6 +66,8 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
             "tail": out + tail,
             "quaternion": body.quaternion,
         }
+        if body.flight is not None and id(body) not in held:
+            fields |= _flight(body.flight, body, offered, heap, (q, u))
         _write(memory, "body", i, fields)
         places[id(body)] = Place(i, body.n_u, i_u, tuple(out + frame * f for f in range(len(body.frames))))
         q_scale, u_scale = body.scales
@@ -70,6 +75,16 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
         scale[i_q : i_q + body.n_q], scale[first : first + body.n_u] = q_scale, u_scale
         i_q, i_u = i_q + body.n_q, i_u + body.n_u
     return places
+
+
+def _flight(
+    function: Callable[..., None], body: Body, offered: Mapping[str, Value], heap: Heap, start: Sequence[Vector]
+) -> Mapping[str, int]:
+    """Lay the function of a body that knows where it flies."""
+    owner, size = type(body).__name__, body.n_q + body.n_u
+    address, values = bind(function, "body", offered, owner)
+    try_out(function, "body", offered, values, size, owner, (0.0, *map(tuple, start)))
+    return {"flight_function": address, "flight_parameters": heap.store(values), "flight_out": heap.output(size)}
 
 
 def lay_joints(memory: Memory, heap: Heap, articulations: Sequence[Articulation], places: Places) -> None:

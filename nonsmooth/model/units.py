@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.interfaces import Body
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.pools import Pool, find_pools
 from nonsmooth.system.contact import Contact
@@ -22,6 +24,31 @@ _NEIGHBOURS = 6
 """Pairs with all their contacts for which each unit has slots."""
 _MARGIN = 0.5
 """Margin of the list, in units of the smallest radius."""
+
+
+@dataclass(frozen=True)
+class Wall:
+    """An unbounded shape in a contact.
+
+    Attributes
+    ----------
+    contact : int
+        Number of the contact.
+    side : tuple of int
+        Number of the body that carries it, and its frame.
+    unit : int
+        The unit that it may touch, 0 if there is none.
+    ceiling : float
+        Height over the frame's origin above which it has no point [m].
+    steady : bool
+        Whether its distance tells when it is far from the unit: its body does not change how it moves.
+    """
+
+    contact: int
+    side: tuple[int, int]
+    unit: int
+    ceiling: float
+    steady: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +66,9 @@ class Units:
     counts : array
         How many contacts each pair has.
     contacts : array
-        Numbers of the contacts, pair by pair, and then of those with an unbounded shape.
+        Numbers of the contacts of pairs, pair by pair.
+    walls : list of Wall
+        The unbounded shapes, contact by contact.
     pools : list of Pool
         Contacts whose features are searched for.
     """
@@ -49,17 +78,17 @@ class Units:
     pairs: NDArray[np.int64]
     counts: NDArray[np.int64]
     contacts: NDArray[np.int64]
+    walls: list[Wall]
     pools: list[Pool]
 
     @property
     def n_slots(self) -> int:
         """Contacts that may be near each other at once."""
-        bounded = int(self.counts.sum())
         each = max(_SLOTS, _NEIGHBOURS * int(self.counts.max(initial=0)))
-        return len(self.contacts) - bounded + min(bounded, each * len(self.frames))
+        return len(self.walls) + min(len(self.contacts), each * len(self.frames))
 
 
-def find_units(contacts: Sequence[Contact], table: ContactTable) -> Units:
+def find_units(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> Units:
     """Return the units of many contacts; none for few, which need no list."""
     pools = find_pools(contacts)
     bounded = np.all(np.isfinite(table.extents), axis=1)
@@ -76,7 +105,27 @@ def find_units(contacts: Sequence[Contact], table: ContactTable) -> Units:
     order = np.argsort(places, kind="stable")
     _, first, counts = np.unique(places[order], return_index=True, return_counts=True)
     pairs = np.column_stack([one, two])[order[first]]
-    return Units(frames, radii, pairs, counts, np.concatenate([numbers[order], np.flatnonzero(~bounded)]), pools)
+    walls = [_wall(contacts[i], i, table, bodies, frames, radii) for i in np.flatnonzero(~bounded).tolist()]
+    return Units(frames, radii, pairs, counts, numbers[order], walls, pools)
+
+
+def _wall(
+    contact: Contact,
+    number: int,
+    table: ContactTable,
+    bodies: Sequence[Body],
+    frames: Mapping[tuple[int, int], int],
+    radii: Array,
+) -> Wall:
+    """Return the unbounded shape of a contact; the unit beside it gets a radius that holds the other shape."""
+    one, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
+    sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (one, other)]
+    unit, ceiling = frames.get(sides[1]), contact.shapes[one].ceiling
+    body = bodies[sides[0][0]]
+    steady = unit is not None and math.isfinite(ceiling) and body.n_u == 0 and math.isinf(body.time_scale)
+    if unit is not None and math.isfinite(contact.extents[other]):
+        radii[unit] = max(radii[unit], contact.extents[other])
+    return Wall(number, sides[0], unit or 0, ceiling if steady else 0.0, steady)
 
 
 def lay_units(memory: Memory, units: Units, places: dict[tuple[int, int], int]) -> None:
@@ -94,3 +143,9 @@ def lay_units(memory: Memory, units: Units, places: dict[tuple[int, int], int]) 
     memory.array("partner_unit", len(two))[:] = two
     memory.array("partner_contact", len(two) + 1)[1:] = np.cumsum(units.counts)
     memory.array("paired_contact", len(units.contacts))[:] = units.contacts
+    for i, wall in enumerate(units.walls):
+        memory.array("wall_contact", i + 1)[i] = wall.contact
+        memory.array("wall_unit", i + 1)[i] = wall.unit
+        memory.array("wall_frame", i + 1)[i] = places[wall.side]
+        memory.array("wall_ceiling", i + 1)[i] = wall.ceiling
+        memory.array("wall_steady", i + 1)[i] = wall.steady

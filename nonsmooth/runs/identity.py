@@ -25,7 +25,11 @@ from nonsmooth.model.laying_contacts import by_kind
 from nonsmooth.parameters import rules
 
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "entry_points")
-_CHANGING = {"facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent", *CATALOGUE}
+_CHANGING = {
+    *("facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent"),
+    *("body_flies", "integrated"),
+    *CATALOGUE,
+}
 """Integers of the bodies that a run changes; all others say where something stands."""
 _STANDING = (*_FUNCTIONS, *(name for name in ARRAYS_OF["bodies"].integers if name not in _CHANGING))
 _NUMERICS = tuple(ARRAYS_OF["numerics"].floats)

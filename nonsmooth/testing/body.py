@@ -12,6 +12,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import UNITS_OF_Q, UNITS_OF_U
 from nonsmooth.testing import block
 from nonsmooth.testing.block import state, state_space, written
+from nonsmooth.testing.body_flight import compiled_flight, flight_rows, flown, plain_flight
 from nonsmooth.testing.body_frames import frame_rows
 from nonsmooth.testing.body_free import free_rows
 from nonsmooth.testing.component import component_rows
@@ -32,7 +33,7 @@ def check_body(body: Body) -> list[Property]:
     body : Body
         The body; it is looked at around its start.
     """
-    functions = Functions(lambda: [_evaluator(body)])
+    functions = Functions(lambda: [_evaluator(body), *([_flight(body)] if body.flight is not None else [])])
     rows = [
         (
             "start",
@@ -48,6 +49,8 @@ def check_body(body: Body) -> list[Property]:
     ]
     if body.n_u > 0:
         rows += free_rows(body)
+    if body.flight is not None:
+        rows += flight_rows(body)
     return properties(body, [*component_rows(body), *functions.rows(), *functions.guarded(rows)])
 
 
@@ -62,6 +65,20 @@ def _evaluator(body: Body) -> Function:
         return lambda at: written(body, call, *at)
 
     return Function(body, "evaluator", body.evaluator, "body", block.offered(body), plain, compiled, inputs)
+
+
+def _flight(body: Body) -> Function:
+    inputs = [(_words(case), state(body, case)) for case in draws(state_space(body), 6, "states")]
+
+    def plain(at: Any) -> Any:
+        return flown(body, plain_flight(body), *at)
+
+    def compiled() -> Callable[[Any], Any]:
+        call = compiled_flight(body)
+        return lambda at: flown(body, call, *at)
+
+    assert body.flight is not None
+    return Function(body, "flight", body.flight, "body", block.offered(body), plain, compiled, inputs)
 
 
 def _words(case: Case) -> str:

@@ -26,6 +26,7 @@ def check_shape(shape: Shape) -> list[Property]:
     rows = [
         ("length", "its length is finite and not negative", lambda: _check_length(shape)),
         ("extent", "a ball of its extent holds what is as far away as its length", lambda: _check_extent(shape)),
+        ("ceiling", "no point of what it encloses is above its ceiling", lambda: _check_ceiling(shape)),
         (
             "solid",
             "no point of what it encloses is farther along a direction than that which is told, all are within its "
@@ -44,6 +45,15 @@ def _check_length(shape: Shape) -> None:
 def _check_extent(shape: Shape) -> None:
     if not shape.extent >= shape.length:
         raise Broken(f"it must not be below the length {shape.length:g} m", "extent", shape.extent)
+
+
+def _check_ceiling(shape: Shape) -> None:
+    if math.isnan(shape.ceiling):
+        raise Broken("it must be a height [m], or infinite", "ceiling", shape.ceiling)
+    if shape.solid is not None:
+        top = float(shape.solid.support(np.array([0.0, 0.0, 1.0]))[2])
+        if top > shape.ceiling + _ROUND_OFF * shape.length:
+            raise Broken(f"a point of the solid is at the height {top:g} m", "ceiling", shape.ceiling)
 
 
 def _check_solid(shape: Shape) -> None:

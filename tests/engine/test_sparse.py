@@ -67,7 +67,7 @@ def test_chain_costs_what_it_is_long(shuffled: bool) -> None:
     for n in (16, 64):
         memory = _started(_row(n, random.permutation(n) if shuffled else np.arange(n), False))
         call_entry("project_closed", memory, 1, 0)
-        call_entry("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0)
+        call_entry("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0, 1)
         narrow[n] = _sizes(memory)[2]
     assert narrow == {16: 1, 64: 1}
 
@@ -77,7 +77,7 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
     bands = []
     for n in (10, 20, 40):
         memory = _started(_row(n, np.random.default_rng(n).permutation(n), True))
-        call_entry("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0)
+        call_entry("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0, 1)
         m, blocks, half = _sizes(memory)
         assert memory.scalars["null_banded"][0] == 1
         # a contact with the plate meets up to two of the row, one of the row two with the plate and two of its own

@@ -89,6 +89,33 @@ def free(
         out[73] = -1.0
 
 
+def fly(
+    t: float, q: Floats, u: Floats, out: Floats, slip: float, gravity_x: float, gravity_y: float, gravity_z: float
+) -> None:
+    """Write where that ball flies to, with a fault of its own."""
+    for i in range(6):
+        out[7 + i] = u[i]
+    out[7], out[8], out[9] = u[0] + t * gravity_x, u[1] + t * gravity_y, u[2] + t * gravity_z
+    out[0] = q[0] + 0.5 * t * (u[0] + out[7])
+    out[1] = q[1] + 0.5 * t * (u[1] + out[8])
+    out[2] = q[2] + 0.5 * t * (u[2] + out[9])
+    x, y, z = 0.5 * t * u[3], 0.5 * t * u[4], 0.5 * t * u[5]
+    angle = math.sqrt(x * x + y * y + z * z)
+    k, s = math.cos(angle), math.sin(angle) / angle if angle > 0.0 else 1.0
+    x, y, z = s * x, s * y, s * z
+    a, b, c, d = q[3], q[4], q[5], q[6]
+    out[3] = k * a - x * b - y * c - z * d
+    out[4] = k * b + x * a + y * d - z * c
+    out[5] = k * c + y * a + z * b - x * d
+    out[6] = k * d + z * a + x * c - y * b
+    if slip == 1.0:
+        out[2] = out[2] + 0.01 * t * gravity_z
+    if slip == 2.0:
+        out[12] = out[12] + 0.01
+    if slip == 3.0:
+        out[13] = 0.0
+
+
 def driven(t: float, q: Floats, u: Floats, out: Floats, fault: float) -> None:
     """Write the frame of a body that swings along x."""
     out[0] = math.sin(t)
@@ -141,6 +168,20 @@ class Ball(Body):
         if start:
             raise InvalidInput("start", "must be empty", start, "")
         return np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]), np.zeros(6)
+
+
+@dataclass(frozen=True)
+class Flying(Ball):
+    """One that knows where it flies, wrongly so with a slip."""
+
+    slip: float = 0.0
+
+    def parameters(self) -> Mapping[str, Any]:
+        return {"fault": self.fault, "slip": self.slip}
+
+    @property
+    def flight(self) -> Callable[..., None]:
+        return fly
 
 
 @dataclass(frozen=True)
@@ -198,6 +239,9 @@ DUMMIES: list[tuple[str, Body]] = [
     *((name, Ball(fault)) for name, fault in FAULTS.items()),
     ("writes its block", Ball(BEYOND)),
     ("mass matrix", Ball(INDEFINITE)),
+    ("flight", Flying(slip=1.0)),
+    ("flight", Flying(slip=2.0)),
+    ("writes its block", Flying(slip=3.0)),
     ("start", Lenient()),
     ("start", Sizeless()),
     ("velocity", Swing(FAULT_OF_SPEED)),

@@ -104,10 +104,15 @@ class Ball(Shape):
     """A ball of radius 1, wrong as its points are: as far along a direction as ``farthest`` says."""
 
     farthest: Callable[[Any], Any]
+    highest: float = math.inf
 
     @property
     def length(self) -> float:
         return 1.0
+
+    @property
+    def ceiling(self) -> float:
+        return self.highest
 
     @property
     def solid(self) -> ConvexSolid:
@@ -122,6 +127,8 @@ SHAPES: list[tuple[str, Shape]] = [
     ("length", Blob(-1.0)),
     ("length", Blob(math.inf)),
     ("extent", Blob(1.0, 0.5)),
+    ("ceiling", Ball(lambda n: n / np.linalg.norm(n), 0.9)),
+    ("ceiling", Ball(lambda n: n / np.linalg.norm(n), math.nan)),
     ("solid", Ball(_dented)),
     ("solid", Ball(lambda n: n)),
     ("solid", Ball(lambda n: np.full(3, math.nan))),

@@ -132,7 +132,7 @@ def test_scenario(name: str, thing: Scenario) -> None:
 @pytest.mark.parametrize(
     ("properties", "dummies"),
     [
-        (check_body(body_dummies.Ball()), body_dummies.DUMMIES),
+        (check_body(body_dummies.Flying()), body_dummies.DUMMIES),
         (check_body(body_dummies.Swing()), body_dummies.DUMMIES),
         (check_contact_kinematics(Pair(), FIRST, SECOND), pair_dummies.DUMMIES),
         (scenario_dummies.checked(scenario_dummies.Bounce()), scenario_dummies.DUMMIES),

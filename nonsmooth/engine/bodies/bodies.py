@@ -43,24 +43,28 @@ def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int)
             evaluate_body(S, w, k, t, y, number)
 
 
-@entry_point("void(S, F, I, f8, i8)")
-def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
-    """Let the bodies that have coordinates write their output blocks, then loads and joints act on them."""
+@entry_point("void(S, F, I, f8, i8, i8)")
+def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int, every: int) -> None:
+    """Let the bodies that have coordinates write their output blocks, then loads and joints act on them.
+
+    That is every one of them (1), or those that are integrated.
+    """
     interrupted(S, S.n_contacts + S.n_bodies)
     S.free_velocities = y + S.n_q
     S.driven_power = 0.0
     S.load_power = 0.0
     if S.n_loads + S.n_joints > 0:
         evaluate_driven_bodies(S, w, k, t, y)
-    for number in range(S.n_bodies):
+    for i in range(S.n_bodies if every == 1 else S.n_integrated):
+        number = i if every == 1 else k[S.integrated + i]
         body = body_at(S, w, k, number)
         if body.nu == 0:
             continue
         if S.n_loads > 0:
             # loads add to what a body may leave unwritten
             force = body.tail + body.nq
-            for i in range(body.nu):
-                w[force + i] = 0.0
+            for j in range(body.nu):
+                w[force + j] = 0.0
         evaluate_body(S, w, k, t, y, number)
     for load in range(S.n_loads):
         _apply(S, w, k, load, t, y)
@@ -77,7 +81,7 @@ def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -
 def evaluate_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let every body write its output block at time ``t`` and the state at offset ``y``."""
     evaluate_driven_bodies(S, w, k, t, y)
-    evaluate_free_bodies(S, w, k, t, y)
+    evaluate_free_bodies(S, w, k, t, y, 1)
 
 
 @kernel("void(S, F, I, i8, f8, i8)")

@@ -18,7 +18,8 @@ from nonsmooth.engine.native.kernel import (
     frame_at,
     kernel,
 )
-from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus, opposite
+from nonsmooth.engine.numerics.linear import multiply, product
+from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus, opposite, scaled
 
 
 @kernel("void(S, F, I, i8)")
@@ -39,20 +40,21 @@ def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
         contact.gap = length((contact.gap, contact.beyond))
 
 
+@kernel("v3(F, i8, v3)")
+def _velocity(w: Floats, place: int, point: Vector) -> Vector:
+    """Return the velocity of a point fixed to a frame."""
+    frame = frame_at(w, place)
+    x, y, z = minus(point, frame.origin)
+    ox, oy, oz = frame.spin
+    ux, uy, uz = frame.velocity
+    return ux + oy * z - oz * y, uy + oz * x - ox * z, uz + ox * y - oy * x
+
+
 @kernel("void(S, F, I, i8)")
 def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
     contact = contact_at(S, w, k, c)
-    vx = vy = vz = 0.0
-    for side in range(2):
-        frame = frame_at(w, contact.frame_a if side == 0 else contact.frame_b)
-        x, y, z = minus(contact.point_a if side == 0 else contact.point_b, frame.origin)
-        ox, oy, oz = frame.spin
-        ux, uy, uz = frame.velocity
-        vx = ux + oy * z - oz * y - vx
-        vy = uy + oz * x - ox * z - vy
-        vz = uz + ox * y - oy * x - vz
-    v = vx, vy, vz
+    v = minus(_velocity(w, contact.frame_b, contact.point_b), _velocity(w, contact.frame_a, contact.point_a))
     if contact.oriented == 1:
         t1, t2 = contact.tangent, cross(contact.normal, contact.tangent)
         contact.slip_of_tangents = dot(t1, v), dot(t2, v)
@@ -60,17 +62,26 @@ def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     contact.velocity = dot(contact.axis_n, v), dot(contact.axis_1, v), dot(contact.axis_2, v)
 
 
+@kernel("f8(F, i8, i8, v3, v3)")
+def _entry(w: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> float:
+    """Return what a column of a frame's Jacobian has along an axis and a moment."""
+    v, o = column, column + 3 * n_u
+    linear = axis[0] * w[v] + axis[1] * w[v + n_u] + axis[2] * w[v + 2 * n_u]
+    return linear + moment[0] * w[o] + moment[1] * w[o + n_u] + moment[2] * w[o + 2 * n_u]
+
+
 @kernel("void(F, i8, v3, v3, i8, i8)")
 def side_row(w: Floats, frame: int, point: Vector, axis: Vector, n_u: int, out: int) -> None:
     """Write the row of one body: (axis, rho x axis) . frame Jacobian."""
-    ax, ay, az = axis
-    mx, my, mz = cross(minus(point, frame_at(w, frame).origin), axis)
+    if n_u == 0:
+        return
+    moment, first = cross(minus(point, frame_at(w, frame).origin), axis), frame + FRAME
+    if n_u == 6:
+        for j in range(6):
+            w[out + j] = _entry(w, first + j, 6, axis, moment)
+        return
     for j in range(n_u):
-        v = frame + FRAME + j
-        o = v + 3 * n_u
-        w[out + j] = (
-            ax * w[v] + ay * w[v + n_u] + az * w[v + 2 * n_u] + mx * w[o] + my * w[o + n_u] + mz * w[o + 2 * n_u]
-        )
+        w[out + j] = _entry(w, first + j, n_u, axis, moment)
 
 
 @kernel("void(F, i8, v3, v3, v3, i8, i8)")
@@ -124,14 +135,7 @@ def evaluate_row_response(S: Scalars, w: Floats, k: Integers, c: int, r: int, s:
         n_u = articulation.nu
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
         response = (contact.response_a if side == 0 else contact.response_b) + s * n_u
-        matrix = articulation.inverse
-        for i in range(n_u):
-            total = 0.0
-            for j in range(n_u):
-                entry = w[matrix + i * n_u + j]
-                if entry != 0.0:
-                    total += entry * w[jacobian + j]
-            w[response + i] = total
+        multiply(w, articulation.inverse, n_u, jacobian, response)
 
 
 @kernel("void(S, F, I, i8, i8, f8, i8)")
@@ -149,15 +153,10 @@ def push_response(S: Scalars, w: Floats, k: Integers, c: int, s: int, force: flo
 @kernel("f8(S, F, I, i8, i8, i8)")
 def row(S: Scalars, w: Floats, k: Integers, c: int, r: int, du: int) -> float:
     """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
-    total = 0.0
     contact = contact_at(S, w, k, c)
     a, b = articulation_at(S, w, k, contact.articulation_a), articulation_at(S, w, k, contact.articulation_b)
-    n_a, n_b = a.nu, b.nu
-    for i in range(n_a):
-        total += w[contact.jacobian_a + r * n_a + i] * w[du + a.u + i]
-    for i in range(n_b):
-        total += w[contact.jacobian_b + r * n_b + i] * w[du + b.u + i]
-    return total
+    total = product(w, 0.0, contact.jacobian_a + r * a.nu, du + a.u, a.nu)
+    return float(product(w, total, contact.jacobian_b + r * b.nu, du + b.u, b.nu))
 
 
 @kernel("void(S, F, I, i8)")
@@ -170,6 +169,24 @@ def evaluate_jacobian(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     for r in range(3):
         evaluate_row_response(S, w, k, c, r, r)
         contact.prescribed_rate[r] = contact.rate[r] - row(S, w, k, c, r, S.free_velocities)
+
+
+@kernel("v3(F, i8, v3, v3, v3)")
+def _acceleration(w: Floats, place: int, point: Vector, slide_1: Vector, slide_2: Vector) -> Vector:
+    """Return the acceleration of a point that slides along a frame, at the sum of two velocities, as it is carried."""
+    frame = frame_at(w, place)
+    x, y, z = minus(point, frame.origin)
+    ox, oy, oz = frame.spin
+    bx, by, bz = frame.spin_acceleration
+    cx, cy, cz = frame.acceleration
+    vx = oy * z - oz * y + slide_1[0] + slide_2[0]
+    vy = oz * x - ox * z + slide_1[1] + slide_2[1]
+    vz = ox * y - oy * x + slide_1[2] + slide_2[2]
+    return (
+        cx + by * z - bz * y + oy * vz - oz * vy,
+        cy + bz * x - bx * z + oz * vx - ox * vz,
+        cz + bx * y - by * x + ox * vy - oy * vx,
+    )
 
 
 @kernel("void(S, F, I, i8, i8)")
@@ -214,21 +231,10 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     nu1, nu2 = slide_a[0] * x1 + slide_a[1] * x2, slide_a[2] * x1 + slide_a[3] * x2
     w1, w2 = u1 + gap * nu1 - d1, u2 + gap * nu2 - d2
     # the witness points' accelerations, second minus first, as the turning bodies carry the sliding points
-    ax = ay = az = 0.0
-    for side in range(2):
-        frame = frame_at(w, contact.frame_a if side == 0 else contact.frame_b)
-        s1, s2 = (u1, u2) if side == 0 else (w1, w2)
-        x, y, z = minus(contact.point_a if side == 0 else contact.point_b, frame.origin)
-        ox, oy, oz = frame.spin
-        bx, by, bz = frame.spin_acceleration
-        vx = oy * z - oz * y + s1 * t1[0] + s2 * t2[0]
-        vy = oz * x - ox * z + s1 * t1[1] + s2 * t2[1]
-        vz = ox * y - oy * x + s1 * t1[2] + s2 * t2[2]
-        cx, cy, cz = frame.acceleration
-        ax = cx + by * z - bz * y + oy * vz - oz * vy - ax
-        ay = cy + bz * x - bx * z + oz * vx - ox * vz - ay
-        az = cz + bx * y - by * x + ox * vy - oy * vx - az
-    acceleration = ax, ay, az
+    acceleration = minus(
+        _acceleration(w, contact.frame_b, contact.point_b, scaled(w1, t1), scaled(w2, t2)),
+        _acceleration(w, contact.frame_a, contact.point_a, scaled(u1, t1), scaled(u2, t2)),
+    )
     # the axes themselves turn: n' = omega_A x n + nu, and the tangents spin about n with the first body
     n1, n2 = turn_a1 + nu1, turn_a2 + nu2
     spin, rate = dot(a.spin, n), contact.rate[0]

@@ -1,8 +1,9 @@
 """Which of the declared contacts stand in slots: all of a small system, those near each other of a large one.
 
 A unit is a frame that carries bounded shapes, all within a ball about its origin.  The list holds the pairs of units
-whose balls are nearer than a margin, found by sorting the balls along an axis and sweeping over them, and every contact
-with an unbounded shape.  It stands until some unit has moved by half the margin; of a unit with pools of features
+whose balls are nearer than a margin, found by sorting the balls along an axis and sweeping over them, and contacts with
+unbounded shapes, walls: those of units whose balls are nearer than the margin where the wall is below a plane at rest,
+all of others.  It stands until some unit has moved by half the margin; of a unit with pools of features
 (:mod:`nonsmooth.engine.bodies.pools`), until some point of it has.
 """
 
@@ -23,7 +24,7 @@ from nonsmooth.engine.memory.layout import (
     REACH,
     SIZE,
 )
-from nonsmooth.engine.memory.modes import NO_SLOT, RUNNING
+from nonsmooth.engine.memory.modes import NO_SLOT, OPEN, RUNNING
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
@@ -35,8 +36,9 @@ from nonsmooth.engine.native.kernel import (
     frame_at,
     kernel,
     unit_at,
+    wall_at,
 )
-from nonsmooth.engine.numerics.vectors import distance, dot
+from nonsmooth.engine.numerics.vectors import distance, dot, minus
 
 _WIDTH = len(CATALOGUE)
 _MODE, _AVERAGED = CATALOGUE.index("mode"), CATALOGUE.index("averaged")
@@ -115,6 +117,22 @@ def _enter_pair(S: Scalars, w: Floats, k: Integers, one: int, two: int) -> int:
     return 1
 
 
+@kernel("i8(S, F, I, i8)")
+def _is_clear(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Return 1 if the ball of a unit is farther above a wall at rest than the margin, their contact being open."""
+    wall = wall_at(S, w, k, number)
+    if wall.steady == 0 or k[S.catalogue + _WIDTH * wall.contact + _MODE] != OPEN:
+        return 0
+    frame, unit = frame_at(w, wall.frame), unit_at(S, w, k, wall.unit)
+    moves = dot(frame.velocity, frame.velocity) + dot(frame.spin, frame.spin)
+    moves += dot(frame.acceleration, frame.acceleration) + dot(frame.spin_acceleration, frame.spin_acceleration)
+    if moves > 0.0:
+        return 0
+    third = frame.rotation[2], frame.rotation[5], frame.rotation[8]
+    height = dot(third, minus(unit.place, frame.origin)) - wall.ceiling
+    return 1 if height - unit.radius > S.margin_of_list else 0
+
+
 @kernel("f8(S, F, I, i8, i8)")
 def _begin(S: Scalars, w: Floats, k: Integers, number: int, axis: int) -> float:
     """Return where the ball of a unit begins along an axis."""
@@ -175,8 +193,8 @@ def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
         status = fill_pools(S, w, k)
     if status != RUNNING:
         return status
-    for i in range(k[S.partner_contact + S.n_partners], S.n_paired):
-        if _enter(S, w, k, k[S.paired_contact + i]) == 0:
+    for i in range(S.n_walls):
+        if _is_clear(S, w, k, i) == 0 and _enter(S, w, k, wall_at(S, w, k, i).contact) == 0:
             return NO_SLOT
     axis = _widest_axis(S, w, k)
     _sort_units(S, w, k, axis)

@@ -25,7 +25,7 @@ from nonsmooth.engine.native.kernel import (
     unknown_at,
 )
 from nonsmooth.engine.numerics.band import open_band
-from nonsmooth.engine.numerics.linear import band_row
+from nonsmooth.engine.numerics.linear import band_row, product
 
 
 @kernel("void(S, F, I, i8)")
@@ -57,7 +57,7 @@ def write_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
 
 
 @kernel("f8(S, F, I, i8, i8, i8, i8)")
-def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int) -> float:
+def coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int) -> float:
     """Return what a unit force in column ``s`` of contact ``d`` does to row ``r`` of contact ``c``."""
     contact, pushing = contact_at(S, w, k, c), contact_at(S, w, k, d)
     total = 0.0
@@ -66,11 +66,9 @@ def _coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int
         n_u = articulation_at(S, w, k, articulation).nu
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
         if n_u > 0 and pushing.articulation_a == articulation:
-            for i in range(n_u):
-                total += w[jacobian + i] * w[pushing.response_a + s * n_u + i]
+            total = product(w, total, jacobian, pushing.response_a + s * n_u, n_u)
         if n_u > 0 and pushing.articulation_b == articulation:
-            for i in range(n_u):
-                total += w[jacobian + i] * w[pushing.response_b + s * n_u + i]
+            total = product(w, total, jacobian, pushing.response_b + s * n_u, n_u)
     return total
 
 
@@ -100,7 +98,7 @@ def _reduce(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
     for block in range(active.first_block, active.end_block):
         pushing = active_at(S, w, k, k[S.block_column + block])
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            w[line + j] = _coupling(S, w, k, c, r, pushing.slot, unknown_at(S, w, k, j).direction)
+            w[line + j] = coupling(S, w, k, c, r, pushing.slot, unknown_at(S, w, k, j).direction)
     # a sliding contact on which more force gives more approach
     if r == 0 and contact.mode == SLIDE and w[line + i] <= 0.0:
         S.singular = c
@@ -116,7 +114,7 @@ def _write_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) 
         pushing = active_at(S, w, k, k[S.block_column + block])
         for j in range(pushing.first_unknown, pushing.end_unknown):
             column = unknown_at(S, w, k, j).direction + 1 - pushing.tangent_held
-            w[line + j] = _coupling(S, w, k, c, r, pushing.slot, column)
+            w[line + j] = coupling(S, w, k, c, r, pushing.slot, column)
 
 
 @kernel()
@@ -157,6 +155,31 @@ def _solve_held(S: Scalars, w: Floats, k: Integers) -> int:
     return 1
 
 
+@kernel("i8(S, F, I)")
+def _hold_alone(S: Scalars, w: Floats, k: Integers) -> int:
+    """Do the same for an island of one rigid contact that does not stick, whose only row is a division.
+
+    Return 0, nothing done, if its force moves nothing.
+    """
+    active = active_at(S, w, k, 0)
+    c = active.slot
+    contact = contact_at(S, w, k, c)
+    own = coupling(S, w, k, c, 0, c, 0)
+    if own == 0.0:
+        return 0
+    if contact.mode == SLIDE and own < 0.0:
+        S.singular = c
+    S.n_unknown, S.deficient, S.null_banded, active.redundant = 1, 0, 0, 0
+    force = (-contact.bias[0] - row(S, w, k, c, 0, S.du)) / own
+    active.normal_force = force
+    push_response(S, w, k, c, 0, force, S.du)
+    friction_of_slip(S, w, k, 0)
+    S.driven_power += force * row(S, w, k, c, 1, S.free_velocities)
+    for r in range(3):
+        S.driven_power -= active.force[r] * contact.rate[r]
+    return 1
+
+
 @kernel("i8(S, F, I, i8)")
 def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
     """Write the ``active_forces`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
@@ -165,6 +188,10 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
     the null-space force of those not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
     """
     keeps = 1
+    first = active_at(S, w, k, 0)
+    alone = S.n_active == 1 and first.normal_held == 1 and first.tangent_held == 0
+    if alone and _hold_alone(S, w, k) == 1:
+        return keeps
     _push_compliant(S, w, k)
     if _solve_held(S, w, k) == 0:
         return keeps

@@ -35,6 +35,7 @@ from nonsmooth.engine.native.kernel import (
     entry_point,
     kernel,
 )
+from nonsmooth.engine.numerics.linear import multiply
 from nonsmooth.engine.numerics.vectors import length
 
 _INCIPIENT = 1e-300
@@ -67,18 +68,20 @@ def follow_slip(S: Scalars, w: Floats, k: Integers, a: int, slip: tuple[float, f
     active.mu = friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
 
 
-@kernel("void(S, F, I)")
-def free_acceleration(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write M^-1 h of all bodies to ``du``, and what the joints leave of it."""
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
-        n_u = body.nu
-        force = body.tail + body.nq
-        for i in range(n_u):
-            total = 0.0
-            for j in range(n_u):
-                total += w[force + n_u + i * n_u + j] * w[force + j]
-            w[S.du + body.u + i] = total
+@kernel("void(S, F, I, i8)")
+def accelerate_freely(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+    """Write M^-1 h of one body to ``du``."""
+    body = body_at(S, w, k, number)
+    n_u = body.nu
+    force = body.tail + body.nq
+    multiply(w, force + n_u, n_u, force, S.du + body.u)
+
+
+@kernel("void(S, F, I, i8)")
+def free_acceleration(S: Scalars, w: Floats, k: Integers, every: int) -> None:
+    """Write M^-1 h to ``du``, and what the joints leave of it, of every body (1), or of those that are integrated."""
+    for i in range(S.n_bodies if every == 1 else S.n_integrated):
+        accelerate_freely(S, w, k, i if every == 1 else k[S.integrated + i])
     if S.n_joints > 0:
         for number in range(S.n_articulations):
             if articulation_at(S, w, k, number).rows > 0:

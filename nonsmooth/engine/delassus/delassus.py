@@ -19,16 +19,14 @@ from nonsmooth.engine.native.kernel import (
     entry_point,
     kernel,
 )
+from nonsmooth.engine.numerics.linear import product
 
 
 @kernel("void(F, i8, i8, i8, i8)")
 def _add_block(w: Floats, jacobian: int, response: int, n_u: int, out: int) -> None:
     for r in range(3):
         for s in range(3):
-            total = 0.0
-            for i in range(n_u):
-                total += w[jacobian + r * n_u + i] * w[response + s * n_u + i]
-            w[out + 3 * r + s] += total
+            w[out + 3 * r + s] += product(w, 0.0, jacobian + r * n_u, response + s * n_u, n_u)
 
 
 @entry_point()

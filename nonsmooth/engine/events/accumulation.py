@@ -161,7 +161,7 @@ def slow_speed(S: Scalars, w: Floats, k: Integers) -> float:
 @kernel("i8(S, F, I)")
 def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
     """Stop islands in which what approaches is slow, in place of a collision; return how many."""
-    free_acceleration(S, w, k)
+    free_acceleration(S, w, k, 1)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     stopped, which = 0, -1

@@ -21,6 +21,7 @@ from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
 from nonsmooth.engine.events.stopping import stopping
 from nonsmooth.engine.flow.clearance import UNKNOWN_FALL, bound_speeds
+from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, right_hand_side, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
@@ -190,7 +191,7 @@ def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> in
 def _hardest_pressed(S: Scalars, w: Floats, k: Integers) -> int:
     """Return the sliding contact of the greatest normal force, or -1."""
     evaluate_bodies(S, w, k, S.t, S.y)
-    right_hand_side(S, w, k, S.t, S.y, 0)
+    right_hand_side(S, w, k, S.t, S.y, 0, 1)
     hardest, most = -1, 0.0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
@@ -241,12 +242,15 @@ def _evaluate_start(S: Scalars, w: Floats, k: Integers) -> None:
     S.follows = S.fresh
     S.replaced = 0
     if S.fresh == 1:
+        S.power_first = S.power_end
         watch_features(S, w, k)
         for i in range(S.n_y):
             w[S.slopes + i] = w[S.slopes + LAST_STAGE * S.n_y + i]
         return
     group_closed(S, w, k)
-    slope(S, w, k, S.t, S.y, S.slopes, 1)
+    choose_integrated(S, w, k)
+    slope(S, w, k, S.t, S.y, S.slopes, 1, 1)
+    take_off(S, w, k)
     close_account(S, w, k)
     watch_features(S, w, k)
     write_guards(S, w, k, S.t, S.y, 1)
@@ -407,7 +411,7 @@ def _null_space_forces_hold(S: Scalars, w: Floats, k: Integers, guard: int) -> i
         return 0
     S.chosen_t = S.t
     group_closed(S, w, k)
-    return int(right_hand_side(S, w, k, S.t, S.y, 1))
+    return int(right_hand_side(S, w, k, S.t, S.y, 1, 1))
 
 
 @kernel("i8(S, F, I, i8)")
@@ -454,6 +458,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
         # what follows from modes and is long is not kept in a state
         S.resumed = 0
         group_closed(S, w, k)
+        choose_integrated(S, w, k)
     if S.end_of_valid != S.t_end:
         # what had no value behind another end time may have one now
         S.end_of_valid, S.h_valid = S.t_end, 1e300

@@ -122,7 +122,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
     An impact without collision needs a speed for its ``seed`` [m/s].
     """
     remember(S, w, k)
-    free_acceleration(S, w, k)
+    free_acceleration(S, w, k, 1)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
@@ -268,7 +268,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
 
     Return 2 where all is to be done again, some friction having another bound than it seemed.
     """
-    free_acceleration(S, w, k)
+    free_acceleration(S, w, k, 1)
     push_compliant(S, w, k)
     S.mean_until = 1e300
     turned = 0

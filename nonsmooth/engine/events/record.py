@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, GUARD, OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
-from nonsmooth.engine.numerics.runge_kutta import dense_state
 from nonsmooth.engine.numerics.vectors import length
 
 TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
@@ -180,4 +180,4 @@ def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
     while S.next_sample <= S.t + h and S.n_samples < S.sample_capacity:
         theta = (S.next_sample - S.t) / S.h
-        dense_state(S, w, S.y, S.slopes, S.n_y, S.h, min(1.0, max(0.0, theta)), begin_sample(S, w, k))
+        state_within(S, w, k, S.h, min(1.0, max(0.0, theta)), begin_sample(S, w, k))

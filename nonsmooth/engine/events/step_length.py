@@ -7,7 +7,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.events.stopping import share_before_stop
-from nonsmooth.engine.flow.clearance import foresee
+from nonsmooth.engine.flow.clearance import first_of_flying, foresee, keep_falls
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
@@ -15,12 +15,14 @@ from nonsmooth.engine.memory.limits import (
     BY_CLOSING,
     BY_END,
     BY_ERROR,
+    BY_EVENT,
     BY_FIRST,
     BY_LARGEST,
     BY_LIST,
     BY_SAMPLES,
     BY_SINGULARITY,
     BY_STOP,
+    BY_TURN,
 )
 from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel
@@ -37,6 +39,9 @@ _EXACT = 0.4
 """Only where that is below this part of the step does it make its error a hundred times smaller."""
 _SHORTEST = 0.01
 """But it is no shorter than this part of what it would be."""
+_TURN = 0.5
+"""What flies turns by no more within a step [rad] where that moves surfaces: the bounds of gaps ask that speeds within
+it are about those at its ends, which no control of an error sees to there."""
 _ATTEMPTS = 200
 """Lengths that are tried of one step."""
 
@@ -72,17 +77,23 @@ def wanted_step(S: Scalars, w: Floats, k: Integers) -> float:
 @kernel("f8(S, F, I, f8)")
 def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
     """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
-    h = min(wanted, S.h_listed, S.sample_span, S.h_valid, S.mean_until - S.t)
-    S.h_closing = 1e300
+    S.h_turn = _TURN / S.fastest_turn if S.fastest_turn > 0.0 else 1e300
+    h = min(wanted, S.h_listed, S.sample_span, S.h_valid, S.h_turn, S.mean_until - S.t)
+    S.h_closing = S.h_arrival = 1e300
+    soonest = foresee(S, w, k, h) if S.fresh == 0 or S.n_flying > 0 else 1e300
     if S.fresh == 0:
         for c in range(S.n_contacts):
             contact = contact_at(S, w, k, c)
             if contact.mode != OPEN:
                 S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
         h = min(h, S.h_first)
-        S.h_closing = max(_SHORTEST * h, _BEHIND * foresee(S, w, k, h))
-        h = S.h_closing if S.h_closing < _EXACT * h else h
-    return float(h)
+        S.h_closing = max(_SHORTEST * h, _BEHIND * soonest)
+        keep_falls(S, w, k, min(h, S.h_closing))
+    if S.n_flying > 0 and soonest < h:
+        S.h_arrival = first_of_flying(S, w, k, soonest)
+    if S.h_arrival < h:
+        return float(S.h_arrival)
+    return float(S.h_closing if S.h_closing < _EXACT * h else h)
 
 
 @kernel("i8(S, f8, f8)")
@@ -96,6 +107,10 @@ def _limit(S: Scalars, wanted: float, h: float) -> int:
         return BY_AVERAGING
     if h == S.sample_span:
         return BY_SAMPLES
+    if h == S.h_turn:
+        return BY_TURN
+    if h == S.h_arrival:
+        return BY_EVENT
     if h == S.h_closing:
         return BY_CLOSING
     return BY_END if h == S.h_valid else BY_FIRST

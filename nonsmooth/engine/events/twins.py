@@ -42,16 +42,17 @@ def closed_twin(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 @kernel("i8(S, F, I, i8)")
 def has_replaced(S: Scalars, w: Floats, k: Integers, c: int) -> int:
-    """Return 1 if ``c``, or another at its place, is closed in place of one that was so before, without a collision."""
-    gone = stands = 0
+    """Return 1 if ``c``, or another at its place, is closed where one was before, without a collision.
+
+    That one may stand on: where margins overlap, both do for a moment.
+    """
+    stood = stands = 0
     for other in range(S.n_contacts):
         contact = contact_at(S, w, k, other)
         if other == c or _is_twin(S, w, k, c, other) == 1:
-            if contact.mode != OPEN:
-                stands = 1
-            elif contact.code_before != 0:
-                gone = 1
-    return gone * stands
+            stands = 1 if contact.mode != OPEN else stands
+            stood = 1 if contact.code_before != 0 else stood
+    return stood * stands
 
 
 @kernel("i8(S, F, I, i8)")

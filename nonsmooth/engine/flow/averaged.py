@@ -37,7 +37,7 @@ def renew_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
         c = k[S.grouped + i]
         evaluate_contact(S, w, k, c, 3)
         contact_at(S, w, k, c).touching = 1
-    free_acceleration(S, w, k)
+    free_acceleration(S, w, k, 1)
     push_compliant(S, w, k)
     for group in range(S.n_groups):
         activate_group(S, w, k, group)

@@ -15,7 +15,9 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
-from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.flight import body_within, fly
+from nonsmooth.engine.flow.flow import slip_guard
+from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
 from nonsmooth.engine.flow.guards import grown, has_fired
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
@@ -32,7 +34,6 @@ from nonsmooth.engine.native.kernel import (
     kernel,
     part_end,
 )
-from nonsmooth.engine.numerics.runge_kutta import dense_part
 from nonsmooth.engine.numerics.vectors import Vector, cross, distance, dot, minus, scaled
 
 _CURVED = 4.0
@@ -43,6 +44,12 @@ WAY = 0.02
 """Part of the size of the smaller body that features may move unseen where they do not face each other."""
 _RESTS = 10.0
 """A gap and a rate of so many tolerances at both ends are those of neighbours at rest, which are sampled."""
+_NEXT_TO_CLOSED = 1e-3
+"""Part of the tolerances of gaps and times that a step of bodies that fly leaves of a gap at whose closing it ends."""
+_CLOSINGS = 8
+"""Steps of Newton's method to there,"""
+_ABOUT = 1.2
+"""and of gaps that are due within this factor of the first one."""
 _COARSE = 0.125
 """Part of a step to which the gap of neighbours at rest is looked at."""
 
@@ -63,9 +70,11 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     """Write how fast the gaps of the open contacts can change where the bodies stand, to ``speed_end``.
 
     Seen from one body the other's surface moves along a normal no faster than its origin, and its lever by turning.
+    The fastest turning of one that flies counts for the length of the step.
     """
     last_a = last_b = -1
     speed = turning = 0.0
+    S.fastest_turn = 0.0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode != OPEN:
@@ -79,6 +88,8 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
             last_a, last_b = a, b
         if lever > 0.0 and turning < 0.0:
             turning = distance(frame_at(w, b).spin, frame_at(w, a).spin)
+            if body_at(S, w, k, contact.body_a).flies + body_at(S, w, k, contact.body_b).flies > 0:
+                S.fastest_turn = max(S.fastest_turn, turning)
         contact.speed_end = speed + turning * lever if lever > 0.0 else speed
         if lever > 0.0:
             contact.arm_end = _arm(S, w, k, c)
@@ -161,21 +172,90 @@ def _expected_closing(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> fl
     return float(2.0 * gap / (math.sqrt(square) - rate))
 
 
+@kernel("i8(S, F, I, i8, f8)")
+def _will_be_doubtful(S: Scalars, w: Floats, k: Integers, c: int, h: float) -> int:
+    """Return 1 if the gap of ``c`` may close within the time ``h`` as far as the speeds at its start tell."""
+    contact = contact_at(S, w, k, c)
+    faces = contact.mode == OPEN and contact.past_first <= 0.0
+    return 1 if faces and guard_at(S, w, k, normal_guard(c)).end <= 2.0 * h * contact.speed_first else 0
+
+
 @kernel("f8(S, F, I, f8)")
 def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
+    """Return when the first of the gaps that will be doubtful after a step of ``h`` is expected to close [s].
 
-    The bodies stand there; later they would have to be put there.  Return when the first of these gaps is expected to
-    close [s].
+    When each of them is stays with it.
     """
     soonest = 1e300
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        faces = contact.mode == OPEN and contact.past_first <= 0.0
-        if faces and guard_at(S, w, k, normal_guard(c)).end <= 2.0 * h * contact.speed_first:
-            contact.fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
-            soonest = min(soonest, _expected_closing(S, w, k, c, S.slopes + S.n_q))
+        contact.due = 1e300
+        if _will_be_doubtful(S, w, k, c, min(h, soonest)) == 1:
+            contact.due = _expected_closing(S, w, k, c, S.slopes + S.n_q)
+            soonest = min(soonest, contact.due)
     return soonest
+
+
+@kernel("i8(S, F, I, i8)")
+def _flies(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Return 1 if it is known without a step where a body will be."""
+    body = body_at(S, w, k, number)
+    return 1 if body.nu == 0 or body.flies == 1 else 0
+
+
+@kernel("f8(S, F, I, i8)")
+def _closing_of_flying(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return when the gap of ``c`` is next to none, but open, if its bodies fly on [s]; 1e300 if that is not found.
+
+    Newton's method, from when it is due.
+    """
+    contact = contact_at(S, w, k, c)
+    elapsed = contact.due
+    for _iteration in range(_CLOSINGS):
+        for side in range(2):
+            number = contact.body_a if side == 0 else contact.body_b
+            if body_at(S, w, k, number).nu == 0:
+                evaluate_driven_bodies(S, w, k, S.t + elapsed, S.y)
+            else:
+                fly(S, w, k, elapsed, number, S.y_stage)
+                evaluate_body(S, w, k, S.t + elapsed, S.y_stage, number)
+        evaluate_geometry(S, w, k, c)
+        evaluate_rates(S, w, k, c)
+        rate = contact.rate[0]
+        aim = _NEXT_TO_CLOSED * min(S.gap_tolerance, S.time_tolerance * abs(rate))
+        left = contact.gap - aim
+        if abs(left) <= 0.5 * aim:
+            return float(elapsed)
+        if not rate < -S.velocity_tolerance or contact.beyond > 0.0 or not elapsed > left / rate:
+            return 1e300
+        elapsed -= left / rate
+    return 1e300
+
+
+@kernel("f8(S, F, I, f8)")
+def first_of_flying(S: Scalars, w: Floats, k: Integers, soonest: float) -> float:
+    """Return when the first gap between bodies that fly is closed, those being due that are due about ``soonest`` [s].
+
+    The bodies do not stand at the start any more.
+    """
+    first = 1e300
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        fly_both = _flies(S, w, k, contact.body_a) == 1 and _flies(S, w, k, contact.body_b) == 1
+        if contact.due <= min(_ABOUT * soonest, first) and fly_both:
+            first = min(first, _closing_of_flying(S, w, k, c))
+    return first
+
+
+@kernel("void(S, F, I, f8)")
+def keep_falls(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+    """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
+
+    The bodies stand there; later they would have to be put there.
+    """
+    for c in range(S.n_contacts):
+        if _will_be_doubtful(S, w, k, c, h) == 1:
+            contact_at(S, w, k, c).fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
@@ -229,10 +309,7 @@ def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> 
         state = S.y if theta == 0.0 else S.y_new
         if 0.0 < theta < 1.0:
             state = S.y_stage
-            for part in range(2):
-                i = body.q if part == 0 else S.n_q + body.u
-                n = body.nq if part == 0 else body.nu
-                dense_part(S, w, S.y + i, S.slopes + i, n, S.n_y, h, theta, state + i)
+            body_within(S, w, k, h, theta, number, state)
         evaluate_body(S, w, k, S.t + theta * h, state, number)
     evaluate_geometry(S, w, k, c)
 
@@ -270,6 +347,15 @@ def look_at_gap(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: i
     _put(S, w, k, h, theta, c)
     evaluate_rates(S, w, k, c)
     _write_gap_guard(S, w, k, c, theta * h)
+
+
+@kernel("void(S, F, I, f8, f8, i8)")
+def look_at_slip(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
+    """Evaluate the slip of the rigid contact ``c`` alone at a fraction of the step, and write its guard."""
+    _put(S, w, k, h, theta, c)
+    evaluate_rates(S, w, k, c)
+    i = friction_guard(S, c)
+    guard_at(S, w, k, i).value = grown(S, w, k, i, slip_guard(S, w, k, c), theta * h)
 
 
 @kernel("void(S, F, I, f8, f8, i8, i8)")

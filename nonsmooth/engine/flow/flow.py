@@ -28,6 +28,7 @@ from nonsmooth.engine.native.kernel import (
     entry_point,
     kernel,
 )
+from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.vectors import length
 
 _INCIPIENT = 1e-300
@@ -35,18 +36,19 @@ WRONG_FORCE = -2.0
 """A force below so many times what its contact problem took for zero violates its mode."""
 
 
-@entry_point("i8(S, F, I, f8, i8, i8)")
-def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosing: int) -> int:
+@entry_point("i8(S, F, I, f8, i8, i8, i8)")
+def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosing: int, every: int) -> int:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
-    The closed contacts are grouped into islands.  In free flight the driven bodies are left alone.  With ``choosing``
-    (1) the null-space force of those not unique is chosen anew; return 0 if somewhere none keeps every bound, else 1.
-    Within an implicit step friction opposes the slip that the stage ends with.
+    That is of every body (1), or of those that are integrated.  The closed contacts are grouped into islands.  In free
+    flight the driven bodies are left alone.  With ``choosing`` (1) the null-space force of those not unique is chosen
+    anew; return 0 if somewhere none keeps every bound, else 1.  Within an implicit step friction opposes the slip that
+    the stage ends with.
     """
     keeps = 1
     S.singular = -1
-    evaluate_free_bodies(S, w, k, t, y)
-    free_acceleration(S, w, k)
+    evaluate_free_bodies(S, w, k, t, y, every)
+    free_acceleration(S, w, k, every)
     if S.n_grouped == 0:
         return keeps
     evaluate_driven_bodies(S, w, k, t, y)
@@ -77,7 +79,8 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
             contact = contact_at(S, w, k, c)
             contact.redundant = active.redundant
             contact.holds = active.tangent_held
-            contact.static_margin = _static_margin(S, w, k, a)
+            if contact.mode == STICK:
+                contact.static_margin = _static_margin(S, w, k, a)
             for r in range(3):
                 contact.force[r] = active.force[r]
     return keeps
@@ -185,28 +188,26 @@ def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     return float(contact.slip[0] * contact.direction[0] + contact.slip[1] * contact.direction[1])
 
 
-@entry_point("void(S, F, I, f8, i8, i8, i8)")
-def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosing: int) -> None:
+@entry_point("void(S, F, I, f8, i8, i8, i8, i8)")
+def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosing: int, every: int) -> None:
     """Write dy/dt: coordinate rates, accelerations, and four powers.
 
-    These are of the driven bodies, lost to friction, exchanged in all, and of the loads.  For ``choosing`` see
-    :func:`right_hand_side`.
+    These are of the driven bodies, lost to friction, exchanged in all by what is integrated, and of the loads.  For
+    ``choosing`` and ``every`` see :func:`right_hand_side`.
     """
     S.evaluations += 1
-    right_hand_side(S, w, k, t, y, choosing)
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
-        rates = body.tail
-        for i in range(body.nq):
-            w[out + body.q + i] = w[rates + i]
-    for i in range(S.n_u):
-        w[out + S.n_q + i] = w[S.du + i]
+    right_hand_side(S, w, k, t, y, choosing, every)
     lost = own = 0.0
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
-        h = body.tail + body.nq
-        for i in range(body.nu):
-            own += w[h + i] * w[y + S.n_q + body.u + i]
+    for i in range(S.n_bodies if every == 1 else S.n_integrated):
+        body = body_at(S, w, k, i if every == 1 else k[S.integrated + i])
+        rates, n_q, n_u = body.tail, body.nq, body.nu
+        accelerations, velocities = S.du + body.u, S.n_q + body.u
+        for j in range(n_q):
+            w[out + body.q + j] = w[rates + j]
+        for j in range(n_u):
+            w[out + velocities + j] = w[accelerations + j]
+        if body.flies == 0:
+            own = product(w, own, rates + n_q, y + velocities, n_u)
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)

@@ -12,6 +12,7 @@ from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaged import reach_end, renew_mean_forces
+from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.leap import leap
@@ -104,7 +105,7 @@ def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         elif h <= S.time_tolerance:
             return -1.0
         if part == 0.0:
-            slope(S, w, k, S.t, S.y, S.slopes, 0)
+            slope(S, w, k, S.t, S.y, S.slopes, 0, 1)
             part = 0.5
         elif part == 1.0:
             part = step_factor(error) if error < 1e300 else _SHORTEST
@@ -129,15 +130,17 @@ def _measure_mobilities(S: Scalars, w: Floats, k: Integers) -> None:
 def follow(S: Scalars, w: Floats, k: Integers, t: float) -> int:
     """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
     group_closed(S, w, k)
+    choose_integrated(S, w, k)
     _measure_mobilities(S, w, k)
     wanted = S.h_max
     if S.mean_until <= S.t:
         renew_mean_forces(S, w, k, 0)
     while S.t < t:
         S.stage_time, S.follows, S.replaced = 0.0, 0, 0
-        slope(S, w, k, S.t, S.y, S.slopes, 0)
+        slope(S, w, k, S.t, S.y, S.slopes, 0, 1)
         if _turned_round(S, w, k) == 1:
-            slope(S, w, k, S.t, S.y, S.slopes, 0)
+            slope(S, w, k, S.t, S.y, S.slopes, 0, 1)
+        take_off(S, w, k)
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
             guard_at(S, w, k, friction_guard(S, c)).first = slip_guard(S, w, k, c)
@@ -195,10 +198,10 @@ def evaluate_forces(S: Scalars, w: Floats, k: Integers, choosing: int) -> None:
     if choosing == 1 or S.mean_until <= S.t:
         renew_mean_forces(S, w, k, 0)
     evaluate_driven_bodies(S, w, k, S.t, S.y)
-    right_hand_side(S, w, k, S.t, S.y, choosing)
+    right_hand_side(S, w, k, S.t, S.y, choosing, 1)
     turned = _turned_round(S, w, k)
     anew = max(choosing, _past_bounds(S, w, k))
     if turned + anew > choosing:
-        right_hand_side(S, w, k, S.t, S.y, anew)
+        right_hand_side(S, w, k, S.t, S.y, anew, 1)
     if S.n_joints > 0:
         evaluate_joint_forces(S, w, k)

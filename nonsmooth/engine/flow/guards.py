@@ -16,7 +16,7 @@ zero at the start does not fire while the next one does.
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
+from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies, evaluate_free_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.flow import WRONG_FORCE, hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.flow.guard_numbers import (
@@ -34,6 +34,7 @@ from nonsmooth.engine.native.kernel import (
     Integers,
     Scalars,
     at,
+    body_at,
     call_guard,
     contact_at,
     entry_point,
@@ -121,16 +122,45 @@ def _write_other_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, fo
             end.value = _feature_guard(S, w, k, c)
 
 
+@kernel("void(S, F, I, f8, i8, i8)")
+def _evaluate_flying(S: Scalars, w: Floats, k: Integers, t: float, y: int, c: int) -> None:
+    """Let the bodies of contact ``c`` that fly write their output blocks."""
+    contact = contact_at(S, w, k, c)
+    for side in range(2):
+        number = contact.body_a if side == 0 else contact.body_b
+        if body_at(S, w, k, number).flies == 1:
+            evaluate_body(S, w, k, t, y, number)
+
+
+@kernel("void(S, F, I, f8, i8)")
+def _evaluate_doubtful(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+    """Evaluate the bodies that fly and may meet something in the step."""
+    for i in range(S.n_doubtful):
+        _evaluate_flying(S, w, k, t, y, k[S.doubtful + i])
+    for i in range(S.n_astray):
+        _evaluate_flying(S, w, k, t, y, k[S.astray + i])
+
+
+@kernel("void(S, F, I, f8, i8)")
+def stand_at(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+    """Evaluate the bodies that move at ``t`` and ``y``, but for those that fly and can meet nothing in the step."""
+    evaluate_driven_bodies(S, w, k, t, y)
+    evaluate_free_bodies(S, w, k, t, y, 0)
+    _evaluate_doubtful(S, w, k, t, y)
+
+
 @kernel("void(S, F, I, f8, i8, f8, i8)")
 def evaluate_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, elapsed: float, forces: int) -> None:
     """Evaluate the motion at ``t`` and ``y`` and write the guards, deflated by the time elapsed in the step.
 
-    Gaps that cannot close in the step are left as they are at its end.
+    Gaps that cannot close in the step, and bodies that fly and cannot meet anything in it, are left as they are at its
+    end.
     """
     if forces == 1:
-        right_hand_side(S, w, k, t, y, 0)
+        right_hand_side(S, w, k, t, y, 0, 0)
+        _evaluate_doubtful(S, w, k, t, y)
     else:
-        evaluate_bodies(S, w, k, t, y)
+        stand_at(S, w, k, t, y)
     _write_other_guards(S, w, k, t, y, forces)
     for i in range(S.n_doubtful):
         _write_gap(S, w, k, k[S.doubtful + i])
@@ -303,6 +333,17 @@ def is_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     if i >= first_own_guard(S) or _is_open(S, w, k, i) == 0:
         return 0
     return 1 if contact_at(S, w, k, contact_of(S, i)).beyond <= 0.0 else 0
+
+
+@kernel("i8(S, F, I, i8)")
+def kinematic(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` is the gap of an open contact, 2 if the slip of a rigid one: they hang on no force."""
+    if i >= first_own_guard(S):
+        return 0
+    contact = contact_at(S, w, k, contact_of(S, i))
+    if is_friction_guard(S, i) == 0:
+        return 1 if contact.mode == OPEN else 0
+    return 2 if contact.mode == SLIDE and contact.normal_function == 0 else 0
 
 
 @kernel("i8(S, F, I, i8)")

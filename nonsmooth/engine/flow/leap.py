@@ -142,7 +142,7 @@ def _runs(S: Scalars, w: Floats, k: Integers, h: float) -> int:
 @kernel()
 def measure_noise(S: Scalars, w: Floats, k: Integers) -> None:
     """Write what counts as no force behind a leap: before it, next to the flat place, forces may have had no bound."""
-    right_hand_side(S, w, k, S.t, S.y, 0)
+    right_hand_side(S, w, k, S.t, S.y, 0, 1)
     largest = 0.0
     for i in range(S.n_grouped):
         contact = contact_at(S, w, k, k[S.grouped + i])

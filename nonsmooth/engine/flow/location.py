@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap
+from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap, look_at_slip
+from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_own_guard,
@@ -26,6 +26,8 @@ from nonsmooth.engine.flow.guards import (
     first_fired,
     is_gap,
     keep_end,
+    kinematic,
+    stand_at,
     write_guards,
 )
 from nonsmooth.engine.flow.self_check import explained_gap
@@ -34,7 +36,6 @@ from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.roots import weakened
-from nonsmooth.engine.numerics.runge_kutta import dense_state
 
 _MIDDLE = 0.5
 _NEAR = 0.2
@@ -87,21 +88,18 @@ def _asks_forces(S: Scalars, w: Floats, k: Integers) -> int:
 @entry_point("void(S, F, I, f8, f8, i8)")
 def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
-    dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_stage)
+    state_within(S, w, k, h, theta, S.y_stage)
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
-
-
-@kernel("i8(S, F, I, i8)")
-def _is_of_open_gap(S: Scalars, w: Floats, k: Integers, i: int) -> int:
-    """Return 1 if guard ``i`` is the gap of an open contact, on which nothing but its two bodies acts."""
-    return 1 if i < S.n_contacts and contact_at(S, w, k, i).mode == OPEN else 0
 
 
 @kernel("f8(S, F, I, f8, f8, i8, i8)")
 def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
-    """Return guard ``i`` at the fraction ``theta`` of the step; of a gap nothing else is evaluated."""
-    if _is_of_open_gap(S, w, k, i) == 1:
+    """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
+    alone = kinematic(S, w, k, i)
+    if alone == 1:
         look_at_gap(S, w, k, h, theta, i)
+    elif alone == 2:
+        look_at_slip(S, w, k, h, theta, contact_of(S, i))
     else:
         guards_within(S, w, k, h, theta, forces)
     return float(guard_at(S, w, k, i).value)
@@ -261,7 +259,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if theta > 0.0:
             return theta
     if looks > 0:
-        evaluate_bodies(S, w, k, S.t + h, S.y_new)
+        stand_at(S, w, k, S.t + h, S.y_new)
         for i in range(number_of_guards(S)):
             guard_at(S, w, k, i).value = guard_at(S, w, k, i).end
         for c in range(S.n_contacts):
@@ -283,7 +281,7 @@ def _event_fraction(S: Scalars, w: Floats, k: Integers, h: float, high: float, i
     the guard jumps.
     """
     theta = _vanishing(S, w, k, h, high, i, forces)
-    if _is_of_open_gap(S, w, k, i) == 1:
+    if kinematic(S, w, k, i) > 0:
         guards_within(S, w, k, h, theta, forces)
     return theta
 
@@ -492,7 +490,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         else 0
     )
     if S.step_error <= _NEGLIGIBLE or jumps == 1:
-        dense_state(S, w, S.y, S.slopes, S.n_y, h, theta, S.y_new)
+        state_within(S, w, k, h, theta, S.y_new)
         return step
     if S.guard_slope == -math.inf:
         return _behind_jump(S, w, k, step, fired)

@@ -5,13 +5,29 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_free_bodies
-from nonsmooth.engine.bodies.kinematics import evaluate_contact
+from nonsmooth.engine.bodies.kinematics import (
+    evaluate_geometry,
+    evaluate_jacobian,
+    evaluate_rates,
+    evaluate_row,
+    evaluate_row_response,
+    push_response,
+    row,
+)
 from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.contact.held_contacts import coupling
 from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
-from nonsmooth.engine.memory.modes import JOINTS_APART, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED, RUNNING, STICK
+from nonsmooth.engine.memory.modes import (
+    JOINTS_APART,
+    MOTION_UNEXPLAINED,
+    QUATERNION_UNEXPLAINED,
+    RUNNING,
+    SLIDE,
+    STICK,
+)
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
@@ -24,6 +40,8 @@ from nonsmooth.engine.native.kernel import (
     kernel,
 )
 
+_NO_GAP = 1e-16
+"""A gap of so many metres is none."""
 _DAMPING = 1e-8
 """Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
 would move a body by more than half the gap over the root of this.  A contact alone repeats none."""
@@ -101,7 +119,7 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
         gap = abs(held_gap(S, w, k, c)) if contact.normal_function == 0 else 0.0
         worst = max(worst, gap)
         share = max(share, gap / explained_gap(S, w, k, c))
-    if worst <= 1e-16 or share > 1.0:
+    if worst <= _NO_GAP or share > 1.0:
         return 0
     assemble_delassus(S, w, k)
     for a in range(m):
@@ -117,6 +135,34 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
     resolve(S, w, k)
     add_response(S, w, k, S.active_forces, S.y_stage + S.n_q)
     return 1
+
+
+@kernel("f8(S, F, I)")
+def _stop_alone(S: Scalars, w: Floats, k: Integers) -> float:
+    """Take gap and gap rate of an island of one rigid contact that slides, whose geometry and rates are at hand.
+
+    The gap's velocity is added to ``y_stage``; return the kinetic energy that the other takes [J].
+    """
+    c = active_at(S, w, k, 0).slot
+    contact = contact_at(S, w, k, c)
+    evaluate_row(S, w, k, c, 0, contact.axis_n)
+    evaluate_row_response(S, w, k, c, 0, 0)
+    own, gap, rate = coupling(S, w, k, c, 0, c, 0), held_gap(S, w, k, c), contact.rate[0]
+    if own <= 0.0:
+        return 0.0
+    if _NO_GAP < abs(gap) <= explained_gap(S, w, k, c):
+        push_response(S, w, k, c, 0, -gap / own, S.y_stage + S.n_q)
+    impulse, prescribed = -rate / own, rate - row(S, w, k, c, 0, S.free_velocities)
+    push_response(S, w, k, c, 0, impulse, S.y + S.n_q)
+    S.driven_work -= impulse * prescribed
+    return float(-0.5 * impulse * rate)
+
+
+@kernel("i8(S, F, I)")
+def _slides_alone(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if the active contact is one, rigid, and slides."""
+    contact = contact_at(S, w, k, active_at(S, w, k, 0).slot)
+    return 1 if S.n_active == 1 and contact.normal_function == 0 and contact.mode == SLIDE else 0
 
 
 @kernel()
@@ -171,7 +217,8 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int, averaged: 
     What the gaps take counts at an event (1); within a step it is the error of the step, which no energy paid for.
     Of islands whose forces are ``averaged`` (1) only these come to rest, where that ends; else only the others (0).
     """
-    group_closed(S, w, k)
+    if at_event == 1:
+        group_closed(S, w, k)
     if S.n_grouped == 0:
         return 0.0
     evaluate_bodies(S, w, k, S.t, S.y)
@@ -188,17 +235,24 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int, averaged: 
             active = active_at(S, w, k, a)
             c = active.slot
             contact = contact_at(S, w, k, c)
-            evaluate_contact(S, w, k, c, 1)
+            evaluate_geometry(S, w, k, c)
+            evaluate_rates(S, w, k, c)
             past = max(past, contact.beyond)
         if past > S.gap_tolerance:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact
             continue
+        if at_event == 0 and _slides_alone(S, w, k) == 1:
+            loss += _stop_alone(S, w, k)
+            moved += 1
+            continue
+        for a in range(S.n_active):
+            evaluate_jacobian(S, w, k, active_at(S, w, k, a).slot)
         loss += project_rates(S, w, k, at_event)
         moved += _add_gaps(S, w, k)
     if moved > 0:
         before = energy_of_bodies(S, w, k, 1)
         _displace(S, w, k)
-        evaluate_free_bodies(S, w, k, S.t, S.y)
+        evaluate_free_bodies(S, w, k, S.t, S.y, 1)
         if at_event == 1:
             loss += before - energy_of_bodies(S, w, k, 1)
     return loss

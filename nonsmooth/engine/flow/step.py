@@ -9,12 +9,19 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.flow.flight import land
 from nonsmooth.engine.flow.flow import is_violated, slope
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
-from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, entry_point, kernel
+from nonsmooth.engine.numerics.runge_kutta import (
+    stage_part,
+    stage_state,
+    weigh_part,
+    weigh_slopes,
+    write_implicit_interpolant,
+)
 
 STIFF = 2.0
 """Relaxations within a step that an explicit one bears."""
@@ -33,25 +40,28 @@ _SHARE = tableau.NODES[1] / tableau.NODES[2]
 def _worst_error(S: Scalars, w: Floats, first: int, end: int, worst: float) -> float:
     """Return the largest error of some components relative to the tolerance, or ``worst`` if that is larger."""
     for i in range(first, end):
-        scale = w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i]))
-        error = abs(w[S.y_stage + i]) / (S.rtol * scale)
-        if error > worst or error != error:
-            worst = error
+        explained = S.rtol * (w[S.y_scale + i] + max(abs(w[S.y + i]), abs(w[S.y_new + i])))
+        error = abs(w[S.y_stage + i])
+        # few of them are divided
+        if error > worst * explained or error != error:
+            worst = error / explained
     return worst
 
 
-@kernel("f8(S, F)")
-def _relative_error(S: Scalars, w: Floats) -> float:
-    """Return the largest of the errors in ``y_stage`` relative to the tolerance."""
+@kernel("f8(S, F, I)")
+def _relative_error(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return the largest of the errors in ``y_stage`` relative to the tolerance, of what is integrated."""
     n, worst = S.n_y, 0.0
-    worst = _worst_error(S, w, 0, S.n_q + S.n_u, worst)
+    for span in range(S.n_spans):
+        first = k[S.span_first + span]
+        worst = _worst_error(S, w, first, min(first + k[S.span_length + span], S.n_q + S.n_u), worst)
     if S.n_states > 0:
         worst = _worst_error(S, w, S.n_q + S.n_u + N_ACCOUNTS, n, worst)
     return worst
 
 
-@kernel("f8(S, F, f8)")
-def _unseen(S: Scalars, w: Floats, h: float) -> float:
+@kernel("f8(S, F, I, f8)")
+def _unseen(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Return how far the second stage is from the first and third, relative to what a step of the tolerance explains.
 
     It has no weight in the result, nor in the error: a force that only it meets, as where it throws the later stages
@@ -62,10 +72,13 @@ def _unseen(S: Scalars, w: Floats, h: float) -> float:
     second, third = first + S.n_y, first + 2 * S.n_y
     y_scale, y, y_new = S.y_scale + S.n_q, S.y + S.n_q, S.y_new + S.n_q
     worst, rtol = 0.0, math.sqrt(S.rtol)
-    for i in range(S.n_u):
-        change = h * abs(w[second + i] - (1.0 - _SHARE) * w[first + i] - _SHARE * w[third + i])
-        explained = rtol * (w[y_scale + i] + max(abs(w[y + i]), abs(w[y_new + i])))
-        worst = max(worst, change / explained)
+    for number in range(S.n_integrated):
+        body = body_at(S, w, k, k[S.integrated + number])
+        for i in range(body.u, body.u + body.nu):
+            change = h * abs(w[second + i] - (1.0 - _SHARE) * w[first + i] - _SHARE * w[third + i])
+            explained = rtol * (w[y_scale + i] + max(abs(w[y + i]), abs(w[y_new + i])))
+            if change > worst * explained:
+                worst = change / explained
     return worst if worst > 1.0 else 0.0
 
 
@@ -116,7 +129,7 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
             w[out + i] += S.stage_time * w[here + i]
             w[S.y_guess + i] = w[here + i]
         S.ahead, S.guess = S.stage_time, S.y_guess + S.n_q
-        slope(S, w, k, S.t + implicit_tableau.NODES[stage] * h, out, here, 0)
+        slope(S, w, k, S.t + implicit_tableau.NODES[stage] * h, out, here, 0, 0)
         S.ahead = 0.0
         if S.unsettled == 1:
             return 0
@@ -138,7 +151,7 @@ def _settle(S: Scalars, w: Floats, k: Integers) -> int:
         w[S.y_guess + i] = 0.0
     S.unsettled = 0
     S.ahead, S.guess = S.stage_time, S.y_guess + S.n_q
-    slope(S, w, k, S.t, S.y, S.slopes + S.n_y, 0)
+    slope(S, w, k, S.t, S.y, S.slopes + S.n_y, 0, 0)
     S.ahead = 0.0
     return 0 if S.unsettled == 1 else _holds(S, w, k)
 
@@ -160,7 +173,7 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if _solve_stage(S, w, k, h, stage) == 0:
             return _UNUSABLE
     weigh_slopes(S, w, S.implicit_errors, S.slopes, n, h, S.y_stage)
-    error = _relative_error(S, w)
+    error = _relative_error(S, w, k)
     S.replaced = 1
     for i in range(n):
         w[S.slope_kept + i], w[S.slopes + i] = w[S.slopes + i], w[S.slopes + n + i]
@@ -173,12 +186,34 @@ def _try_explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one explicit step of ``h``; return its relative error."""
     n = S.n_y
     S.stage_time = 0.0
+    if S.n_integrated == 0:
+        for i in range(S.n_q + S.n_u, n):
+            w[S.y_new + i] = w[S.y + i]
+            w[S.slopes + LAST_STAGE * n + i] = 0.0
+        return 0.0
     for stage in range(1, N_STAGES):
         out = S.y_new if stage == LAST_STAGE else S.y_stage
-        stage_state(S, w, S.stages, S.y, S.slopes, n, stage, h, out)
-        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0)
-    weigh_slopes(S, w, S.error_weights, S.slopes, n, h, S.y_stage)
-    return max(_relative_error(S, w), _unseen(S, w, h))
+        for span in range(S.n_spans):
+            i, length = k[S.span_first + span], k[S.span_length + span]
+            stage_part(S, w, S.stages, S.y + i, S.slopes + i, length, n, stage, h, out + i)
+        slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0, 0)
+    for span in range(S.n_spans):
+        i, length = k[S.span_first + span], k[S.span_length + span]
+        weigh_part(S, w, S.error_weights, S.slopes + i, length, n, h, S.y_stage + i)
+    return max(_relative_error(S, w, k), _unseen(S, w, k, h))
+
+
+@kernel("f8(S, F, I, f8)")
+def _integrated(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Take one step of ``h`` of what is integrated; return its relative error."""
+    if S.stage_time > 0.0:
+        error = _try_implicit_step(S, w, k, h)
+        return error if error < _UNUSABLE else _try_explicit_step(S, w, k, h)
+    error = _try_explicit_step(S, w, k, h)
+    if error > 1.0 and h * S.relaxation > STIFF:
+        implicit = _try_implicit_step(S, w, k, h)
+        return implicit if implicit < _UNUSABLE else _try_explicit_step(S, w, k, h)
+    return error
 
 
 @entry_point("f8(S, F, I, f8)")
@@ -196,14 +231,8 @@ def try_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             w[S.slopes + i] = w[S.slope_kept + i]
     for c in range(S.n_contacts):
         contact_at(S, w, k, c).least_force = 1e300
-    if S.stage_time > 0.0:
-        error = _try_implicit_step(S, w, k, h)
-        return error if error < _UNUSABLE else _try_explicit_step(S, w, k, h)
-    error = _try_explicit_step(S, w, k, h)
-    if error > 1.0 and h * S.relaxation > STIFF:
-        implicit = _try_implicit_step(S, w, k, h)
-        return implicit if implicit < _UNUSABLE else _try_explicit_step(S, w, k, h)
-    return error
+    error = _integrated(S, w, k, h)
+    return error + land(S, w, k, h) if S.n_flying > 0 else error
 
 
 @kernel("f8(S, F, I, f8)")

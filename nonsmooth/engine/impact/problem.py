@@ -435,11 +435,11 @@ def _orient(S: Scalars, w: Floats, k: Integers) -> None:
 @kernel("f8(S, F, I, f8)")
 def _graded(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Shorten the step towards the end of an expansion, where the force law is not smooth, geometrically."""
-    small = _LAST * S.impact_rtol**0.4
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         state = impact_state(w, S.impact_y, a)
         x, rate = state.deformation, impact_state(w, S.impact_slopes, a).deformation
-        if active.phase == EXPANSION and x > small * active.deformation_scale and h * rate < -_SHARE * x:
+        goes = active.phase == EXPANSION and h * rate < -_SHARE * x
+        if goes and x > _LAST * S.impact_rtol**0.4 * active.deformation_scale:
             h = -_SHARE * x / rate
     return h

@@ -90,9 +90,9 @@ def grow_scales(S: Scalars, w: Floats, k: Integers) -> None:
     grown = 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        impulse = math.sqrt(reached_energy(S, w, k, a) / diagonal_block(S, w, k, a).nn)
-        if impulse > _GROWN * active.impulse_scale:
-            active.impulse_scale = impulse
+        energy, own, scale = reached_energy(S, w, k, a), diagonal_block(S, w, k, a).nn, active.impulse_scale
+        if energy > own * (_GROWN * scale) ** 2:
+            active.impulse_scale = math.sqrt(energy / own)
             grown = 1
     if grown == 1:
         _set_rest_slips(S, w, k)

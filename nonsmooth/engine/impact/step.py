@@ -88,17 +88,18 @@ def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
     worst = 0.0
     for a in range(S.n_active):
         active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a).entries
-        line, energy = errors + STRIDE * a, reached_energy(S, w, k, a)
-        moved = 0.0
-        for r in range(3):
-            for s in range(3):
-                moved += own[3 * r + s] * w[line + r] * w[line + s]
-        for r in range(2, STRIDE):
-            error = math.sqrt(abs(moved) / energy)
-            if r >= DEFORMATION:
-                error = abs(w[line + r]) / (active.deformation_scale if r == DEFORMATION else energy)
-            if error > worst or error != error:
-                worst = error
+        error, energy = impact_state(w, errors, a), reached_energy(S, w, k, a)
+        p0, p1, p2 = error.impulse[0], error.impulse[1], error.impulse[2]
+        moved = own[0] * p0 * p0 + own[1] * p0 * p1 + own[2] * p0 * p2
+        moved = moved + own[3] * p1 * p0 + own[4] * p1 * p1 + own[5] * p1 * p2
+        moved = abs(moved + own[6] * p2 * p0 + own[7] * p2 * p1 + own[8] * p2 * p2)
+        deformed, worked, rubbed = abs(error.deformation), abs(error.work), abs(error.rubbed)
+        stored, lost = abs(error.energy), abs(error.lost)
+        # a maximum does not show what is not a number
+        if not moved + deformed + worked + rubbed + stored + lost < _UNUSABLE:
+            return math.inf
+        booked = max(max(worked, rubbed), max(stored, lost)) / energy
+        worst = max(worst, math.sqrt(moved / energy), deformed / active.deformation_scale, booked)
     return worst / float(S.impact_rtol)
 
 

@@ -33,6 +33,10 @@ BODY = without(
     "body_out",
     "body_tail",
     "body_quaternion",
+    "body_flight_function",
+    "body_flight_parameters",
+    "body_flight_out",
+    "body_flies",
 )
 """Of a body."""
 
@@ -100,6 +104,9 @@ UNIT: Fields = {
     "end_partner": Field("unit_partner", 1, 1),
 }
 """Of a unit (:mod:`nonsmooth.engine.bodies.listing`)."""
+
+WALL = without("wall_", "wall_contact", "wall_unit", "wall_frame", "wall_steady", "wall_ceiling")
+"""Of an unbounded shape in a contact (:mod:`nonsmooth.engine.bodies.listing`)."""
 
 POOL = without(
     "pool_",

@@ -100,6 +100,7 @@ CONTACT: Fields = {
         "past_first",
         "past_end",
         "speed_first",
+        "due",
         "speed_end",
         "feature",
         # how its events crowd

@@ -16,7 +16,8 @@ from __future__ import annotations
     BY_CROWD,
     BY_END,
     BY_AVERAGING,
-) = range(13)
+    BY_TURN,
+) = range(14)
 
 LIMITS = (
     "no step",
@@ -32,5 +33,6 @@ LIMITS = (
     "crowded events",
     "end of the run",
     "averaging of forces",
+    "turning in flight",
 )
 """Their words; without a step are the events that begin where another ended, and new lists of near contacts."""

@@ -137,7 +137,8 @@ class Memory:
             (self.floats, FLOAT_ARRAYS | floats_of([self.own])),
             (self.integers, INTEGER_ARRAYS | integers_of([self.own])),
         )
-        return {name: (heap, int(self.scalars[name][0])) for heap, names in heaps for name in names}
+        starts = dict(zip(self.scalars.dtype.names or (), self.scalars.item(), strict=True))
+        return {name: (heap, starts[name]) for heap, names in heaps for name in names}
 
     @functools.cached_property
     def addresses(self) -> tuple[int, int, int]:

@@ -19,6 +19,7 @@ from nonsmooth.engine.memory.body_records import (
     POOL,
     ROW_OF_JOINT,
     UNIT,
+    WALL,
     WRENCH_OF_LOAD,
 )
 from nonsmooth.engine.memory.contact_records import (
@@ -41,6 +42,7 @@ RECORDS: Mapping[str, Fields] = {
     "joint": JOINT,
     "load": LOAD,
     "unit": UNIT,
+    "wall": WALL,
     "pool": POOL,
     "own_guard": OWN_GUARD,
     "guard": GUARD,

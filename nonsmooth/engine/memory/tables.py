@@ -75,6 +75,7 @@ COUNTS = (
     "n_units",
     "n_partners",
     "n_paired",
+    "n_walls",
     "n_pools",
     "n_own_guards",
     "n_loads",

@@ -63,6 +63,8 @@ load_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["load"]
 """a load,"""
 unit_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unit"]
 """a unit,"""
+wall_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["wall"]
+"""a wall,"""
 unknown_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unknown"]
 """an unknown of the contact problem,"""
 pool_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pool"]
@@ -179,5 +181,6 @@ __all__ = [
     "unit_at",
     "unknown_at",
     "unshared",
+    "wall_at",
     "watch_address",
 ]

@@ -23,6 +23,31 @@ def band_row(a: int, i: int, n: int, half: int) -> int:
     return a + i * width - min(max(0, i - half), n - width)
 
 
+@kernel("f8(F, f8, i8, i8, i8)")
+def product(w: Floats, total: float, a: int, b: int, n: int) -> float:
+    """Return ``total`` plus the scalar product of two vectors of ``n`` numbers; the six of a free body need no loop."""
+    if n == 6:
+        total += w[a] * w[b]
+        total = total + w[a + 1] * w[b + 1] + w[a + 2] * w[b + 2]
+        return total + w[a + 3] * w[b + 3] + w[a + 4] * w[b + 4] + w[a + 5] * w[b + 5]
+    for i in range(n):
+        total += w[a + i] * w[b + i]
+    return total
+
+
+@kernel("void(F, i8, i8, i8, i8)")
+def multiply(w: Floats, a: int, n: int, x: int, out: int) -> None:
+    """Write the symmetric matrix at ``a`` times the vector at ``x`` to ``out``, which is none of them."""
+    if n == 6:
+        x0, x1, x2, x3, x4, x5 = w[x], w[x + 1], w[x + 2], w[x + 3], w[x + 4], w[x + 5]
+        for i in range(a, a + 6):
+            first = w[i] * x0 + w[i + 6] * x1 + w[i + 12] * x2
+            w[out - a + i] = first + w[i + 18] * x3 + w[i + 24] * x4 + w[i + 30] * x5
+        return
+    for i in range(n):
+        w[out + i] = product(w, 0.0, a + i * n, x, n)
+
+
 @kernel("i8(F, i8, i8, i8, i8, f8)")
 def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> int:
     """Solve the banded system at ``a`` with right-hand side at ``x``, both overwritten; return 1, or 0 if singular.

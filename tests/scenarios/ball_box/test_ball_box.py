@@ -96,7 +96,7 @@ def test_near_pairs_give_what_all_pairs_give(monkeypatch: pytest.MonkeyPatch) ->
         monkeypatch.setattr(units, "SMALL", small)
         system = scenario.build()
         table = ContactTable.of(system.bodies, system.contacts)
-        assert (len(units.find_units(system.contacts, table).radii) == 0) == (small == 200)
+        assert (len(units.find_units(system.contacts, table, system.bodies).radii) == 0) == (small == 200)
         ends.append(ns.simulate(system, scenario.t_end))
     listed, every = ends
     assert listed.counters.impacts == every.counters.impacts > 30

@@ -41,6 +41,8 @@ ARRAYS = Arrays(
             "h_listed",
             "h_first",
             "h_closing",
+            "h_turn",
+            "h_arrival",
             "h_closed",
             "h_valid",
             "end_of_valid",
