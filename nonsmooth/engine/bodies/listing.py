@@ -21,8 +21,13 @@ from nonsmooth.engine.memory.layout import (
     CONTACT_TIME,
     DIRECTION,
     LEVERS,
+    MEAN_FORCE,
+    MEAN_SPAN,
+    MEAN_WAY,
+    MOBILITY,
     REACH,
     SIZE,
+    SMALL_FORCE,
 )
 from nonsmooth.engine.memory.modes import NO_SLOT, OPEN, RUNNING
 from nonsmooth.engine.native.kernel import (
@@ -67,6 +72,10 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     contact.closing_rate, contact.size = floats[CLOSING_RATE], floats[SIZE]
     contact.lever_a, contact.lever_b = floats[LEVERS], floats[LEVERS + 1]
     contact.direction = floats[DIRECTION], floats[DIRECTION + 1]
+    contact.mobility, contact.small_force_of = floats[MOBILITY], floats[SMALL_FORCE]
+    contact.mean_span, contact.mean_way = floats[MEAN_SPAN], floats[MEAN_WAY]
+    for r in range(3):
+        contact.mean_force[r] = floats[MEAN_FORCE + r]
     contact.facing = 1
     contact.touching = 0
     contact.identity = declared
@@ -85,7 +94,7 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
 
 @kernel("void(S, F, I)")
 def _leave(S: Scalars, w: Floats, k: Integers) -> None:
-    """Empty all slots; modes and slip directions go back to the catalogue."""
+    """Empty all slots; modes, and what the last event left of the contacts, go back to the catalogue."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         declared = contact.identity
@@ -94,6 +103,10 @@ def _leave(S: Scalars, w: Floats, k: Integers) -> None:
         k[S.catalogue + _WIDTH * declared + _AVERAGED] = contact.averaged
         floats[DIRECTION], floats[DIRECTION + 1] = contact.direction
         floats[CLOSING_RATE] = contact.closing_rate
+        floats[MOBILITY], floats[SMALL_FORCE] = contact.mobility, contact.small_force_of
+        floats[MEAN_SPAN], floats[MEAN_WAY] = contact.mean_span, contact.mean_way
+        for r in range(3):
+            floats[MEAN_FORCE + r] = contact.mean_force[r]
     S.n_contacts = 0
 
 

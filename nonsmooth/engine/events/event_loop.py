@@ -187,16 +187,19 @@ def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> in
     return update_at_event(S, w, k, cause, which)
 
 
-@kernel("i8(S, F, I)")
-def _hardest_pressed(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return the sliding contact of the greatest normal force, or -1."""
+@kernel("i8(S, F, I, i8)")
+def _hardest_pressed(S: Scalars, w: Floats, k: Integers, sliding: int) -> int:
+    """Return the closed contact of the greatest normal force, or -1; of those only that slide (1), or all (0)."""
+    group_closed(S, w, k)
     evaluate_bodies(S, w, k, S.t, S.y)
     right_hand_side(S, w, k, S.t, S.y, 0, 1)
     hardest, most = -1, 0.0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        if contact.mode == SLIDE and contact.normal_function == 0 and contact.force[0] > most:
-            hardest, most = c, contact.force[0]
+        takes_part = contact.mode == SLIDE if sliding == 1 else contact.mode != OPEN
+        force = contact.force[0] if sliding == 1 else abs(contact.force[0])
+        if takes_part and contact.normal_function == 0 and force > most:
+            hardest, most = c, force
     return hardest
 
 
@@ -307,13 +310,15 @@ def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
     if status == STEP_TOO_SMALL and leap(S, w, k, S.time_tolerance) == 1:
         return _after_leap(S, w, k)
     if status == STEP_TOO_SMALL:
-        which = _hardest_pressed(S, w, k)
+        which = _hardest_pressed(S, w, k, 1)
         if which >= 0:
             outcome = _carry_out(S, w, k, JAM, which)
             if outcome != NO_CONTACT_SOLUTION:
                 return int(outcome)
-            if average_island_of(S, w, k, which) == 1:
-                return update_at_event(S, w, k, AVERAGING, which)
+        which = _hardest_pressed(S, w, k, 0)
+        if which >= 0 and average_island_of(S, w, k, which) == 1:
+            S.fresh = 0
+            return update_at_event(S, w, k, AVERAGING, which)
     return _up_to_end(S, status)
 
 
