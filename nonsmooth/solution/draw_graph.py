@@ -32,6 +32,7 @@ _COLOURS = (
     "#99cc00",
     "#882255",
     "#44aa99",
+    "#332288",
 )
 """One for each cause, told apart by the colour-blind as well."""
 _BEND = 0.16

@@ -1,74 +1,66 @@
-"""Balls in a box that slip slowly against walls and each other, together without forces: their slips stop at once."""
+"""Balls in a box that slip slowly against walls and each other, together without forces: these are averaged."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import cast
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import Ball
-from nonsmooth.engine.memory.modes import JAM
+from laws import Coulomb
+from nonsmooth.engine.memory.modes import AVERAGING
 from tests.benchmarks import mixed_balls, pile
 
+VARIANT, SEED, T_END = "70mm-8", 3, 0.6
 MU, RADIUS = 0.8, mixed_balls.RADIUS
 
 
-def _twists(solution: ns.Solution, balls: list[Ball], q: Any, u: Any) -> Any:
-    """Return velocities and angular velocities in world axes, shape [balls, 6]."""
-    twists = []
-    for ball in balls:
-        first_q, first_u = solution.offsets(ball)
-        turn = Rotation.from_quat(np.array(q[first_q + 3 : first_q + 7]), scalar_first=True)
-        own = np.array(u[first_u : first_u + 6])
-        twists.append([*own[:3], *turn.apply(own[3:])])
-    return np.array(twists)
+@pytest.fixture(scope="module")
+def jammed() -> ns.Solution:
+    """Return a run of balls that wedge each other."""
+    return ns.assemble(mixed_balls.build(VARIANT, SEED)).run(T_END, sample_interval=1e-3)
 
 
-def test_the_impulse_of_a_jam_is_that_of_an_inelastic_impact_on_the_cone() -> None:
-    """By geometry and mechanics of balls written here; the run goes on, and balances its energy."""
-    system = mixed_balls.build("mu=0.8", 0)
-    solution = ns.assemble(system).run(0.2)
-    events = solution.events
-    (jam,) = np.flatnonzero(events.cause == JAM)
-    balls = [body for body in system.bodies if isinstance(body, Ball)]
-    centres = np.array([events.q[jam][solution.offsets(ball)[0] :][:3] for ball in balls])
-    planes = mixed_balls.planes("mu=0.8")
-    found = pile.touches(centres, RADIUS, planes, lambda i, j: MU)
-    axes = [pile.frame(touch.normal) for touch in found]
-    wrenches = np.array(
-        [
-            pile.wrench(touch, axis, RADIUS, len(balls))
-            for touch, frame in zip(found, axes, strict=True)
-            for axis in frame
-        ]
-    )
-    before = _twists(solution, balls, events.q[jam], events.u_before[jam])
-    after = _twists(solution, balls, events.q[jam], events.u_after[jam])
-    masses = np.array([[ball.total_mass] * 3 + [ball.inertia[0]] * 3 for ball in balls])
-    gained = (masses * (after - before)).reshape(-1)
-    impulses = np.linalg.lstsq(wrenches.T, gained, rcond=1e-10)[0]
-    np.testing.assert_allclose(wrenches.T @ impulses, gained, rtol=0.0, atol=1e-9 * np.max(np.abs(gained)))
-    normal, *friction = impulses.reshape(-1, 3).T
-    rates = (wrenches @ after.reshape(-1)).reshape(-1, 3)
-    slip, rub = np.hypot(rates[:, 1], rates[:, 2]), np.hypot(*friction)
-    small = 1e-8 * np.max(normal)
-    assert np.count_nonzero(normal > small) > 1
-    assert np.all(normal > -small)
-    assert np.all(rub <= MU * normal + small)
-    assert np.all(rates[:, 0] > -1e-7)
-    held = normal > small
-    assert np.all(np.abs(rates[held, 0]) < 1e-7)
-    # what slips on has all of its friction against it
-    slips = held & (slip > 1e-6)
-    power = -(friction[0] * rates[:, 1] + friction[1] * rates[:, 2])
-    np.testing.assert_allclose(power[slips], MU * normal[slips] * slip[slips], rtol=1e-3)
-    assert np.any((slip < 1e-7) & held)
-    assert np.sum(masses * after**2) < np.sum(masses * before**2)
-    assert solution.t_end == 0.2
-    assert solution.energy.residual < 1e-8
+def test_a_wedged_pile_goes_on_and_balances_its_energy(jammed: ns.Solution) -> None:
+    """No gap is lost while forces are averaged, and what they take is booked."""
+    assert jammed.status == "done"
+    assert AVERAGING in jammed.events.cause
+    assert jammed.counters.limits["averaging of forces"] > 10
+    assert jammed.energy.residual < 1e-8
+    balls = [body for body in jammed.system.bodies if isinstance(body, Ball)]
+    centres = np.array([jammed.of(ball)[0][:, :3] for ball in balls])
+    for i, one in enumerate(centres):
+        for point, normal in mixed_balls.planes(VARIANT):
+            assert np.min((one - point) @ normal) > RADIUS - 1e-8
+        for other in centres[:i]:
+            assert np.min(np.linalg.norm(one - other, axis=1)) > 2.0 * RADIUS - 1e-8
+
+
+def test_averaged_forces_press_and_stay_within_their_cones(jammed: ns.Solution) -> None:
+    """Looked at from the outside, at instants in between, where they are found again."""
+    events = jammed.events
+    begun = events.time[np.flatnonzero(events.cause == AVERAGING)]
+    forces = jammed.contact_forces(begun[begun < T_END - 1e-5][:50] + 5e-6)
+    assert len(forces.contact) > 50
+    scale = float(np.max(forces.normal_force))
+    laws = [cast(Coulomb, contact.friction).friction for contact in jammed.system.contacts]
+    bound = np.array([laws[i] for i in forces.contact]) * forces.normal_force
+    assert np.all(forces.normal_force > -1e-8 * scale)
+    assert np.all(np.linalg.norm(forces.friction_force, axis=1) < bound + 1e-8 * scale)
+
+
+def test_a_run_cut_within_an_averaging_goes_on_to_the_last_bit(jammed: ns.Solution) -> None:
+    events = jammed.events
+    (first, *_) = events.time[events.cause == AVERAGING]
+    model = ns.assemble(mixed_balls.build(VARIANT, SEED))
+    t_end = float(first) + 1e-3
+    whole = model.run(t_end)
+    cut = model.run(float(first) + 7e-6)
+    again = model.run(t_end, start=cut.state)
+    np.testing.assert_array_equal(again.q_end, whole.q_end)
+    np.testing.assert_array_equal(again.u_end, whole.u_end)
 
 
 @pytest.mark.parametrize(("friction", "balanced"), [(0.2, False), (0.6, True)])
