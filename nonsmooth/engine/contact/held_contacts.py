@@ -129,7 +129,8 @@ def _push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
         force = active.normal_force if sticks == 1 else 1.0
         push_response(S, w, k, c, 0, force, S.du)
         S.driven_power += force * row(S, w, k, c, 1 - sticks, S.free_velocities) - contact.turned
-        S.load_power += active.normal_force * contact.rate[0]
+        if contact.normal_function != 0:
+            S.load_power += active.normal_force * contact.rate[0]
 
 
 @kernel("i8(S, F, I)")
