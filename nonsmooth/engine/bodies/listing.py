@@ -22,6 +22,7 @@ from nonsmooth.engine.memory.layout import (
     DIRECTION,
     LEVERS,
     MEAN_FORCE,
+    MEAN_GAP,
     MEAN_SPAN,
     MEAN_WAY,
     MOBILITY,
@@ -73,7 +74,7 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     contact.lever_a, contact.lever_b = floats[LEVERS], floats[LEVERS + 1]
     contact.direction = floats[DIRECTION], floats[DIRECTION + 1]
     contact.mobility, contact.small_force_of = floats[MOBILITY], floats[SMALL_FORCE]
-    contact.mean_span, contact.mean_way = floats[MEAN_SPAN], floats[MEAN_WAY]
+    contact.mean_span, contact.mean_way, contact.mean_gap = floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP]
     for r in range(3):
         contact.mean_force[r] = floats[MEAN_FORCE + r]
     contact.facing = 1
@@ -104,7 +105,7 @@ def _leave(S: Scalars, w: Floats, k: Integers) -> None:
         floats[DIRECTION], floats[DIRECTION + 1] = contact.direction
         floats[CLOSING_RATE] = contact.closing_rate
         floats[MOBILITY], floats[SMALL_FORCE] = contact.mobility, contact.small_force_of
-        floats[MEAN_SPAN], floats[MEAN_WAY] = contact.mean_span, contact.mean_way
+        floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP] = contact.mean_span, contact.mean_way, contact.mean_gap
         for r in range(3):
             floats[MEAN_FORCE + r] = contact.mean_force[r]
     S.n_contacts = 0

@@ -74,6 +74,16 @@ def _span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
 
 
 @kernel("void(S, F, I)")
+def book_mean_forces(S: Scalars, w: Floats, k: Integers) -> None:
+    """Book the work of averaged normal forces so far, geometry being at hand: as gaps close it is taken back."""
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.averaged != OPEN and contact.normal_function == 0:
+            S.closing_loss -= contact.mean_force[0] * (contact.gap - contact.mean_gap)
+            contact.mean_gap = contact.gap
+
+
+@kernel("void(S, F, I)")
 def measure_spans(S: Scalars, w: Floats, k: Integers) -> None:
     """Write how long the next averaging may be: the rates of gaps that one leaves grow with its square."""
     for c in range(S.n_contacts):
@@ -141,6 +151,7 @@ def find_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
         way = time * max(0.0, contact.rate[0])
         contact.mean_way = way + (contact.mean_way if contact.averaged != OPEN else 0.0)
         contact.averaged = active.mode_tried
+        contact.mean_gap = contact.gap
         for r in range(3):
             active.force[r] /= time
             contact.mean_force[r] = active.force[r]

@@ -10,6 +10,7 @@ from nonsmooth.engine.bodies.compliance import (
 )
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
+from nonsmooth.engine.contact.mean_forces import book_mean_forces
 from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_up, solve_contact
 from nonsmooth.engine.contact.trial import slope_of_slip, small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
@@ -344,8 +345,10 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
     S.recorded = 0
     resting = projected = slowed = 0
     ends = 1 if cause == AVERAGING and which < 0 else 0
-    if ends == 1:
+    if S.mean_until < 1e300:
         touch(S, w, k)
+        book_mean_forces(S, w, k)
+    if ends == 1:
         reach_end(S, w, k)
     approaching = touch(S, w, k)
     open_account(S, w, k)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import push_compliant, refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
-from nonsmooth.engine.contact.mean_forces import find_mean_forces, is_averaged, measure_spans
+from nonsmooth.engine.contact.mean_forces import book_mean_forces, find_mean_forces, is_averaged, measure_spans
 from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.projection import project_closed
@@ -37,6 +37,7 @@ def renew_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
         c = k[S.grouped + i]
         evaluate_contact(S, w, k, c, 3)
         contact_at(S, w, k, c).touching = 1
+    book_mean_forces(S, w, k)
     free_acceleration(S, w, k, 1)
     push_compliant(S, w, k)
     for group in range(S.n_groups):

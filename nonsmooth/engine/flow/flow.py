@@ -215,9 +215,6 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
         if not sticks:
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
-        if contact.averaged != OPEN and contact.normal_function == 0:
-            # what lifts a gap a little is taken back as it closes
-            lost -= contact.force[0] * contact.rate[0]
         lost -= contact.turned
         hold = hold_guard(S, w, k, c)
         contact.least_force = min(contact.least_force, hold)

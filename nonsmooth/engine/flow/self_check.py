@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
+from nonsmooth.engine.contact.mean_forces import book_mean_forces
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, RUNNING
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, frame_at, kernel
@@ -132,6 +133,7 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         evaluate_geometry(S, w, k, c)
         contact.gap_end = contact.gap
+    book_mean_forces(S, w, k)
     S.scale_energy = _scale_energy(S, w, k)
     close_account(S, w, k)
     check_gaps(S, w, k)

@@ -83,6 +83,7 @@ CONTACT: Fields = {
         "mean_force",
         "mean_span",
         "mean_way",
+        "mean_gap",
         "force",
         "null_space_force",
         "slack",

@@ -56,10 +56,10 @@ CATALOGUE = (
 """Integers of a declared contact; in a slot each of them is an array of its own."""
 CONTACT_TIME, DIRECTION, REACH, CLOSING_RATE, LEVERS, SIZE = 0, 1, 3, 4, 5, 7
 """Where these floats of a declared contact stand: slip direction, levers of both bodies, size of the smaller one."""
-MOBILITY, SMALL_FORCE, MEAN_FORCE, MEAN_SPAN, MEAN_WAY = 8, 9, 10, 13, 14
+MOBILITY, SMALL_FORCE, MEAN_FORCE, MEAN_SPAN, MEAN_WAY, MEAN_GAP = 8, 9, 10, 13, 14, 15
 """And those that its last event left of it: how fast it slips under a unit of friction, what counts as no force, and
-of averaged forces what they are, how long they are, and on what way the gap comes to rest."""
-CATALOGUE_FLOATS = 15
+of averaged forces what they are, how long they are, on what way the gap comes to rest, and where it began."""
+CATALOGUE_FLOATS = 16
 """How many they are."""
 PARTS = 48
 """Halvings of a step in search of a gap that closes: as many as its fractions can be told apart."""
