@@ -74,16 +74,6 @@ def _span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
 
 
 @kernel("void(S, F, I)")
-def book_mean_forces(S: Scalars, w: Floats, k: Integers) -> None:
-    """Book the work of averaged normal forces so far, geometry being at hand: as gaps close it is taken back."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.averaged != OPEN and contact.normal_function == 0:
-            S.closing_loss -= contact.mean_force[0] * (contact.gap - contact.mean_gap)
-            contact.mean_gap = contact.gap
-
-
-@kernel("void(S, F, I)")
 def measure_spans(S: Scalars, w: Floats, k: Integers) -> None:
     """Write how long the next averaging may be: the rates of gaps that one leaves grow with its square."""
     for c in range(S.n_contacts):

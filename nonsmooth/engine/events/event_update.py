@@ -10,7 +10,6 @@ from nonsmooth.engine.bodies.compliance import (
 )
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
-from nonsmooth.engine.contact.mean_forces import book_mean_forces
 from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_up, solve_contact
 from nonsmooth.engine.contact.trial import slope_of_slip, small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
@@ -38,6 +37,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.twins import has_replaced
 from nonsmooth.engine.flow.averaged import reach_end
 from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.flow.self_check import open_account
 from nonsmooth.engine.impact.instant import jam_slips, map_impact

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.contact.mean_forces import book_mean_forces
+from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, RUNNING
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, frame_at, kernel
