@@ -1,18 +1,85 @@
-"""The inelastic impact on Coulomb's cone: what one step of Moreau's rule asks for."""
+"""The inelastic impact on Coulomb's cone: what one step of Moreau's rule asks for.
+
+Wedged contacts and redundant ones pass impulses round for long, and from a start far away Newton's method finds none.
+Contacts that give way a little do neither.  So the impulses are followed from contacts that give way as much as the
+bodies do to those that do not at all: every answer is the start of the next.
+"""
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.accelerated import sweep_accelerated
+from nonsmooth.engine.contact.gauss_seidel import SWEEPS, sweep
 from nonsmooth.engine.contact.newton import step_by_newton
 from nonsmooth.engine.contact.problem import write_friction
+from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.numerics.vectors import length
 
 _EXACT = 1e-4
 """Part of what counts as no velocity to which rates are found,"""
 _TRUE = 0.5
-"""and to which they have to be where sweeps lead no nearer."""
-_SWEEPS, _ROUNDS = 30, 6
-"""Newton's method follows so many sweeps, and twice as many in every further round."""
+"""and to which they have to be where contacts that give way less have none."""
+_RATIO = 0.1
+"""Contacts give way by this part of what they did before,"""
+_STUCK = 0.5
+"""or by the root of it where that leads nowhere; above this it does not at all."""
+
+
+@kernel("void(S, F, I)")
+def _keep_rigid(S: Scalars, w: Floats, k: Integers) -> None:
+    for a in range(S.n_active):
+        for r in range(3):
+            active_at(S, w, k, a).rigid[r] = diagonal_block(S, w, k, a).entries[4 * r]
+
+
+@kernel("void(S, F, I, f8)")
+def _soften(S: Scalars, w: Floats, k: Integers, part: float) -> None:
+    """Let the active contacts give way by a ``part`` of what the bodies do."""
+    for a in range(S.n_active):
+        active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a)
+        # the normal impulse of a contact with a law of its own is given
+        rigid = contact_at(S, w, k, active.slot).normal_function == 0
+        along = part * max(active.rigid[1], active.rigid[2])
+        own.nn = active.rigid[0] * (1.0 + part if rigid else 1.0)
+        own.t11, own.t22 = active.rigid[1] + along, active.rigid[2] + along
+
+
+@kernel("f8(S, F, I)")
+def _fastest(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return what rate the impulses would bring about at their own contacts at most."""
+    fastest = 0.0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        along = max(active.rigid[1], active.rigid[2]) * length(active.friction)
+        fastest = max(fastest, active.rigid[0] * active.normal_force, along)
+    return fastest
+
+
+@kernel("i8(S, F, I)")
+def _follow(S: Scalars, w: Floats, k: Integers) -> int:
+    """Follow the impulses from contacts that give way to those that do not; return 1 if that leads there."""
+    _keep_rigid(S, w, k)
+    part = ratio = 1.0
+    found = 1e300
+    while part > 0.0:
+        _soften(S, w, k, part)
+        for i in range(3 * S.n_active):
+            w[S.active_forces_first + i] = w[S.active_forces + i]
+        sweep(S, w, k, SWEEPS if found > 1.0 else 0)
+        if step_by_newton(S, w, k) == 1:
+            found, ratio = part, _RATIO if found > 1.0 else ratio
+            if found * _fastest(S, w, k) <= _EXACT * S.velocity_tolerance:
+                break
+        elif found > 1.0:
+            break
+        else:
+            for i in range(3 * S.n_active):
+                w[S.active_forces + i] = w[S.active_forces_first + i]
+            ratio **= 0.5
+            if ratio > _STUCK:
+                break
+        part = ratio * found
+    _soften(S, w, k, 0.0)
+    return 1 if found * _fastest(S, w, k) <= _TRUE * S.velocity_tolerance else 0
 
 
 @kernel("i8(S, F, I, f8)")
@@ -26,19 +93,14 @@ def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int
         active = active_at(S, w, k, a)
         contact = contact_at(S, w, k, active.slot)
         write_friction(S, w, k, a)
-        gives_way, slips = contact.normal_function != 0, active.at_rest == 0
-        rests = gives_way or abs(contact.rate[0]) <= S.velocity_tolerance
-        active.mu_static = active.mu = active.mu if slips else active.mu_static
+        active.mu_static = active.mu = active.mu if active.at_rest == 0 else active.mu_static
         active.at_rest = active.normal_held = active.tangent_held = 1
         for r in range(3):
-            # what counts as zero must not hide what the accelerations do
-            still = rests if r == 0 else not slips
-            active.free[r] = moment * active.free[r] + (0.0 if still else contact.rate[r])
-    sweeps = _SWEEPS
-    for _round in range(_ROUNDS):
-        if sweep_accelerated(S, w, k, _EXACT * S.velocity_tolerance, sweeps) == 1:
-            return 1
-        if S.sweep_left <= _TRUE * S.velocity_tolerance or step_by_newton(S, w, k) == 1:
-            return 1
-        sweeps *= 2
-    return 0
+            given = r == 0 and contact.normal_function != 0
+            active.free[r] = moment * active.free[r] + (0.0 if given else contact.rate[r])
+    sweep(S, w, k, SWEEPS)
+    if step_by_newton(S, w, k) == 1:
+        return 1
+    for i in range(3 * S.n_active):
+        w[S.active_forces + i] = 0.0
+    return int(_follow(S, w, k))

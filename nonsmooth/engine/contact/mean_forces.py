@@ -69,8 +69,15 @@ def _span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
     span = _LONGEST * least if follows == 1 else least
     for a in range(S.n_active):
         contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
-        span = min(span, contact.mean_span if contact.averaged != OPEN else 0.0)
+        if contact.averaged != OPEN:
+            span = min(span, contact.mean_span)
     return max(least, span)
+
+
+@kernel("i8(S, F, I)")
+def may_be_longer(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if the next averaging of the active contacts may be longer than the last, but not as long as any."""
+    return 1 if _span(S, w, k, 1) < _LONGEST * averaging_time(S, w, k) else 0
 
 
 @kernel("void(S, F, I)")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
+from nonsmooth.engine.bodies.compliance import begin_contact, decouple_normals, push_compliant
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
@@ -10,7 +10,7 @@ from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time
 from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
-from nonsmooth.engine.delassus.islands import activate_group, group_touching
+from nonsmooth.engine.delassus.islands import activate_group, group_closed, group_touching
 from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
@@ -116,6 +116,7 @@ def _stop_active(S: Scalars, w: Floats, k: Integers) -> None:
         active = active_at(S, w, k, a)
         for r in range(3):
             active.free[r] = active.force[r] = 0.0
+    decouple_normals(S, w, k)
     inelastic_impulses(S, w, k, 0.0)
     add_response(S, w, k, S.active_forces, S.y + S.n_q)
     loss, before = 0.0, S.driven_work
@@ -178,8 +179,21 @@ def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
         touch(S, w, k)
         for c in range(S.n_contacts):
             provisional_mode(S, w, k, c)
+        _rest_closed(S, w, k)
         record_event(S, w, k, CLOSING, which, 0)
     return stopped
+
+
+@kernel("void(S, F, I)")
+def _rest_closed(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take the approach that impulses leave where contacts had to give way a little for any to be found."""
+    group_closed(S, w, k)
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        fastest = _fastest_of_active(S, w, k)
+        if fastest >= 0 and -contact_at(S, w, k, fastest).rate[0] <= slow_speed(S, w, k):
+            before = S.driven_work
+            _book(S, w, k, project_rates(S, w, k, 1), before)
 
 
 @kernel("f8(S, F, I)")

@@ -7,6 +7,7 @@ from nonsmooth.engine.contact.mean_forces import (
     find_mean_forces,
     is_averaged,
     is_settled,
+    may_be_longer,
 )
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
@@ -48,10 +49,15 @@ def average_island_of(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 @kernel("i8(S, F, I, i8)")
 def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
-    """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1)."""
-    if is_averaged(S, w, k) == 0:
+    """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1).
+
+    Where slow slips have held time up they do until they may be averaged for long, lest it is tried ever again.
+    """
+    if S.n_active == 1 or is_averaged(S, w, k) == 0:
         return 0
-    return 1 if ends == 0 or is_settled(S, w, k) == 0 else 0
+    if ends == 0 or is_settled(S, w, k) == 0:
+        return 1
+    return 1 if S.crowd > _BURST and may_be_longer(S, w, k) == 1 else 0
 
 
 @kernel("void(S, F, I, i8)")

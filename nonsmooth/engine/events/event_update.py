@@ -169,7 +169,9 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
         contact = contact_at(S, w, k, c)
         contact.code_during = impact_code(S, w, k, c)
         active.lossless = 1 if cause == PAINLEVE and S.policy == COMPLIANT else 0
-        for r in range(3):
+        # what counts as no approach must not begin a compression of its own
+        active.rate_before[0] = contact.rate[0] if abs(contact.rate[0]) > S.velocity_tolerance else 0.0
+        for r in range(1, 3):
             active.rate_before[r] = contact.rate[r]
     S.phases, S.truncated = 1, 0
     S.slow_speed = slow_speed(S, w, k)
@@ -343,7 +345,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = 0
-    resting = projected = slowed = 0
+    resting = projected = 0
     ends = 1 if cause == AVERAGING and which < 0 else 0
     if S.mean_until < 1e300:
         touch(S, w, k)
@@ -363,8 +365,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         if approaching == 1 and hand_over(S, w, k) == 1:
             approaching = touch(S, w, k)
             continue
-        if approaching == 1 and slowed == 0 and stop_slow(S, w, k) > 0:
-            slowed = 1
+        if approaching == 1 and stop_slow(S, w, k) > 0:
             approaching = touch(S, w, k)
             continue
         if approaching == 1:
@@ -373,7 +374,6 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
                 return status
             approaching = _approaches(S, w, k)
             continue
-        slowed = 0
         if S.recorded == 0 and projected == 0:
             remember(S, w, k)
         _expect(S, w, k, cause, which)

@@ -157,7 +157,6 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         fastest = max(fastest, -contact_at(S, w, k, active.slot).rate[0])
-    S.faint = _FAINT * S.impact_rtol
     S.may_be_lone = 1
     S.truncated = 0
     S.slow_steps = 0
@@ -165,6 +164,8 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     outcome = MOVED
     for window in range(_MOST_WINDOWS):
         _draw(S, w, k, fastest if window == 0 else 0.0)
+        # where all lie in the window no wave leaves it
+        S.faint = _FAINT * S.impact_rtol if S.n_active < S.n_colliding else 0.0
         _load(S, w, k)
         S.lone = -1
         shortest = scale_impact(S, w, k, fastest)

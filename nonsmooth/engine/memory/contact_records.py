@@ -196,6 +196,7 @@ ACTIVE: Fields = {
     "normal_force": one("active_forces"),
     "friction": vector("active_forces", 1),
     "free": row("free_accelerations"),
+    "rigid": row("rigid_diagonal"),
     "normal_acceleration": one("acceleration"),
     "slip_acceleration": vector("acceleration", 1),
     "direction": vector("active_directions"),

@@ -81,7 +81,5 @@ N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair;"""
 LAST_STAGE = N_STAGES - 1
 """the slope of the last one is that at the end of the step."""
-SWEEPS_KEPT = 5
-"""Differences of sweeps from which the next one is foretold."""
 TOTALS = 9
 """Floats of a contact that go from one window of a large impact to the next."""

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, fixed, per, real, whole
-from nonsmooth.engine.memory.layout import SWEEPS_KEPT
+from nonsmooth.engine.memory.arrays.arrays import Arrays, ends, entries, per, real, whole
 
 ARRAYS = Arrays(
     scalars={
@@ -27,7 +26,6 @@ ARRAYS = Arrays(
             "acceleration_scale",
             "small_acceleration",
             "small_force",
-            "sweep_left",
         ),
         # no forces are averaged
         "mean_until": math.inf,
@@ -54,13 +52,7 @@ ARRAYS = Arrays(
         "right": per(3, "n_slots"),
         "x": per(3, "n_slots"),
         "sigma": per(6, "n_slots"),
-        "sweep_start": per(3, "n_slots"),
-        "sweep_change": per(3, "n_slots"),
-        "sweep_end": per(3, "n_slots"),
-        "sweep_changes": per(3 * SWEEPS_KEPT, "n_slots"),
-        "sweep_ends": per(3 * SWEEPS_KEPT, "n_slots"),
-        "sweep_squares": fixed(SWEEPS_KEPT**2),
-        "sweep_weights": fixed(SWEEPS_KEPT),
+        "rigid_diagonal": per(3, "n_slots"),
     },
     integers={
         "mode_tried": per(1, "n_slots"),
