@@ -57,8 +57,6 @@ ARRAYS = Arrays(
         "sweep_start": per(3, "n_slots"),
         "sweep_change": per(3, "n_slots"),
         "sweep_end": per(3, "n_slots"),
-        "sweep_changes": per(3 * SWEEPS_KEPT, "n_slots"),
-        "sweep_ends": per(3 * SWEEPS_KEPT, "n_slots"),
         "sweep_squares": fixed(SWEEPS_KEPT**2),
         "sweep_weights": fixed(SWEEPS_KEPT),
     },
@@ -83,6 +81,8 @@ ARRAYS = Arrays(
         "first_unknown": ends("n_slots"),
     },
     later_floats={
+        "sweep_changes": per(3 * SWEEPS_KEPT, "n_slots"),
+        "sweep_ends": per(3 * SWEEPS_KEPT, "n_slots"),
         "reduced": entries,
         "basis": entries,
         "null": entries,
