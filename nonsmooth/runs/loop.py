@@ -17,7 +17,9 @@ from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.solution.files import FileError
 
 _STEPS_NEAR_END = 16
-"""So many steps at most a run that goes on repeats; an image takes less time than they do."""
+"""So many steps at most a run that goes on repeats, or more where an image is large:"""
+_IMAGE_PER_STEP = 1 << 15
+"""to copy so much of one takes a small part of the time of a step [bytes]."""
 Progress = Callable[[float, float], None]
 
 
@@ -88,7 +90,8 @@ def run_engine(
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
                 if near:
-                    status = engine_at.get_on(_STEPS_NEAR_END if until is None else 1, image)
+                    most = max(_STEPS_NEAR_END, image.size // _IMAGE_PER_STEP)
+                    status = engine_at.get_on(most if until is None else 1, image)
                 if status != DONE:
                     pace = pace or Pace(model, begun)
                     pace.look(status)

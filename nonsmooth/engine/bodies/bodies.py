@@ -25,11 +25,52 @@ from nonsmooth.engine.numerics.vectors import minus, opposite
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
-def evaluate_body(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> None:
+def _write(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> None:
     """Let one body write its output block at time ``t`` and the state at offset ``y``."""
     body = body_at(S, w, k, number)
     q, u = at(w, y + body.q), at(w, y + S.n_q + body.u)
     call_body(body.function, t, q, u, at(w, body.parameters), at(w, body.out))
+
+
+@kernel("void(S, F, I, f8, i8, i8)")
+def evaluate_body(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> None:
+    """Let one body write its output block at time ``t`` and the state at offset ``y``, which is a new version of it."""
+    _write(S, w, k, t, y, number)
+    body_at(S, w, k, number).version += 1
+
+
+@kernel("i8(S, F, I, f8, i8, i8)")
+def _stands(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> int:
+    """Return 1 if a body was evaluated last at this time and state."""
+    body = body_at(S, w, k, number)
+    if body.version == 0 or body.stood != body.version or body.stood_t != t:
+        return 0
+    for i in range(body.q, body.q + body.nq):
+        if w[S.y_stood + i] != w[y + i]:
+            return 0
+    for i in range(S.n_q + body.u, S.n_q + body.u + body.nu):
+        if w[S.y_stood + i] != w[y + i]:
+            return 0
+    return 1
+
+
+@kernel("void(S, F, I, f8, i8, i8)")
+def evaluate_once(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> None:
+    """Do the same, but leave the version that stands if it is that already.
+
+    What joints and loads do to a block is undone: it is written again, unless the body has none of them.
+    """
+    body = body_at(S, w, k, number)
+    if _stands(S, w, k, t, y, number) == 1:
+        if body.flight_function == 0:
+            _write(S, w, k, t, y, number)
+        return
+    evaluate_body(S, w, k, t, y, number)
+    body.stood, body.stood_t = body.version, t
+    for i in range(body.q, body.q + body.nq):
+        w[S.y_stood + i] = w[y + i]
+    for i in range(S.n_q + body.u, S.n_q + body.u + body.nu):
+        w[S.y_stood + i] = w[y + i]
 
 
 @kernel("void(S, F, I, f8, i8)")
@@ -60,12 +101,15 @@ def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int, e
         body = body_at(S, w, k, number)
         if body.nu == 0:
             continue
-        if S.n_loads > 0:
+        if S.n_loads > 0 and body.flight_function == 0:
             # loads add to what a body may leave unwritten
             force = body.tail + body.nq
             for j in range(body.nu):
                 w[force + j] = 0.0
-        evaluate_body(S, w, k, t, y, number)
+        if every == 1:
+            evaluate_once(S, w, k, t, y, number)
+        else:
+            evaluate_body(S, w, k, t, y, number)
     for load in range(S.n_loads):
         _apply(S, w, k, load, t, y)
     if S.n_joints > 0:

@@ -12,6 +12,7 @@ from nonsmooth.engine.native.kernel import (
     Scalars,
     articulation_at,
     at,
+    body_at,
     call_pair,
     contact_at,
     entry_point,
@@ -20,6 +21,9 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.linear import multiply, product
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus, opposite, scaled
+
+UNSEEN = -1
+"""A contact that nothing was evaluated of has seen this version of its bodies, which none has."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -60,6 +64,21 @@ def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
         contact.slip_of_tangents = dot(t1, v), dot(t2, v)
         stretch_tangents(S, w, k, c, t1, t2)
     contact.velocity = dot(contact.axis_n, v), dot(contact.axis_1, v), dot(contact.axis_2, v)
+
+
+@kernel("void(S, F, I, i8)")
+def evaluate_kinematics(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+    """Write geometry and rates of contact ``c``, unless they are those of its bodies as these stand."""
+    contact = contact_at(S, w, k, c)
+    version_a = body_at(S, w, k, contact.body_a).version
+    version_b = body_at(S, w, k, contact.body_b).version
+    if contact.seen_a == version_a and contact.seen_b == version_b:
+        return
+    evaluate_geometry(S, w, k, c)
+    evaluate_rates(S, w, k, c)
+    # which way one faces hangs on more than its bodies
+    contact.seen_a = version_a if contact.oriented == 0 else UNSEEN
+    contact.seen_b = version_b
 
 
 @kernel("f8(F, i8, i8, v3, v3)")

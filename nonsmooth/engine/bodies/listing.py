@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
+from nonsmooth.engine.bodies.kinematics import UNSEEN
 from nonsmooth.engine.bodies.pools import are_near, fill_pools, is_empty
 from nonsmooth.engine.memory.blocks import PAIR
 from nonsmooth.engine.memory.layout import (
@@ -79,6 +80,7 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
         contact.mean_force[r] = floats[MEAN_FORCE + r]
     contact.facing = 1
     contact.touching = 0
+    contact.seen_a = UNSEEN
     contact.identity = declared
     # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
     for i in range(PAIR):

@@ -6,9 +6,8 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import evaluate_compliant_force, refresh_states
 from nonsmooth.engine.bodies.kinematics import (
     evaluate_bias,
-    evaluate_geometry,
     evaluate_jacobian,
-    evaluate_rates,
+    evaluate_kinematics,
 )
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
@@ -24,8 +23,7 @@ def touch(S: Scalars, w: Floats, k: Integers) -> int:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         contact.touching = 1
-        evaluate_geometry(S, w, k, c)
-        evaluate_rates(S, w, k, c)
+        evaluate_kinematics(S, w, k, c)
         rate = contact.rate[0]
         if contact.beyond > S.gap_tolerance and contact.gap > 0.0:
             contact.touching = 0

@@ -20,11 +20,14 @@ from nonsmooth.engine.numerics.linear import (
     eliminate,
     minimum_norm,
     rank_of_semidefinite,
+    solve_three,
+    subtract_part,
+    transpose,
 )
 from nonsmooth.engine.numerics.null_band import least_norm_in_band
 from nonsmooth.engine.numerics.vectors import length
 
-_DOUBTFUL = 1e-5
+DOUBTFUL = 1e-5
 """A pivot below this part of the largest entry may be that of contacts of which one is redundant."""
 _COUPLED = 1e-7
 """Null-space entries above this tie a contact to the group whose forces are not unique."""
@@ -37,6 +40,8 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     """Complete ``active_forces``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)
     interrupted(S, n + n * n * n // DEAR)
+    if S.n_active == 1 and n == 3 and _stick_alone(S, w, k) == 1:
+        return
     if open_band(S, w, k, n, S.reduced) == 0:
         return
     for a in range(S.n_active):
@@ -55,6 +60,20 @@ def resolve(S: Scalars, w: Floats, k: Integers) -> None:
         active = active_at(S, w, k, a)
         if active.normal_held == 1 and active.tangent_held == 0:
             friction_of_slip(S, w, k, a)
+
+
+@kernel("i8(S, F, I)")
+def _stick_alone(S: Scalars, w: Floats, k: Integers) -> int:
+    """Complete the forces of an island of one contact that sticks; return 0, nothing done, where that is doubtful."""
+    active, own = active_at(S, w, k, 0), diagonal_block(S, w, k, 0).entries
+    rows = (own[0], own[1], own[2]), (own[3], own[4], own[5]), (own[6], own[7], own[8])
+    right = -active.free[0], -active.free[1], -active.free[2]
+    forces = solve_three(rows[0], rows[1], rows[2], right, DOUBTFUL)
+    if forces[0] != forces[0]:
+        return 0
+    S.n_unknown, S.deficient, S.null_banded = 3, 0, 0
+    active.normal_force, active.friction = forces[0], (forces[1], forces[2])
+    return 1
 
 
 @kernel("void(S, F, I, i8, i8, i8)")
@@ -101,7 +120,7 @@ def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> int:
     if n == 1 and w[S.reduced] != 0.0:
         w[S.x] = w[S.right] / w[S.reduced]
         return 1
-    if eliminate_reduced(S, w, n, _DOUBTFUL) == 1:
+    if eliminate_reduced(S, w, n, DOUBTFUL) == 1:
         return 1
     for i in range(n * band_width(n, S.half_band)):
         w[S.matrix + i] = 0.0
@@ -135,15 +154,13 @@ def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
 @kernel("void(S, F, i8, i8)")
 def _least_norm(S: Scalars, w: Floats, n: int, most: int) -> None:
     """Solve the singular system, stored in full, for least norm; keep the projector on its null space."""
-    for i in range(n * n):
-        w[S.matrix + i] = w[S.reduced + i]
+    transpose(w, S.reduced, n, S.matrix)
     rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, most)
     for i in range(n):
         for j in range(n):
-            total = 1.0 if i == j else 0.0
-            for c in range(rank):
-                total -= w[S.basis + c * n + i] * w[S.basis + c * n + j]
-            w[S.null + i * n + j] = total
+            w[S.null + i * n + j] = 1.0 if i == j else 0.0
+        for c in range(rank):
+            subtract_part(w, S.null + i * n, w[S.basis + c * n + i], S.basis + c * n, n)
 
 
 @kernel("i8(S, F, i8, f8)")

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import write_wrench
 from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
-from nonsmooth.engine.contact.forces import friction_of_slip, solve_doubtful, solve_unknowns
+from nonsmooth.engine.contact.forces import DOUBTFUL, friction_of_slip, solve_doubtful, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
 from nonsmooth.engine.contact.unknowns import list_unknown
 from nonsmooth.engine.memory.modes import SLIDE
@@ -25,7 +25,7 @@ from nonsmooth.engine.native.kernel import (
     unknown_at,
 )
 from nonsmooth.engine.numerics.band import open_band
-from nonsmooth.engine.numerics.linear import band_row, product
+from nonsmooth.engine.numerics.linear import band_row, product, solve_three
 
 
 @kernel("void(S, F, I, i8)")
@@ -157,12 +157,40 @@ def _solve_held(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("i8(S, F, I)")
-def _hold_alone(S: Scalars, w: Floats, k: Integers) -> int:
-    """Do the same for an island of one rigid contact that does not stick, whose only row is a division.
+def _stick_alone(S: Scalars, w: Floats, k: Integers) -> int:
+    """Hold an island of one rigid contact that sticks; return 0, nothing done, where it is doubtful what holds it."""
+    active = active_at(S, w, k, 0)
+    c = active.slot
+    contact = contact_at(S, w, k, c)
+    row_0 = coupling(S, w, k, c, 0, c, 0), 0.0, 0.0
+    row_1 = coupling(S, w, k, c, 1, c, 0), coupling(S, w, k, c, 1, c, 1), 0.0
+    row_2 = coupling(S, w, k, c, 2, c, 0), coupling(S, w, k, c, 2, c, 1), coupling(S, w, k, c, 2, c, 2)
+    bias, du = contact.bias, S.du
+    right = (
+        -bias[0] - row(S, w, k, c, 0, du),
+        -bias[1] - row(S, w, k, c, 1, du),
+        -bias[2] - row(S, w, k, c, 2, du),
+    )
+    forces = solve_three(row_0, row_1, row_2, right, DOUBTFUL)
+    if forces[0] != forces[0]:
+        return 0
+    S.n_unknown, S.deficient, S.null_banded, active.redundant = 3, 0, 0, 0
+    active.normal_force, active.friction = forces[0], (forces[1], forces[2])
+    for r in range(3):
+        push_response(S, w, k, c, r, active.force[r], du)
+        S.driven_power += active.force[r] * (row(S, w, k, c, r, S.free_velocities) - contact.rate[r])
+    return 1
 
-    Return 0, nothing done, if its force moves nothing.
+
+@kernel("i8(S, F, I)")
+def _hold_alone(S: Scalars, w: Floats, k: Integers) -> int:
+    """Do the same for an island of one rigid contact.
+
+    If it does not stick its only row is a division; return 0, nothing done, if its force moves nothing.
     """
     active = active_at(S, w, k, 0)
+    if active.tangent_held == 1:
+        return int(_stick_alone(S, w, k))
     c = active.slot
     contact = contact_at(S, w, k, c)
     own = coupling(S, w, k, c, 0, c, 0)
@@ -189,9 +217,7 @@ def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
     the null-space force of those not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
     """
     keeps = 1
-    first = active_at(S, w, k, 0)
-    alone = S.n_active == 1 and first.normal_held == 1 and first.tangent_held == 0
-    if alone and _hold_alone(S, w, k) == 1:
+    if S.n_active == 1 and active_at(S, w, k, 0).normal_held == 1 and _hold_alone(S, w, k) == 1:
         return keeps
     _push_compliant(S, w, k)
     if _solve_held(S, w, k) == 0:

@@ -12,7 +12,7 @@ from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel, unknown_at
 from nonsmooth.engine.numerics.band import open_band
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, minimum_norm
+from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, minimum_norm, transpose
 from nonsmooth.engine.numerics.null_band import solve_shifted
 from nonsmooth.engine.numerics.vectors import length
 
@@ -121,8 +121,7 @@ def _solve(S: Scalars, w: Floats, n: int) -> None:
             w[S.x + i] = w[S.right + i]
         solve_shifted(S, w, n)
         return
-    for i in range(n * n):
-        w[S.matrix + i] = w[S.reduced + i]
+    transpose(w, S.reduced, n, S.matrix)
     minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, n)
 
 

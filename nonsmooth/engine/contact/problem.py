@@ -74,7 +74,14 @@ def accelerate_freely(S: Scalars, w: Floats, k: Integers, number: int) -> None:
     body = body_at(S, w, k, number)
     n_u = body.nu
     force = body.tail + body.nq
-    multiply(w, force + n_u, n_u, force, S.du + body.u)
+    if body.flies == 0:
+        multiply(w, force + n_u, n_u, force, S.du + body.u)
+        return
+    if body.accelerated != body.version:
+        multiply(w, force + n_u, n_u, force, S.du_free + body.u)
+        body.accelerated = body.version
+    for i in range(body.u, body.u + n_u):
+        w[S.du + i] = w[S.du_free + i]
 
 
 @kernel("void(S, F, I, i8)")

@@ -7,7 +7,7 @@ those that fly among them as soon as one of their contacts closes.
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.bodies import evaluate_body
+from nonsmooth.engine.bodies.bodies import evaluate_once
 from nonsmooth.engine.contact.problem import accelerate_freely
 from nonsmooth.engine.memory.layout import EXCHANGED, LAST_STAGE
 from nonsmooth.engine.native.kernel import (
@@ -108,7 +108,7 @@ def land(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         number = k[S.flying + i]
         body = body_at(S, w, k, number)
         fly(S, w, k, h, number, S.y_new)
-        evaluate_body(S, w, k, S.t + h, S.y_new, number)
+        evaluate_once(S, w, k, S.t + h, S.y_new, number)
         accelerate_freely(S, w, k, number)
         for j in range(body.nq):
             w[end + body.q + j] = w[body.tail + j]

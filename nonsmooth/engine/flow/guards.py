@@ -17,7 +17,7 @@ zero at the start does not fire while the next one does.
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies, evaluate_free_bodies
-from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
+from nonsmooth.engine.bodies.kinematics import evaluate_kinematics
 from nonsmooth.engine.flow.flow import WRONG_FORCE, hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -79,8 +79,7 @@ def watch_features(S: Scalars, w: Floats, k: Integers) -> None:
 def _write_gap(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Evaluate the open contact ``c`` and write its guards."""
     contact = contact_at(S, w, k, c)
-    evaluate_geometry(S, w, k, c)
-    evaluate_rates(S, w, k, c)
+    evaluate_kinematics(S, w, k, c)
     guard_at(S, w, k, normal_guard(c)).value = contact.gap
     guard_at(S, w, k, friction_guard(S, c)).value = 1.0
     contact.gap_rate = contact.rate[0]

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_jacobian, evaluate_rates
+from nonsmooth.engine.bodies.kinematics import UNSEEN, evaluate_geometry, evaluate_jacobian, evaluate_rates
 from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.contact.problem import friction_coefficient
 from nonsmooth.engine.contact.trial import NO_FORCE, small_force
@@ -56,6 +56,7 @@ def _set_up(S: Scalars, w: Floats, k: Integers, part: float) -> None:
         (ax, ay, az), (bx, by, bz) = contact.way_a, contact.way_b
         contact.point_a = contact.start_a[0] + part * ax, contact.start_a[1] + part * ay, contact.start_a[2] + part * az
         contact.point_b = contact.start_b[0] + part * bx, contact.start_b[1] + part * by, contact.start_b[2] + part * bz
+        contact.seen_a = UNSEEN
         evaluate_rates(S, w, k, c)
         evaluate_jacobian(S, w, k, c)
         speed = length(contact.slip)

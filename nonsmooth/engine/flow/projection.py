@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_free_bodies
+from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_body, evaluate_free_bodies
 from nonsmooth.engine.bodies.kinematics import (
-    evaluate_geometry,
     evaluate_jacobian,
-    evaluate_rates,
+    evaluate_kinematics,
     evaluate_row,
     evaluate_row_response,
     push_response,
@@ -42,6 +41,8 @@ from nonsmooth.engine.native.kernel import (
 
 _NO_GAP = 1e-16
 """A gap of so many metres is none."""
+_ROUND_OFF = 8.0 * 2.0**-52
+"""The square of a length of one this near to one is one, but for round-off."""
 _DAMPING = 1e-8
 """Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
 would move a body by more than half the gap over the root of this.  A contact alone repeats none."""
@@ -177,6 +178,8 @@ def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
         square = 0.0
         for i in range(4):
             square += w[q + i] * w[q + i]
+        if abs(square - 1.0) <= _ROUND_OFF:
+            continue
         if abs(square - 1.0) > EXPLAINED * 4.0 * S.rtol:
             blame(S, QUATERNION_UNEXPLAINED, number, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * S.rtol)
         factor = 1.0 / math.sqrt(square)
@@ -191,13 +194,26 @@ def _explained_motion(S: Scalars, w: Floats, i: int) -> float:
     return float(_FARTHEST * EXPLAINED * (step + S.gap_tolerance + S.time_tolerance * abs(w[S.slopes + i])))
 
 
+@kernel("i8(S, F, I, i8)")
+def _is_displaced(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Return 1 if the velocities in ``y_stage`` move a body."""
+    body = body_at(S, w, k, number)
+    first = S.y_stage + S.n_q + body.u
+    for i in range(first, first + body.nu):
+        if w[i] != 0.0:
+            return 1
+    return 0
+
+
 @kernel("void(S, F, I)")
 def _displace(S: Scalars, w: Floats, k: Integers) -> None:
     """Move the bodies by the velocities in ``y_stage`` for unit time, unless the tolerances do not explain so much."""
     # dq = B du: let the bodies turn the displacement into coordinate rates
-    evaluate_bodies(S, w, k, S.t, S.y_stage)
     for number in range(S.n_bodies):
         body = body_at(S, w, k, number)
+        if _is_displaced(S, w, k, number) == 0:
+            continue
+        evaluate_body(S, w, k, S.t, S.y_stage, number)
         for i in range(body.nq):
             motion, most = w[body.tail + i], _explained_motion(S, w, body.q + i)
             if abs(motion) > most:
@@ -205,8 +221,9 @@ def _displace(S: Scalars, w: Floats, k: Integers) -> None:
                 return
     for number in range(S.n_bodies):
         body = body_at(S, w, k, number)
-        for i in range(body.nq):
-            w[S.y + body.q + i] += w[body.tail + i]
+        if _is_displaced(S, w, k, number) == 1:
+            for i in range(body.nq):
+                w[S.y + body.q + i] += w[body.tail + i]
     normalise_quaternions(S, w, k)
 
 
@@ -235,8 +252,7 @@ def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int, averaged: 
             active = active_at(S, w, k, a)
             c = active.slot
             contact = contact_at(S, w, k, c)
-            evaluate_geometry(S, w, k, c)
-            evaluate_rates(S, w, k, c)
+            evaluate_kinematics(S, w, k, c)
             past = max(past, contact.beyond)
         if past > S.gap_tolerance:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact

@@ -37,6 +37,10 @@ BODY = without(
     "body_flight_parameters",
     "body_flight_out",
     "body_flies",
+    "body_version",
+    "body_accelerated",
+    "body_stood",
+    "body_stood_t",
 )
 """Of a body."""
 

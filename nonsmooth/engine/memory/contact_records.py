@@ -71,6 +71,8 @@ CONTACT: Fields = {
         "bias",
         "turned",
         "touching",
+        "seen_a",
+        "seen_b",
         "compliant_force",
         "jacobian_a",
         "jacobian_b",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.native.kernel import Floats, kernel
+from nonsmooth.engine.numerics.vectors import Vector
 
 SINGULAR = 1e-10
 """A pivot or remaining column below this, relative to the largest, counts as zero."""
@@ -88,6 +89,31 @@ def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> int
     return 1
 
 
+@kernel("v3(v3, v3, v3, v3, f8)")
+def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, least: float) -> Vector:
+    """Solve a positive definite system of three, of which the lower triangle is read, by L D L^T.
+
+    What is returned is no number if a pivot is below ``least``, relative to the largest entry.
+    """
+    g00, g10, g11 = row_0[0], row_1[0], row_1[1]
+    g20, g21, g22 = row_2
+    smallest = least * max(g00, max(g11, g22))
+    if not g00 > smallest:
+        return math.nan, math.nan, math.nan
+    l10, l20 = g10 / g00, g20 / g00
+    d1, e = g11 - l10 * g10, g21 - l20 * g10
+    if not d1 > smallest:
+        return math.nan, math.nan, math.nan
+    l21 = e / d1
+    d2 = g22 - l20 * g20 - l21 * e
+    if not d2 > smallest:
+        return math.nan, math.nan, math.nan
+    y1 = right[1] - l10 * right[0]
+    x2 = (right[2] - l20 * right[0] - l21 * y1) / d2
+    x1 = y1 / d1 - l21 * x2
+    return right[0] / g00 - l10 * x1 - l20 * x2, x1, x2
+
+
 @kernel("i8(F, i8, i8)")
 def rank_of_semidefinite(w: Floats, a: int, n: int) -> int:
     """Return the rank of the positive semidefinite matrix at ``a``, which is overwritten; largest pivots come first."""
@@ -113,20 +139,27 @@ def rank_of_semidefinite(w: Floats, a: int, n: int) -> int:
     return n
 
 
-@kernel("f8(F, i8, i8, i8, i8)")
-def _dot(w: Floats, one: int, two: int, n: int, stride: int) -> float:
-    total = 0.0
+@kernel("void(F, i8, i8, i8)")
+def transpose(w: Floats, a: int, n: int, out: int) -> None:
+    """Write the transpose of the matrix at ``a`` to ``out``."""
     for i in range(n):
-        total += w[one + i * stride] * w[two + i * stride]
-    return total
+        for j in range(n):
+            w[out + j * n + i] = w[a + i * n + j]
+
+
+@kernel("void(F, i8, f8, i8, i8)")
+def subtract_part(w: Floats, out: int, part: float, a: int, n: int) -> None:
+    """Subtract ``part`` of a vector of ``n`` numbers from another one."""
+    for i in range(n):
+        w[out + i] -= part * w[a + i]
 
 
 @kernel("i8(F, i8, i8, i8, i8, i8, i8)")
 def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
     """Write A = Q R with the largest remaining column first; return the rank, ``most`` at most.
 
-    The columns of ``a`` lose what the columns chosen so far explain of them, and so does ``b``; rows of R go to
-    ``r``, and behind the n-th entry of ``marks`` the components Q^T b.
+    The columns of ``a``, of which each stands by itself, lose what the columns chosen so far explain of them, and so
+    does ``b``; rows of R go to ``r``, and behind the n-th entry of ``marks`` the components Q^T b.
     """
     for j in range(n):
         w[marks + j] = 0.0
@@ -135,7 +168,7 @@ def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int, most: in
         best, size = -1, 0.0
         for j in range(n):
             if w[marks + j] == 0.0:
-                square = _dot(w, a + j, a + j, n, n)
+                square = product(w, 0.0, a + j * n, a + j * n, n)
                 if square > size:
                     best, size = j, square
         norm = math.sqrt(size)
@@ -143,24 +176,21 @@ def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int, most: in
         if best < 0 or not norm > SINGULAR * largest:
             return rank
         w[marks + best] = 1.0
+        chosen = a + best * n
         for i in range(n):
-            w[a + i * n + best] /= norm
+            w[chosen + i] /= norm
         for j in range(n):
             w[r + rank * n + j] = 0.0
             if w[marks + j] == 0.0:
                 # twice is enough
                 for _time in range(2):
-                    part = _dot(w, a + best, a + j, n, n)
+                    part = product(w, 0.0, chosen, a + j * n, n)
                     w[r + rank * n + j] += part
-                    for i in range(n):
-                        w[a + i * n + j] -= part * w[a + i * n + best]
+                    subtract_part(w, a + j * n, part, chosen, n)
         w[r + rank * n + best] = norm
-        total = 0.0
-        for i in range(n):
-            total += w[a + i * n + best] * w[b + i]
+        total = product(w, 0.0, chosen, b, n)
         w[marks + n + rank] = total
-        for i in range(n):
-            w[b + i] -= total * w[a + i * n + best]
+        subtract_part(w, b, total, chosen, n)
     return most
 
 
@@ -168,8 +198,8 @@ def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int, most: in
 def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, work: int, most: int) -> int:
     """Least-squares solution of least norm, by orthogonal decompositions; return the rank, ``most`` at most.
 
-    ``a`` and ``b`` are overwritten; ``v`` receives an orthonormal basis of the row space in its first rows, ``x`` the
-    solution; ``work`` holds 2 n floats.
+    The matrix at ``a`` is stored by columns; it and ``b`` are overwritten.  ``v`` receives an orthonormal basis of the
+    row space in its first rows, ``x`` the solution; ``work`` holds 2 n floats.
     """
     rank = _triangulate(w, a, n, b, v, work, most)
     for i in range(n):
@@ -180,11 +210,10 @@ def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, work: int, m
         rest = w[work + n + j]
         for _time in range(2):
             for c in range(j):
-                part = _dot(w, v + c * n, row, n, 1)
+                part = product(w, 0.0, v + c * n, row, n)
                 rest -= part * w[work + n + c]
-                for i in range(n):
-                    w[row + i] -= part * w[v + c * n + i]
-        norm = math.sqrt(_dot(w, row, row, n, 1))
+                subtract_part(w, row, part, v + c * n, n)
+        norm = math.sqrt(product(w, 0.0, row, row, n))
         for i in range(n):
             w[row + i] /= norm
         w[work + n + j] = rest / norm

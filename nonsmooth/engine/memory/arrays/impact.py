@@ -36,11 +36,6 @@ ARRAYS = Arrays(
     },
     floats={
         "map_block": lambda n: n["map_width"] * n["n_slots"],
-        "impact_y": per(8, "n_slots"),
-        "impact_new": per(8, "n_slots"),
-        "impact_stage": per(8, "n_slots"),
-        "impact_guess": per(8, "n_slots"),
-        "impact_slopes": per(8 * N_STAGES, "n_slots"),
         "impact_z0": per(3, "n_slots"),
         "impact_z": per(3, "n_slots"),
         "impact_guard": per(3, "n_slots"),
@@ -50,7 +45,6 @@ ARRAYS = Arrays(
         "impact_f_scale": per(1, "n_slots"),
         "impact_energy_scale": per(1, "n_slots"),
         "impulse_scale": per(1, "n_slots"),
-        "impact_kept": per(8, "n_slots"),
         "books_kept": per(5, "n_slots"),
         "impact_mark": per(1, "n_slots"),
         "stored": per(1, "n_slots"),
@@ -76,5 +70,13 @@ ARRAYS = Arrays(
         "articulation_head": per(1, "n_articulations"),
         "kept": per(2, "n_slots"),
         "armed": per(3, "n_slots"),
+    },
+    later_floats={
+        "impact_y": per(8, "n_slots"),
+        "impact_new": per(8, "n_slots"),
+        "impact_stage": per(8, "n_slots"),
+        "impact_guess": per(8, "n_slots"),
+        "impact_slopes": per(8 * N_STAGES, "n_slots"),
+        "impact_kept": per(8, "n_slots"),
     },
 )
