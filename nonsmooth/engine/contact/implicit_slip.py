@@ -13,14 +13,13 @@ from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
 from nonsmooth.engine.contact.null_space_forces import shift_forces
 from nonsmooth.engine.contact.polish import polish
-from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_INCIPIENT = 1e-300
 _FAINT = 1e-13
 """What is held by this part of the largest force more than the bound of friction stays: it is round-off."""
 _ARRIVED = 1e-10
@@ -34,8 +33,11 @@ def _lay(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     c = active.slot
     contact = contact_at(S, w, k, c)
     contact.turned = 0.0
-    speed = max(length(contact.slip), _INCIPIENT) if contact.mode == SLIDE else 0.0
-    active.mu = active.mu_static = friction_coefficient(S, w, k, c, speed)
+    if contact.mode == SLIDE:
+        active.mu = slip_coefficient(S, w, k, c, length(contact.slip))
+    else:
+        active.mu = friction_coefficient(S, w, k, c, 0.0)
+    active.mu_static = active.mu
     active.mode_tried = active.mode_past = contact.mode
     active.given = 0
     active.at_rest = 1 if active.mu > 0.0 else 0

@@ -39,6 +39,7 @@ from nonsmooth.engine.numerics.linear import multiply
 from nonsmooth.engine.numerics.vectors import length
 
 _INCIPIENT = 1e-300
+"""The least speed of what slips: at speed 0 laws give the static limit."""
 
 
 @kernel("f8(S, F, I, i8, f8)")
@@ -46,6 +47,12 @@ def friction_coefficient(S: Scalars, w: Floats, k: Integers, c: int, speed: floa
     """Return the friction coefficient of contact ``c``; speed 0 is the static limit."""
     contact = contact_at(S, w, k, c)
     return call_scalar(contact.friction_function, speed, at(w, contact.friction_parameters))
+
+
+@kernel("f8(S, F, I, i8, f8)")
+def slip_coefficient(S: Scalars, w: Floats, k: Integers, c: int, speed: float) -> float:
+    """Return the friction coefficient of contact ``c`` as it slips; at speed 0 that of a slip that begins."""
+    return friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
 
 
 @kernel("void(S, F, I, i8, v2, f8)")
@@ -65,7 +72,7 @@ def follow_slip(S: Scalars, w: Floats, k: Integers, a: int, slip: tuple[float, f
         inverse = (1.0 if S.turning == 1 or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
         d1, d2 = inverse * v1, inverse * v2
     active.direction = d1, d2
-    active.mu = friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
+    active.mu = slip_coefficient(S, w, k, c, speed)
 
 
 @kernel("void(S, F, I, i8)")
@@ -108,11 +115,11 @@ def write_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     if speed > S.velocity_tolerance:
         active.at_rest = 0
         active.direction = v1 / speed, v2 / speed
-        active.mu = friction_coefficient(S, w, k, c, speed)
+        active.mu = slip_coefficient(S, w, k, c, speed)
     else:
         active.at_rest = 1
         active.direction = contact.direction
-        active.mu = friction_coefficient(S, w, k, c, _INCIPIENT)
+        active.mu = slip_coefficient(S, w, k, c, 0.0)
 
 
 @entry_point()

@@ -14,7 +14,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry,
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.contact.held_contacts import hold_contacts, write_rows
 from nonsmooth.engine.contact.implicit_slip import hold_at_end
-from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient
+from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient, slip_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
@@ -31,7 +31,6 @@ from nonsmooth.engine.native.kernel import (
 from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.vectors import length
 
-_INCIPIENT = 1e-300
 WRONG_FORCE = -2.0
 """A force below so many times what its contact problem took for zero violates its mode."""
 
@@ -181,7 +180,7 @@ def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     if contact.traction_function != 0 or contact.averaged != OPEN:
         return 1.0
     speed = length(contact.slip)
-    if contact.normal_function != 0 and friction_coefficient(S, w, k, c, max(speed, _INCIPIENT)) == 0.0:
+    if contact.normal_function != 0 and slip_coefficient(S, w, k, c, speed) == 0.0:
         return 1.0
     if S.stage_time > 0.0:
         return speed

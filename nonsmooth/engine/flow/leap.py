@@ -13,7 +13,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import UNSEEN, evaluate_geometry, evaluate_jacobian, evaluate_rates
 from nonsmooth.engine.contact.forces import resolve
-from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import NO_FORCE, small_force
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group
@@ -29,7 +29,6 @@ _MOST = 100
 """so many stretches at most."""
 _FASTER = 3.0
 """A point that runs is so many times as fast as the bodies at least."""
-_INCIPIENT = 1e-300
 
 
 @kernel("i8(S, F, I)")
@@ -61,7 +60,7 @@ def _set_up(S: Scalars, w: Floats, k: Integers, part: float) -> None:
         evaluate_jacobian(S, w, k, c)
         speed = length(contact.slip)
         active.mu_static = friction_coefficient(S, w, k, c, 0.0)
-        active.mu = friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
+        active.mu = slip_coefficient(S, w, k, c, speed)
         sticks = contact.mode == STICK and contact.released == 0
         active.normal_held = 0 if contact.released == LIFT_OFF else 1
         active.tangent_held = 1 if sticks and active.mu_static > 0.0 else 0

@@ -35,7 +35,7 @@ from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
-from nonsmooth.engine.numerics.roots import weakened
+from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 
 _MIDDLE = 0.5
 _NEAR = 0.2
@@ -44,8 +44,6 @@ _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
 _NEGLIGIBLE = 0.01
 """A step whose error is below this part of the tolerance is interpolated within it."""
-_TRUSTED = 2.0
-"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 _MOST_ROOTS = 30
 """So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
 _FEW_ROOTS = 4
@@ -72,8 +70,6 @@ _FAR_BEHIND = 10.0
 """Other gaps may be closed by so many gap tolerances at an event: what closes at one instant does to round-off."""
 _CORRECTIONS = 40
 """Steps to an event, as many as halvings of its bracket need; two or three do unless the guard is not smooth."""
-_SHORT = 1e-7
-"""Corrections below this part of a step are made along the tangent; their error is its square."""
 
 
 @kernel("i8(S, F, I)")
@@ -353,7 +349,7 @@ def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int
 def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> float:
     """Step to right behind the jump of guard ``i`` that the interpolant has at ``step``; return the step."""
     S.h = step
-    if not try_step(S, w, k, step) <= _TRUSTED:
+    if not try_step(S, w, k, step) <= TRUSTED:
         return -1.0
     way = _FINE * S.time_tolerance
     for _doubling in range(_WAYS):
@@ -376,7 +372,7 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
     early, late = 0.0, 1e300
     for _iteration in range(_CORRECTIONS):
         S.h = step
-        if not try_step(S, w, k, step) <= _TRUSTED:
+        if not try_step(S, w, k, step) <= TRUSTED:
             return -1.0
         write_guards(S, w, k, S.t + step, S.y_new, 1)
         value = guard_at(S, w, k, i).value
@@ -391,7 +387,7 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
         if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
             return step
         correction = min(0.2 * root, max(-0.2 * root, -value / slope))
-        if abs(correction) <= _SHORT * h:
+        if abs(correction) <= SHORT * h:
             # so short a way is straight
             for j in range(S.n_y):
                 w[S.y_new + j] += correction * w[S.slopes + LAST_STAGE * S.n_y + j]

@@ -25,13 +25,8 @@ from nonsmooth.engine.numerics.runge_kutta import (
 
 STIFF = 2.0
 """Relaxations within a step that an explicit one bears."""
-_ITERATIONS = 12
-"""Of a stage: what is not stiff is iterated on,"""
-_SETTLED = 0.01
-"""up to this part of the tolerance."""
 _SLOWEST = 1e-3
 """Slips below this part of what counts as zero relax no faster."""
-_UNUSABLE = 1e300
 _SHARE = tableau.NODES[1] / tableau.NODES[2]
 """Where the second stage lies between the first and the third."""
 
@@ -123,7 +118,7 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
     for i in range(n):
         w[here + i] = w[here - n + i]
     S.unsettled = 0
-    for _iteration in range(_ITERATIONS):
+    for _iteration in range(implicit_tableau.ITERATIONS):
         stage_state(S, w, S.implicit_stages, S.y, S.slopes, n, stage, h, out)
         for i in range(n):
             w[out + i] += S.stage_time * w[here + i]
@@ -137,7 +132,7 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
         for i in range(S.n_q + S.n_u):
             change = S.stage_time * abs(w[here + i] - w[S.y_guess + i])
             worst = max(worst, change / (S.rtol * (w[S.y_scale + i] + abs(w[S.y + i]))))
-        if worst <= _SETTLED:
+        if worst <= implicit_tableau.SETTLED:
             for i in range(n):
                 w[out + i] += S.stage_time * (w[here + i] - w[S.y_guess + i])
             return _holds(S, w, k)
@@ -168,10 +163,10 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     for i in range(n):
         w[S.slopes + n + i] = w[S.slopes + i]
     if S.follows == 0 and _settle(S, w, k) == 0:
-        return _UNUSABLE
+        return math.inf
     for stage in range(2, N_STAGES):
         if _solve_stage(S, w, k, h, stage) == 0:
-            return _UNUSABLE
+            return math.inf
     weigh_slopes(S, w, S.implicit_errors, S.slopes, n, h, S.y_stage)
     error = _relative_error(S, w, k)
     S.replaced = 1
@@ -208,11 +203,11 @@ def _integrated(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` of what is integrated; return its relative error."""
     if S.stage_time > 0.0:
         error = _try_implicit_step(S, w, k, h)
-        return error if error < _UNUSABLE else _try_explicit_step(S, w, k, h)
+        return error if error < math.inf else _try_explicit_step(S, w, k, h)
     error = _try_explicit_step(S, w, k, h)
     if error > 1.0 and h * S.relaxation > STIFF:
         implicit = _try_implicit_step(S, w, k, h)
-        return implicit if implicit < _UNUSABLE else _try_explicit_step(S, w, k, h)
+        return implicit if implicit < math.inf else _try_explicit_step(S, w, k, h)
     return error
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.polish import polish
-from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, evaluate_impact_rates, normal_force
@@ -123,7 +123,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
             active.direction = v1 / speed, v2 / speed
         else:
             active.direction = contact.direction
-        active.mu = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+        active.mu = slip_coefficient(S, w, k, c, speed)
         friction_of_slip(S, w, k, a)
     if open_question == 1:
         for i in range(3 * S.n_active):

@@ -34,7 +34,7 @@ from nonsmooth.engine.native.kernel import (
     kernel,
 )
 from nonsmooth.engine.native.watch import interrupted
-from nonsmooth.engine.numerics.roots import weakened
+from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 from nonsmooth.engine.numerics.vectors import length
 
@@ -54,13 +54,9 @@ _SMALL = 1e-3
 """But it must be small next to what the guard was before, which may be next to nothing, too."""
 _FAINT = 1e-4
 """Start values below this part of the end value are no help to the secant."""
-TRUSTED = 2.0
-"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
 _CORRECTIONS = 8
 _APART = 1e-7
 """Fractions of a step that are nearer to each other tell no slope of a guard: round-off does."""
-_SHORT = 1e-7
-"""Corrections below this part of a step are made along the tangent; their error is its square."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -215,7 +211,7 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         if not (S.guard_slope < 0.0 and error <= TRUSTED) or iteration == _CORRECTIONS - 1:
             break
         correction = min(0.2 * theta * h, max(-0.2 * theta * h, -w[S.impact_guard + i] / S.guard_slope))
-        if abs(correction) <= _SHORT * h:
+        if abs(correction) <= SHORT * h:
             # so short a way is straight
             for j in range(n):
                 w[S.impact_new + j] += correction * w[S.impact_slopes + LAST_STAGE * n + j]

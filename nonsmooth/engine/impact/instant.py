@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
-from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.problem import slip_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
 from nonsmooth.engine.memory.modes import SLIDE, STICK
@@ -29,7 +29,7 @@ def jam_slips(S: Scalars, w: Floats, k: Integers) -> int:
         active.mu = 0.0
         active.normal_held, active.tangent_held = 1, 1 if contact.mode == STICK else 0
         if contact.mode == SLIDE and contact.normal_function == 0 and speed > 0.0:
-            active.mu = friction_coefficient(S, w, k, active.slot, speed)
+            active.mu = slip_coefficient(S, w, k, active.slot, speed)
             active.direction = contact.slip[0] / speed, contact.slip[1] / speed
             if reduced_coefficient(S, w, k, a) < _NEXT_TO_ZERO * diagonal_block(S, w, k, a).nn:
                 active.tangent_held = jammed = 1
@@ -56,8 +56,7 @@ def map_impact(S: Scalars, w: Floats, k: Integers) -> None:
         active = active_at(S, w, k, a)
         c = active.slot
         contact = contact_at(S, w, k, c)
-        speed = length(contact.slip)
-        w[S.map_block + a] = friction_coefficient(S, w, k, c, max(speed, 1e-300))
+        w[S.map_block + a] = slip_coefficient(S, w, k, c, length(contact.slip))
         for i in range(1, S.map_width):
             w[S.map_block + i * m + a] = w[contact.map_parameters + i - 1]
     write_dense(S, w, k)

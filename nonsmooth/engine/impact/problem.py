@@ -7,6 +7,8 @@ contact in action gets its own clock, in which its phases are polynomials.
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.impact.clock import change_clock
 from nonsmooth.engine.impact.end import account, cut_short, empty, end_trapped, faded, finish, finished
@@ -17,7 +19,6 @@ from nonsmooth.engine.impact.guards import (
     GUARDS,
     RATE_GUARD,
     TOGETHER,
-    TRUSTED,
     aim,
     arm_impact_guards,
     fired_guard,
@@ -50,6 +51,7 @@ from nonsmooth.engine.native.kernel import (
     kernel,
 )
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.roots import TRUSTED
 from nonsmooth.engine.numerics.runge_kutta import step_factor
 from nonsmooth.engine.numerics.vectors import length
 
@@ -62,7 +64,6 @@ _PATIENCE = 20
 """Steps that a slip may take next to rest without slowing down."""
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
-_UNUSED = 1e300
 PROBE = 1e-2
 """Where no force has built up yet, forces are compared after this part of the shortest compression."""
 _SHORTEST = 1e-12
@@ -308,13 +309,13 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
         error = try_impact_step(S, w, k, h) if linear == 0 else 0.0
         S.impact_steps += 1
         if not error <= 1.0:
-            if not error < _UNUSED and h < _SHORTEST * shortest:
+            if not error < math.inf and h < _SHORTEST * shortest:
                 return INVALID
-            h *= step_factor(error) if error < _UNUSED else 0.1
+            h *= step_factor(error) if error < math.inf else 0.1
             continue
         located = _step_to_switch(S, w, k, h, linear)
         if not located <= TRUSTED:
-            if not located < _UNUSED and h < _SHORTEST * shortest:
+            if not located < math.inf and h < _SHORTEST * shortest:
                 return INVALID
             h *= 0.25
             continue

@@ -26,7 +26,6 @@ _GROWN = 2.0
 """Impulses that grow by less have the same scale."""
 _MET = 1e-6
 """So close, relative to it, the deformation that takes up an energy need be known: it is a scale."""
-_UNUSED = 1e300
 
 
 @kernel("f8(S, F, I, f8)")
@@ -47,7 +46,7 @@ def scale_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> float:
         if speed > 0.0:
             brought = max(brought, speed * speed / diagonal_block(S, w, k, a).nn)
     S.rest_speed = max(REST, _CIRCLING * S.impact_rtol) * S.speed_scale
-    shortest = _UNUSED
+    shortest = math.inf
     for a in range(m):
         active = active_at(S, w, k, a)
         energy = min(brought, S.speed_scale * S.speed_scale / diagonal_block(S, w, k, a).nn)

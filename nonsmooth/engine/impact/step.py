@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact.implicit_slip import oppose_slips
-from nonsmooth.engine.contact.problem import friction_coefficient
+from nonsmooth.engine.contact.problem import slip_coefficient
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import (
     COMPRESSION,
@@ -38,12 +38,6 @@ _SETTLING = 10.0
 """Relaxations of a direction while its slip changes by as much as it is, with which it is settled."""
 _CAREFUL = 4.0
 """Errors of implicit steps count so many times: the estimate is of low order, and they add up."""
-_ITERATIONS = 12
-"""Of a stage: deformations are iterated on,"""
-_SETTLED = 0.01
-"""up to this part of the tolerance."""
-_INCIPIENT = 1e-300
-_UNUSABLE = 1e300
 _STRAIGHT = 1e-13
 """Second differences of slopes below this, relative to the slopes, count as zero."""
 
@@ -96,7 +90,7 @@ def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
         deformed, worked, rubbed = abs(error.deformation), abs(error.work), abs(error.rubbed)
         stored, lost = abs(error.energy), abs(error.lost)
         # a maximum does not show what is not a number
-        if not moved + deformed + worked + rubbed + stored + lost < _UNUSABLE:
+        if not moved + deformed + worked + rubbed + stored + lost < math.inf:
             return math.inf
         booked = max(max(worked, rubbed), max(stored, lost)) / energy
         worst = max(worst, math.sqrt(moved / energy), deformed / active.deformation_scale, booked)
@@ -138,7 +132,7 @@ def _lay_stage(S: Scalars, w: Floats, k: Integers, ahead: float, y: int, n: int,
         if loaded:
             active.normal_force = normal_force(S, w, k, a, state.deformation)
         if active.mode_past == SLIDE:
-            active.mu = friction_coefficient(S, w, k, active.slot, max(length(active.slip), _INCIPIENT))
+            active.mu = slip_coefficient(S, w, k, active.slot, length(active.slip))
             active.at_rest = 1 if active.mu > 0.0 else 0
             t1, t2 = impact_state(w, guess, a).friction
             friction = length((t1, t2))
@@ -167,7 +161,7 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
     here, guess, ahead = S.impact_slopes + stage * n, S.impact_guess, implicit_tableau.DIAGONAL * h
     for i in range(n):
         w[here + i] = w[here - n + i]
-    for _iteration in range(_ITERATIONS):
+    for _iteration in range(implicit_tableau.ITERATIONS):
         stage_state(S, w, S.implicit_stages, S.impact_y, S.impact_slopes, n, stage, h, out)
         for i in range(n):
             w[guess + i] = w[here + i]
@@ -186,7 +180,7 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
             w[guess + i] = ahead * change
             if i % STRIDE >= DEFORMATION:
                 w[out + i] += ahead * w[here + i]
-        if _relative_error(S, w, k, guess) <= _SETTLED:
+        if _relative_error(S, w, k, guess) <= implicit_tableau.SETTLED:
             return 1
     return 0
 
@@ -214,7 +208,7 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         active = active_at(S, w, k, a)
         active.halted = 1 if active.mode_past == SLIDE and active.tangent_held == 1 else 0
     if stage < N_STAGES:
-        return _UNUSABLE
+        return math.inf
     weigh_slopes(S, w, S.implicit_errors, S.impact_slopes, n, h, S.impact_stage)
     error = _CAREFUL * _relative_error(S, w, k, S.impact_stage)
     write_implicit_interpolant(S, w, S.impact_y, S.impact_new, S.impact_slopes, n, h, S.impact_stage)

@@ -7,6 +7,10 @@ the second to that on which the motion settles at once.
 from __future__ import annotations
 
 DIAGONAL = 1 / 4
+ITERATIONS = 12
+"""Of a stage, on what is not stiff in it,"""
+SETTLED = 0.01
+"""up to this part of the tolerance."""
 NODES = (0.0, 0.0, 1 / 2, 83 / 250, 31 / 50, 17 / 20, 1.0)
 STAGES = (
     (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),

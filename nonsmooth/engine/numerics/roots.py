@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from nonsmooth.engine.native.kernel import kernel
 
+TRUSTED = 2.0
+"""The largest error of a step to an event, relative to the tolerance; the slip may have turned within it."""
+SHORT = 1e-7
+"""Corrections below this part of a step to an event are made along the tangent; their error is its square."""
+
 
 @kernel("f8(f8, f8, f8)")
 def weakened(kept: float, new: float, old: float) -> float:
