@@ -237,8 +237,11 @@ class FreeBody(Body):
 
     @property
     def spin(self) -> int:
-        """Behind the velocity, of a symmetric top: in space the spin of others turns as fast as they do."""
-        return 3 if self._is_symmetric else -1
+        """Behind the velocity, of a symmetric top: in space the spin of others turns as fast as they do.
+
+        Between steps its components along the body are no better than the attitude; a ball gains too little for that.
+        """
+        return 3 if self._is_symmetric and len(set(self.inertia)) == 2 else -1
 
     @property
     def evaluator(self) -> Callable[..., None]:
