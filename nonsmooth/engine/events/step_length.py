@@ -131,12 +131,8 @@ def _remember_step(S: Scalars, w: Floats, k: Integers, h: float, error: float, w
     S.h, S.step_error = h, error
     # the touch-down that was due is behind it, or is an event of it
     S.h_first = 1e300
-    fitting = h * step_factor(error)
-    trend = fitting / S.h_fitting if S.follows == 1 and S.h_fitting > 0.0 else 1.0
-    # as towards the end of a slip: what has fitted less and less fits so much less again
-    following = fitting * min(1.0, max(trend, S.trend))
-    S.trend, S.h_fitting = trend, fitting if S.stage_time == 0.0 else 0.0
     # what cut a step short says nothing of the next one
+    following = h * step_factor(error)
     if h < wanted:
         following = max(following, wanted)
     if _is_held(S, w, k) == 1:

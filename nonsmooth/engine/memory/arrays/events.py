@@ -44,8 +44,6 @@ ARRAYS = Arrays(
             "h_turn",
             "h_arrival",
             "h_closed",
-            "h_fitting",
-            "trend",
             "h_valid",
             "end_of_valid",
             "time_resolution",
