@@ -61,6 +61,11 @@ class BoxBody(FreeBody):
         return mass_of(self.mass, self.density, self._box.volume)
 
     @property
+    def spin(self) -> int:
+        """None, though it be a cube: where it touches turns with it, and so do the forces."""
+        return -1
+
+    @property
     def inertia(self) -> tuple[float, float, float]:
         """Moments m (b^2 + c^2) / 3 and so on [kg m^2]; of a rounded one, piece by piece."""
         if self.rounding > 0.0:

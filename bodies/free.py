@@ -236,6 +236,14 @@ class FreeBody(Body):
         return 3
 
     @property
+    def spin(self) -> int:
+        """Behind the velocity, of a symmetric top: in space the spin of others turns as fast as they do.
+
+        Between steps its components along the body are no better than the attitude; a ball gains too little for that.
+        """
+        return 3 if self._is_symmetric and len(set(self.inertia)) == 2 else -1
+
+    @property
     def evaluator(self) -> Callable[..., None]:
         """Newton-Euler equations."""
         return _evaluate
@@ -243,8 +251,12 @@ class FreeBody(Body):
     @property
     def flight(self) -> Callable[..., None] | None:
         """That of a symmetric top about an axis of the frame, which a ball is; of others there is none."""
+        return _fly if self._is_symmetric else None
+
+    @property
+    def _is_symmetric(self) -> bool:
         x, y, z = self.inertia
-        return _fly if not any(self.products) and (x == y or y == z or x == z) else None
+        return not any(self.products) and (x == y or y == z or x == z)
 
     @property
     def time_scale(self) -> float:

@@ -36,6 +36,12 @@ class Sphere(SmoothShape):
         return math.hypot(self.x, self.y, self.z)
 
     @property
+    def revolution(self) -> tuple[float, float, float]:
+        """From the origin to the centre, if that lies elsewhere."""
+        lever = self.lever
+        return (self.x / lever, self.y / lever, self.z / lever) if lever > 0.0 else (0.0, 0.0, 0.0)
+
+    @property
     def core(self) -> tuple[float, ...]:
         """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
         return core_numbers((0.0, 0.0, 0.0), (2.0, 2.0), self.radius, (self.x, self.y, self.z), (1.0, 0.0, 0.0, 0.0))

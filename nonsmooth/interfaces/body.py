@@ -71,6 +71,15 @@ class Body(Component, ABC):
         """Offset of a unit quaternion in q, -1 without one."""
 
     @property
+    def spin(self) -> int:
+        """Offset in u of an angular velocity along the axes that the quaternion turns, -1, by default, without one.
+
+        The quaternion's rate must be half its product with that: such a spin is integrated along axes in space, where
+        that of a symmetric top changes as slowly as its axis turns.
+        """
+        return -1
+
+    @property
     @abstractmethod
     def evaluator(self) -> Callable[..., None]:
         """The function of point 1."""

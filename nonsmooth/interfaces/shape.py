@@ -44,6 +44,14 @@ class Shape(Component, ABC):
         return self.extent
 
     @property
+    def revolution(self) -> tuple[float, float, float]:
+        """Direction in the body frame about which a turn about the origin moves no surface along its normal.
+
+        Spin about it brings no gap nearer.  No direction, zero, by default.
+        """
+        return 0.0, 0.0, 0.0
+
+    @property
     def ceiling(self) -> float:
         """Height over the origin along the third axis of the body frame, above which it has no point [m].
 

@@ -25,12 +25,15 @@ class ContactTable:
         Number of the body, and of its frame.
     extents, levers : array
         Those of the shapes [m].
+    revolutions : array
+        That of the shape with the smaller lever, shape [n, 3].
     """
 
     bodies: NDArray[np.int64]
     frames: NDArray[np.int64]
     extents: Array
     levers: Array
+    revolutions: Array
 
     @classmethod
     def of(cls, bodies: Sequence[Body], contacts: Sequence[Contact]) -> ContactTable:
@@ -41,9 +44,12 @@ class ContactTable:
             list(itertools.chain.from_iterable(map(attrgetter(name), contacts)))
             for name in ("frames", "extents", "levers")
         )
+        shapes = [contact.shapes[1 if contact.levers[1] <= contact.levers[0] else 0] for contact in contacts]
+        revolutions = {id(shape): shape.revolution for shape in shapes}
         return cls(
             np.array(sides, np.int64).T,
             np.array(frames, np.int64).reshape(-1, 2),
             np.array(extents, float).reshape(-1, 2),
             np.array(levers, float).reshape(-1, 2),
+            np.array([revolutions[i] for i in map(id, shapes)], float).reshape(-1, 3),
         )

@@ -65,6 +65,7 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
             "out": out,
             "tail": out + tail,
             "quaternion": body.quaternion,
+            "spin": body.spin,
         }
         if body.flight is not None and id(body) not in held:
             fields |= _flight(body.flight, body, offered, heap, (q, u))

@@ -14,7 +14,16 @@ import numpy as np
 from nonsmooth.binding.bounds import try_out
 from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, PAIR
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CONTACT_TIME, DIRECTION, LEVERS, REACH, SIZE
+from nonsmooth.engine.memory.layout import (
+    CATALOGUE,
+    CATALOGUE_FLOATS,
+    CONTACT_TIME,
+    DIRECTION,
+    LEVERS,
+    REACH,
+    REVOLUTION,
+    SIZE,
+)
 from nonsmooth.engine.memory.memory import Heap, Memory, output_block
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.errors import InvalidInput
@@ -92,6 +101,7 @@ def lay_contacts(
     size = 3 * _lay_sides(rows, table, places)
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
     floats[:, DIRECTION], floats[:, LEVERS : LEVERS + 2], floats[:, SIZE] = 1.0, table.levers, table.extents.min(axis=1)
+    floats[:, REVOLUTION : REVOLUTION + 3] = table.revolutions
     lay_law_floats(memory, contacts, kinds)
     slots = int(memory.scalars["n_slots"][0])
     for name in ("jacobian_a", "jacobian_b", "response_a", "response_b"):

@@ -39,6 +39,8 @@ def free_rows(body: Body) -> list[Row]:
     if body.quaternion >= 0:
         row_of_quaternion = row("unit quaternion", "the rates of a unit quaternion keep its length", _unit)
         rows.append(row_of_quaternion)
+    if body.spin >= 0:
+        rows.append(row("spin", "its quaternion's rates are half the product with (0, spin)", _spun))
     if body.n_u == 6 and len(body.frames) == 1:
         rows.append(row("momentum", "without gravity momentum and angular momentum stay, in free flight", _momentum))
     return rows
@@ -111,6 +113,15 @@ def _unit(body: Body, case: Case) -> str:
     rates = _look(body, t, q, u).rates[at]
     change = float(q[at] @ rates)
     return f"its length changes at {change:g} 1/s" if abs(change) > 1e-9 * float(np.linalg.norm(rates)) else ""
+
+
+def _spun(body: Body, case: Case) -> str:
+    t, q, u = state(body, case)
+    (a, *axis), spin = q[body.quaternion : body.quaternion + 4], u[body.spin : body.spin + 3]
+    expected = 0.5 * np.append(-np.dot(axis, spin), a * spin + np.cross(axis, spin))
+    rates = _look(body, t, q, u).rates[body.quaternion : body.quaternion + 4]
+    wrong = float(np.max(np.abs(rates - expected)))
+    return f"they are {rates.tolist()}" if wrong > 1e-9 * float(np.linalg.norm(spin)) else ""
 
 
 def _momentum(body: Body, case: Case) -> str:

@@ -26,6 +26,18 @@ def test_the_interpolant_is_of_fourth_order() -> None:
     assert abs(bend @ stages @ stages @ nodes - 1.0 / 24.0) < 1e-14
 
 
+def test_the_predictor_is_the_explicit_half_of_the_pair() -> None:
+    """With the weights of the implicit one it is of fourth order on every tree, and its nodes are the same."""
+    nodes, explicit = np.array(pair.NODES), np.zeros((7, 7))
+    explicit[:, :6] = pair.PREDICTOR
+    weights = np.append(pair.STAGES[6], pair.DIAGONAL)
+    np.testing.assert_allclose(explicit.sum(axis=1), nodes, rtol=0, atol=1e-12)
+    assert abs(weights @ explicit @ nodes - 1.0 / 6.0) < 1e-12
+    assert abs(weights @ (nodes * (explicit @ nodes)) - 1.0 / 8.0) < 1e-12
+    assert abs(weights @ explicit @ nodes**2 - 1.0 / 12.0) < 1e-12
+    assert abs(weights @ explicit @ explicit @ nodes - 1.0 / 24.0) < 1e-12
+
+
 def test_samples_of_a_slip_that_starts_from_rest_are_as_good_as_its_steps() -> None:
     """A rod tips over its lower end, which slips: its orientation stays of unit length between the steps, too."""
     plate, rod = Plate(), Rod(0.03, 0.003)

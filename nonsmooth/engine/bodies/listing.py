@@ -28,6 +28,7 @@ from nonsmooth.engine.memory.layout import (
     MEAN_WAY,
     MOBILITY,
     REACH,
+    REVOLUTION,
     SIZE,
     SMALL_FORCE,
 )
@@ -73,6 +74,7 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     contact.contact_time, contact.reach = floats[CONTACT_TIME], floats[REACH]
     contact.closing_rate, contact.size = floats[CLOSING_RATE], floats[SIZE]
     contact.lever_a, contact.lever_b = floats[LEVERS], floats[LEVERS + 1]
+    contact.revolution = floats[REVOLUTION], floats[REVOLUTION + 1], floats[REVOLUTION + 2]
     contact.direction = floats[DIRECTION], floats[DIRECTION + 1]
     contact.mobility, contact.small_force_of = floats[MOBILITY], floats[SMALL_FORCE]
     contact.mean_span, contact.mean_way, contact.mean_gap = floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP]

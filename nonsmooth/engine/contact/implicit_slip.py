@@ -15,7 +15,7 @@ from nonsmooth.engine.contact.null_space_forces import shift_forces
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
+from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.memory.modes import SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -24,6 +24,10 @@ _FAINT = 1e-13
 """What is held by this part of the largest force more than the bound of friction stays: it is round-off."""
 _ARRIVED = 1e-10
 """Forces that are not unique may be so much out of their cones."""
+_TURNS = 8
+"""Newton steps of the direction of a slip that is alone; from a step before three or four do."""
+_EXACT = 1e-14
+"""Part of the accelerations that is left across it, by round-off."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -119,6 +123,39 @@ def oppose_slips(S: Scalars, w: Floats, k: Integers) -> int:
     return 0
 
 
+@kernel("i8(S, F, I)")
+def _oppose_alone(S: Scalars, w: Floats, k: Integers) -> int:
+    """Do the same for one contact that slides on, whose only unknown is a direction; return 1 if it is found."""
+    active, g = active_at(S, w, k, 0), diagonal_block(S, w, k, 0)
+    if S.n_active > 1 or active.mode_past != SLIDE or active.at_rest == 0 or active.given == 1:
+        return 0
+    mu, (d1, d2) = active.mu, active.direction
+    for _turn in range(_TURNS):
+        reduced = g.nn - mu * (g.n1 * d1 + g.n2 * d2)
+        if not reduced > 0.0:
+            return 0
+        force = -active.free[0] / reduced
+        p1, p2 = g.n1 - mu * (g.t11 * d1 + g.t12 * d2), g.n2 - mu * (g.t12 * d1 + g.t22 * d2)
+        a1, a2 = active.free[1] + force * p1, active.free[2] + force * p2
+        across, along = a1 * d2 - a2 * d1, a1 * d1 + a2 * d2
+        if abs(across) <= _EXACT * max(S.acceleration_scale, abs(a1), abs(a2)):
+            if not along > 0.0 or not force > 0.0:
+                return 0
+            active.normal_force, active.direction = force, (d1, d2)
+            S.deficient, active.redundant = 0, 0
+            friction_of_slip(S, w, k, 0)
+            return 1
+        # what turning the direction does to the normal force, and to the acceleration
+        change = mu * force * (g.n2 * d1 - g.n1 * d2) / reduced
+        c1 = change * p1 - mu * force * (g.t12 * d1 - g.t11 * d2)
+        c2 = change * p2 - mu * force * (g.t22 * d1 - g.t12 * d2)
+        turn = -across / (c1 * d2 - c2 * d1 + along)
+        d1, d2 = d1 - turn * d2, d2 + turn * d1
+        size = length((d1, d2))
+        d1, d2 = d1 / size, d2 / size
+    return 0
+
+
 @kernel()
 def _note(S: Scalars, w: Floats, k: Integers) -> None:
     """Add what the forces do to ``du``, and note power and what is held."""
@@ -133,6 +170,9 @@ def _note(S: Scalars, w: Floats, k: Integers) -> None:
         active.tangent_held = 0 if slides else 1
         for r in range(3):
             S.driven_power += active.force[r] * (row(S, w, k, c, r, S.free_velocities) - contact.rate[r])
+        if slides and active.mode_tried == STICK:
+            # whatever the state from which it was found has of it
+            contact.slip = 0.0, 0.0
 
 
 @kernel("i8(S, F, I)")
@@ -144,7 +184,10 @@ def _solve(S: Scalars, w: Floats, k: Integers) -> int:
     assemble_delassus(S, w, k)
     for a in range(S.n_active):
         _lay(S, w, k, a)
-    return oppose_slips(S, w, k)
+    if not S.acceleration_scale > 0.0:
+        # a trial step far too long led to what is no number
+        return 0
+    return 1 if _oppose_alone(S, w, k) == 1 else oppose_slips(S, w, k)
 
 
 @kernel("i8(S, F, I)")

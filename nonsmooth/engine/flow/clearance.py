@@ -65,6 +65,21 @@ def _speed_seen(w: Floats, frame_a: int, frame_b: int) -> float:
     return math.sqrt(dot(seen, seen))
 
 
+@kernel("v3(S, F, I, i8)")
+def _axis(S: Scalars, w: Floats, k: Integers, c: int) -> Vector:
+    """Return the axis in space about which the shape with the smaller lever may spin unseen, or zero."""
+    contact = contact_at(S, w, k, c)
+    frame = frame_at(w, contact.frame_b if contact.lever_b <= contact.lever_a else contact.frame_a)
+    r, v = frame.rotation, contact.revolution
+    return dot((r[0], r[1], r[2]), v), dot((r[3], r[4], r[5]), v), dot((r[6], r[7], r[8]), v)
+
+
+@kernel("v3(v3, v3)")
+def _across(v: Vector, axis: Vector) -> Vector:
+    """Return what a vector has across a unit axis; all of it, if that is zero."""
+    return minus(v, scaled(dot(v, axis), axis))
+
+
 @kernel("void(S, F, I)")
 def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     """Write how fast the gaps of the open contacts can change where the bodies stand, to ``speed_end``.
@@ -73,7 +88,7 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     The fastest turning of one that flies counts for the length of the step.
     """
     last_a = last_b = -1
-    speed = turning = 0.0
+    speed, spin, whole = 0.0, (0.0, 0.0, 0.0), 0.0
     S.fastest_turn = 0.0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
@@ -84,14 +99,18 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
             a, b, lever = b, a, contact.lever_a
         # the contacts of two bodies follow one another
         if a != last_a or b != last_b:
-            speed, turning = _speed_seen(w, a, b), -1.0
+            speed, spin = _speed_seen(w, a, b), minus(frame_at(w, b).spin, frame_at(w, a).spin)
+            whole = math.sqrt(dot(spin, spin))
             last_a, last_b = a, b
-        if lever > 0.0 and turning < 0.0:
-            turning = distance(frame_at(w, b).spin, frame_at(w, a).spin)
+        contact.speed_end = speed
+        if lever > 0.0:
+            turning = whole
+            if dot(contact.revolution, contact.revolution) > 0.0:
+                across = _across(spin, _axis(S, w, k, c))
+                turning = math.sqrt(dot(across, across))
             if body_at(S, w, k, contact.body_a).flies + body_at(S, w, k, contact.body_b).flies > 0:
                 S.fastest_turn = max(S.fastest_turn, turning)
-        contact.speed_end = speed + turning * lever if lever > 0.0 else speed
-        if lever > 0.0:
+            contact.speed_end = speed + turning * lever
             contact.arm_end = _arm(S, w, k, c)
 
 
@@ -124,9 +143,10 @@ def _acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, angular
 def _fall(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
     """Return how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
 
-    The second number is by how much more for every second of a step, the third how fast the bodies turn.  With the
-    normal fixed to the first body a convex second one is no nearer than along this normal, whatever the normal does;
-    the terms of the turning bodies hold for all points of its surface.
+    The second number is by how much more for every second of a step, the third how fast the bodies turn; what spins
+    about an axis of revolution does not.  With the normal fixed to the first body a convex second one is no nearer
+    than along this normal, whatever the normal does; the terms of the turning bodies hold for all points of its
+    surface.
     """
     contact = contact_at(S, w, k, c)
     second = contact.lever_b <= contact.lever_a
@@ -138,6 +158,10 @@ def _fall(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
     linear = minus(_acceleration(S, w, k, c, other, 0, du), _acceleration(S, w, k, c, one, 0, du))
     alpha = _acceleration(S, w, k, c, one, 1, du)
     angular = minus(minus(_acceleration(S, w, k, c, other, 1, du), alpha), cross(spin, turning))
+    axis = _axis(S, w, k, c)
+    own, turning = dot(turning, axis), _across(turning, axis)
+    # what is across the axis changes as that turns, too
+    angular = minus(_across(angular, axis), scaled(own, cross(turning, axis)))
     # what the turning of the first body takes away: alpha x d, omega x (omega x d), twice omega x velocity
     linear = minus(minus(linear, cross(alpha, way)), cross(spin, cross(spin, way)))
     linear = minus(linear, scaled(2.0, cross(spin, velocity)))

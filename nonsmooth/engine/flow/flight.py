@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_once
 from nonsmooth.engine.contact.problem import accelerate_freely
+from nonsmooth.engine.flow.spins import spin_within
 from nonsmooth.engine.memory.layout import EXCHANGED, LAST_STAGE
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -132,6 +133,7 @@ def body_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, numb
     early, late = dense_weights(S, w, h, theta, 0), dense_weights(S, w, h, theta, 1)
     dense_part(w, S.y + q, S.slopes + q, body.nq, S.n_y, early, late, out + q)
     dense_part(w, S.y + u, S.slopes + u, body.nu, S.n_y, early, late, out + u)
+    spin_within(S, w, k, number, early, late, out)
 
 
 @kernel("void(S, F, I, f8, f8, i8)")
@@ -141,6 +143,8 @@ def state_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, out
     for span in range(S.n_spans):
         i, n = k[S.span_first + span], k[S.span_length + span]
         dense_part(w, S.y + i, S.slopes + i, n, S.n_y, early, late, out + i)
+    for i in range(S.n_integrated):
+        spin_within(S, w, k, k[S.integrated + i], early, late, out)
     if S.n_spans == 0:
         for i in range(S.n_q + S.n_u, S.n_y):
             w[out + i] = w[S.y + i]

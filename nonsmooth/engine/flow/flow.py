@@ -58,11 +58,11 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
             c = active.slot
+            if implicit:
+                continue
             contact = contact_at(S, w, k, c)
             evaluate_geometry(S, w, k, c)
             evaluate_rates(S, w, k, c)
-            if implicit:
-                continue
             if contact.normal_function != 0:
                 evaluate_compliant_force(S, w, k, c)
             _set_friction(S, w, k, a, y)

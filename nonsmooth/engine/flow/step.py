@@ -11,6 +11,7 @@ import math
 
 from nonsmooth.engine.flow.flight import land
 from nonsmooth.engine.flow.flow import is_violated, slope
+from nonsmooth.engine.flow.spins import keep_spins, stage_spins, weigh_spins
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
@@ -106,22 +107,32 @@ def _holds(S: Scalars, w: Floats, k: Integers) -> int:
     return 1
 
 
+@kernel("void(S, F, f8, i8, i8)")
+def _predict_stage(S: Scalars, w: Floats, h: float, stage: int, out: int) -> None:
+    """Write the state at which a stage is looked for first to ``out``, and the slope that leads there to its place."""
+    n = S.n_y
+    here = S.slopes + stage * n
+    stage_state(S, w, S.implicit_stages, S.y, S.slopes, n, stage, h, S.y_guess)
+    stage_state(S, w, S.implicit_predictor, S.y, S.slopes, n, stage, h, out)
+    for i in range(n):
+        w[here + i] = (w[out + i] - w[S.y_guess + i]) / S.stage_time
+
+
 @kernel("i8(S, F, I, f8, i8)")
 def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> int:
     """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
 
-    Friction of slips, which is stiff, is solved for; all else is iterated.
+    Friction of slips, which is stiff, is solved for; all else is iterated, until what would be left if it fell on as
+    it fell last is small.
     """
     n = S.n_y
     out = S.y_new if stage == LAST_STAGE else S.y_stage
     here = S.slopes + stage * n
-    for i in range(n):
-        w[here + i] = w[here - n + i]
+    _predict_stage(S, w, h, stage, out)
     S.unsettled = 0
+    before = 0.0
     for _iteration in range(implicit_tableau.ITERATIONS):
-        stage_state(S, w, S.implicit_stages, S.y, S.slopes, n, stage, h, out)
         for i in range(n):
-            w[out + i] += S.stage_time * w[here + i]
             w[S.y_guess + i] = w[here + i]
         S.ahead, S.guess = S.stage_time, S.y_guess + S.n_q
         slope(S, w, k, S.t + implicit_tableau.NODES[stage] * h, out, here, 0, 0)
@@ -129,13 +140,16 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
         if S.unsettled == 1:
             return 0
         worst = 0.0
-        for i in range(S.n_q + S.n_u):
-            change = S.stage_time * abs(w[here + i] - w[S.y_guess + i])
-            worst = max(worst, change / (S.rtol * (w[S.y_scale + i] + abs(w[S.y + i]))))
-        if worst <= implicit_tableau.SETTLED:
-            for i in range(n):
-                w[out + i] += S.stage_time * (w[here + i] - w[S.y_guess + i])
+        for i in range(n):
+            change = S.stage_time * (w[here + i] - w[S.y_guess + i])
+            w[out + i] += change
+            if i < S.n_q + S.n_u:
+                worst = max(worst, abs(change) / (S.rtol * (w[S.y_scale + i] + abs(w[S.y + i]))))
+        # where the step ends what was evaluated is to be that of its end
+        left = worst * worst / (before - worst) if before > worst and stage < LAST_STAGE else worst
+        if left <= implicit_tableau.SETTLED:
             return _holds(S, w, k)
+        before = worst
     return 0
 
 
@@ -186,15 +200,19 @@ def _try_explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             w[S.y_new + i] = w[S.y + i]
             w[S.slopes + LAST_STAGE * n + i] = 0.0
         return 0.0
+    keep_spins(S, w, k, 0, S.y)
     for stage in range(1, N_STAGES):
         out = S.y_new if stage == LAST_STAGE else S.y_stage
         for span in range(S.n_spans):
             i, length = k[S.span_first + span], k[S.span_length + span]
             stage_part(S, w, S.stages, S.y + i, S.slopes + i, length, n, stage, h, out + i)
+        stage_spins(S, w, k, stage, h, out)
         slope(S, w, k, S.t + tableau.NODES[stage] * h, out, S.slopes + stage * n, 0, 0)
+        keep_spins(S, w, k, stage, out)
     for span in range(S.n_spans):
         i, length = k[S.span_first + span], k[S.span_length + span]
         weigh_part(S, w, S.error_weights, S.slopes + i, length, n, h, S.y_stage + i)
+    weigh_spins(S, w, k, h, S.y_stage)
     return max(_relative_error(S, w, k), _unseen(S, w, k, h))
 
 

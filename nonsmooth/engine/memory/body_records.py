@@ -33,6 +33,7 @@ BODY = without(
     "body_out",
     "body_tail",
     "body_quaternion",
+    "body_spin",
     "body_flight_function",
     "body_flight_parameters",
     "body_flight_out",

@@ -151,6 +151,7 @@ CONTACT: Fields = {
     "slip_of_tangents": vector("slip"),
     "skew_1": vector("skew", 0),
     "skew_2": vector("skew", 2),
+    "revolution": vector("revolution", 0, 3),
     "fall_first": vector("fall_first", 0, 3),
     "fall_end": vector("fall_end", 0, 3),
     "rate_end": vector("rate_end", 0, 3),

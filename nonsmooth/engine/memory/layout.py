@@ -59,7 +59,9 @@ CONTACT_TIME, DIRECTION, REACH, CLOSING_RATE, LEVERS, SIZE = 0, 1, 3, 4, 5, 7
 MOBILITY, SMALL_FORCE, MEAN_FORCE, MEAN_SPAN, MEAN_WAY, MEAN_GAP = 8, 9, 10, 13, 14, 15
 """And those that its last event left of it: how fast it slips under a unit of friction, what counts as no force, and
 of averaged forces what they are, how long they are, on what way the gap comes to rest, and where it began."""
-CATALOGUE_FLOATS = 16
+REVOLUTION = 16
+"""Axis of the shape with the smaller lever, in its frame, about which it may spin."""
+CATALOGUE_FLOATS = 19
 """How many they are."""
 PARTS = 48
 """Halvings of a step in search of a gap that closes: as many as its fractions can be told apart."""

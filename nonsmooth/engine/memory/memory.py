@@ -184,6 +184,7 @@ def allocate(counts: Mapping[str, int], layers: Collection[str], own: Arrays = N
     memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
     memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
     memory.array("implicit_stages", 6 * N_STAGES)[:] = np.ravel(implicit_tableau.STAGES)
+    memory.array("implicit_predictor", 6 * N_STAGES)[:] = np.ravel(implicit_tableau.PREDICTOR)
     memory.array("implicit_errors", N_STAGES)[:] = implicit_tableau.ERROR
     memory.array("implicit_bend", N_STAGES)[:] = implicit_tableau.BEND
     memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)

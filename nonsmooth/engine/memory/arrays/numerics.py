@@ -22,6 +22,7 @@ ARRAYS = Arrays(
         "stages": fixed(6 * N_STAGES),
         "error_weights": fixed(N_STAGES),
         "implicit_stages": fixed(6 * N_STAGES),
+        "implicit_predictor": fixed(6 * N_STAGES),
         "implicit_errors": fixed(N_STAGES),
         "implicit_bend": fixed(N_STAGES),
         "dense": fixed(4 * N_STAGES),

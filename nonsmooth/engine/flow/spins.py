@@ -1,0 +1,109 @@
+"""Angular velocities along axes that turn with their body, integrated along axes that do not.
+
+Along its own axes a force on a body that spins turns as fast as the body does, in space as slowly as the motion asks
+for.  The angular velocity w of a body with attitude R is integrated as R w, whose rate is R w', and turned back with
+the attitude of every stage; everything else knows its components along the body.  That is for bodies which ask for it
+(:attr:`nonsmooth.interfaces.Body.spin`): what an asymmetric one has of its own is slower along its axes.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, kernel
+from nonsmooth.engine.numerics.runge_kutta import dense_part, stage_part, weigh_part
+from nonsmooth.engine.numerics.vectors import Vector, cross, dot
+
+_TO_SPACE, _TO_BODY = 1.0, -1.0
+
+
+@kernel("void(F, i8, i8, f8, i8)")
+def _turn(w: Floats, q: int, v: int, way: float, out: int) -> None:
+    """Write the vector at ``v`` turned by the quaternion at ``q``, of any length, to space (1) or back (-1)."""
+    a, axis = way * w[q], (w[q + 1], w[q + 2], w[q + 3])
+    x, y, z = w[v], w[v + 1], w[v + 2]
+    tx, ty, tz = cross(axis, (x, y, z))
+    sx, sy, sz = cross(axis, (tx, ty, tz))
+    twice = 2.0 / (a * a + dot(axis, axis))
+    w[out] = x + twice * (a * tx + sx)
+    w[out + 1] = y + twice * (a * ty + sy)
+    w[out + 2] = z + twice * (a * tz + sz)
+
+
+@kernel("i8(S, F, I, i8)")
+def _slopes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Return where the slopes in space of one body's spin stand, those of one stage behind those of another."""
+    return int(S.spin_slopes + 3 * N_STAGES * number)
+
+
+@kernel("void(S, F, I, i8, i8)")
+def keep_spins(S: Scalars, w: Floats, k: Integers, stage: int, state: int) -> None:
+    """Keep the slopes of a stage, evaluated at ``state``, along axes in space; before the first one the spins, too.
+
+    Those of its quaternions become what they are at the length that these had.
+    """
+    for i in range(S.n_integrated):
+        number = k[S.integrated + i]
+        body = body_at(S, w, k, number)
+        if body.spin < 0:
+            continue
+        q, u = body.q + body.quaternion, S.n_q + body.u + body.spin
+        slope = S.slopes + stage * S.n_y
+        _turn(w, state + q, slope + u, _TO_SPACE, _slopes(S, w, k, number) + 3 * stage)
+        if stage == 0:
+            _turn(w, state + q, state + u, _TO_SPACE, S.spin_start + 3 * number)
+        elif stage < LAST_STAGE:
+            for j in range(4):
+                w[slope + q + j] *= w[S.quaternion_length + number]
+
+
+@kernel("void(S, F, I, i8, f8, i8)")
+def stage_spins(S: Scalars, w: Floats, k: Integers, stage: int, h: float, out: int) -> None:
+    """Write the spins of a stage to the state at ``out``, whose quaternions are those of the stage.
+
+    They are brought to unit length where the step does not end: as long as they are the body would spin faster by
+    their square.
+    """
+    for i in range(S.n_integrated):
+        number = k[S.integrated + i]
+        body = body_at(S, w, k, number)
+        if body.spin < 0:
+            continue
+        q, u = out + body.q + body.quaternion, out + S.n_q + body.u + body.spin
+        stage_part(S, w, S.stages, S.spin_start + 3 * number, _slopes(S, w, k, number), 3, 3, stage, h, u)
+        _turn(w, q, u, _TO_BODY, u)
+        if stage < LAST_STAGE:
+            square = w[q] * w[q] + w[q + 1] * w[q + 1] + w[q + 2] * w[q + 2] + w[q + 3] * w[q + 3]
+            size = math.sqrt(square)
+            w[S.quaternion_length + number] = size
+            factor = 1.0 / size
+            for j in range(4):
+                w[q + j] *= factor
+
+
+@kernel("void(S, F, I, f8, i8)")
+def weigh_spins(S: Scalars, w: Floats, k: Integers, h: float, out: int) -> None:
+    """Write the errors of the spins in a step of ``h`` to ``out``, along the bodies where the step ends."""
+    for i in range(S.n_integrated):
+        number = k[S.integrated + i]
+        body = body_at(S, w, k, number)
+        if body.spin < 0:
+            continue
+        u = out + S.n_q + body.u + body.spin
+        weigh_part(S, w, S.error_weights, _slopes(S, w, k, number), 3, 3, h, u)
+        _turn(w, S.y_new + body.q + body.quaternion, u, _TO_BODY, u)
+
+
+@kernel("void(S, F, I, i8, v3, v3, i8)")
+def spin_within(S: Scalars, w: Floats, k: Integers, number: int, early: Vector, late: Vector, out: int) -> None:
+    """Write the spin of one body within the step to the state at ``out``, whose quaternion is the one there.
+
+    An implicit step has its interpolant along the bodies.
+    """
+    body = body_at(S, w, k, number)
+    if body.spin < 0 or S.stage_time > 0.0:
+        return
+    u = out + S.n_q + body.u + body.spin
+    dense_part(w, S.spin_start + 3 * number, _slopes(S, w, k, number), 3, 3, early, late, u)
+    _turn(w, out + body.q + body.quaternion, u, _TO_BODY, u)

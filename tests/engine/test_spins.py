@@ -1,0 +1,51 @@
+"""Spins along axes in space: of the order of the steps, and unseen by gaps about an axis of revolution."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+import nonsmooth as ns
+from bodies import Dumbbell, Plate
+from laws import Coulomb, NewtonImpact, Unilateral
+
+G, MU = 9.81, 0.2
+
+
+def _dumbbell(spin: float, tolerance: float, t_end: float, height: float = 0.0) -> ns.Solution:
+    """Return the run of a tilted dumbbell that slides over its lower ball and spins about its rod."""
+    plate, body = Plate(), Dumbbell()
+    system = ns.System([plate, body], G)
+    system.contact(plate, body, normal=Unilateral(), friction=Coulomb(MU), impact=NewtonImpact(0.5))
+    tilt, half = 0.3, 0.5 * body.centre_distance
+    system.place(
+        body,
+        position=(half * math.cos(tilt), 0.0, height + body.radius + half * math.sin(tilt)),
+        orientation=(math.cos(0.5 * tilt), 0.0, -math.sin(0.5 * tilt), 0.0),
+        velocity=(0.2, 0.3, 0.0),
+        angular_velocity=(spin, 0.0, 0.0),
+    )
+    return ns.simulate(system, t_end, engine=ns.EventDriven(tolerance=tolerance))
+
+
+def test_order_of_a_spin() -> None:
+    """Fifth order: the error falls with the fifth power of the work, and stays within the tolerance times a bound."""
+    truth = _dumbbell(300.0, 1e-13, 0.01)
+    assert truth.events.causes() == ["start"]
+    tolerances = 10.0 ** -np.arange(5.0, 12.0, 1.0)
+    runs = [_dumbbell(300.0, float(tolerance), 0.01) for tolerance in tolerances]
+    errors = np.array([np.max(np.abs(run.u_end[3:] - truth.u_end[3:])) for run in runs])
+    work = np.array([run.counters.steps + run.counters.rejected for run in runs], dtype=float)
+    assert -np.polyfit(np.log(work), np.log(errors), 1)[0] >= 4.8
+    assert np.all(errors <= 1e4 * tolerances)
+
+
+def test_a_spin_about_the_rod_asks_for_no_looks_at_gaps() -> None:
+    """It moves no surface along its normal: flights of the dumbbell are looked at as often as without it."""
+    still, spinning = (_dumbbell(spin, 1e-9, 0.12, height=0.01) for spin in (0.0, 500.0))
+    assert [len(run.events) > 3 for run in (still, spinning)] == [True, True]
+    looks, flights = spinning.counters.gap_looks, len(spinning.events)
+    assert looks <= 4 * flights
+    assert spinning.counters.limits.get("turning in flight", 0) == 0
+    assert still.counters.gap_looks <= 4 * len(still.events)
