@@ -157,7 +157,7 @@ def test_radii_of_curvature_are_derivatives_of_the_support_point(along: float, a
 
 
 def test_smooth_bodies_slide_on_each_other_in_few_steps() -> None:
-    """What a stage overlaps has a gap, however far it is from the state: a superellipsoid slides on a held ellipsoid."""
+    """What a stage overlaps has a gap, however far from the state: a superellipsoid slides on a held ellipsoid."""
     held = DrivenBody(Rest(), (Ellipsoid(0.0146, 0.013, 0.0094),))
     body = SuperellipsoidBody(0.0151, 0.0101, 0.0159, 0.46, 0.64, density=1200.0)
     system = ns.System([held, body], gravity=9.81)
