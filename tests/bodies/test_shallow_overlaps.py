@@ -1,6 +1,6 @@
 """Bodies that springs let into each other by a hundredth of their size: some contact of theirs holds them apart.
 
-An edge that crosses another one, or a rim, next to its end is one even where it is deeper than a quarter of the way to
+An edge that crosses another one, or a rim, next to its end is a contact even where it is deeper than a quarter of the way to
 there, as long as a point of it is inside of the other body: else nothing keeps the bodies from passing.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bodies import BoxBody, CylinderBody, HullBody
+from bodies import BoxBody, ConeBody, CylinderBody, HullBody
 from laws import Frictionless, LinearCompliant
 from nonsmooth.engine.memory.blocks import GAP, PAST_END
 from nonsmooth.engine.native.kernel import PLAIN
@@ -21,6 +21,7 @@ from tests.bodies.carriers import Rig
 CORNERS = ((0.0, 0.0, 0.01), (0.01, 0.0, -0.005), (-0.006, 0.008, -0.004), (-0.005, -0.009, -0.003))
 BODIES: dict[str, Body] = {
     "box": BoxBody(0.01, 0.008, 0.006),
+    "cone": ConeBody(0.01, 0.02, foot_height=0.0),
     "cylinder": CylinderBody(0.01, 0.008, foot_height=0.0),
     "hull": HullBody(CORNERS),
 }
@@ -41,7 +42,17 @@ def _touching(one: Body, two: Body, axes: np.ndarray, off: np.ndarray, way: np.n
 
 
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
-@pytest.mark.parametrize("names", [("box", "box"), ("cylinder", "box"), ("hull", "box"), ("cylinder", "hull")])
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("box", "box"),
+        ("cylinder", "box"),
+        ("hull", "box"),
+        ("cylinder", "hull"),
+        ("cylinder", "cylinder"),
+        ("cylinder", "cone"),
+    ],
+)
 def test_some_contact_tells_of_a_shallow_overlap(names: tuple[str, str]) -> None:
     """Of 300 poses every one has a contact whose features face each other, with a negative gap."""
     one, two = (BODIES[name] for name in names)
