@@ -61,13 +61,10 @@ def _evaluate(
     ox, oy, oz = u[3], u[4], u[5]
     put(out, POSITION, q[0], q[1], q[2])
     put(out, VELOCITY, u[0], u[1], u[2])
-    # a rotation whatever the length of the quaternion, which within a step is not 1: evaluators rely on unit axes
-    aa, bb, cc, dd = a * a, b * b, c * c, d * d
-    unit = 1.0 / (aa + bb + cc + dd)
-    double = 2.0 * unit
-    xx, xy, xz = unit * (aa + bb - cc - dd), double * (b * c - a * d), double * (b * d + a * c)
-    yx, yy, yz = double * (b * c + a * d), unit * (aa - bb + cc - dd), double * (c * d - a * b)
-    zx, zy, zz = double * (b * d - a * c), double * (c * d + a * b), unit * (aa - bb - cc + dd)
+    # homogeneous in the quaternion, so that its length does not matter between two normalisations
+    xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
+    yx, yy, yz = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
+    zx, zy, zz = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
     put(out, ROTATION, xx, xy, xz)
     put(out, ROTATION + 3, yx, yy, yz)
     put(out, ROTATION + 6, zx, zy, zz)

@@ -1,7 +1,7 @@
 """Bodies that springs let into each other by a hundredth of their size: some contact of theirs holds them apart.
 
-An edge that crosses another one, or a rim, next to its end is a contact even where it is deeper than a quarter of the way to
-there, as long as a point of it is inside of the other body: else nothing keeps the bodies from passing.
+An edge that crosses another one, or a rim, next to its end is a contact even where it is deeper than a quarter of the
+way to there, as long as a point of it is inside of the other body: else nothing keeps the bodies from passing.
 """
 
 from __future__ import annotations
