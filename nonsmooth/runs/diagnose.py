@@ -25,6 +25,7 @@ from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.blocks import blocks
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.pools import failed_search
+from nonsmooth.runs.squeezed import squeezed
 from nonsmooth.runs.unexplained import unexplained
 
 
@@ -42,6 +43,8 @@ def culprit(model: LaidOut, status: int) -> str:
 def _culprit(model: LaidOut, status: int) -> str:
     if status in (GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return unexplained(model, status)
+    if found := squeezed(model, status):
+        return found
     found = (_in_the_map(model) if status == NOT_FINITE else "") or failed_search(model.memory, model.system.contacts)
     found = found or _in_the_blocks(model)
     if found or status not in (NOT_FINITE, STEP_TOO_SMALL):

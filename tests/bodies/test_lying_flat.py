@@ -15,13 +15,15 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from bodies import Ball, ConeBody, CylinderBody, Disc, DiscBody, Plane, Plate, Rest
 from bodies.shapes.feet import USUAL
-from laws import NewtonImpact
+from laws import EnergeticImpact, Frictionless, LinearCompliant, NewtonImpact, Unilateral
+from nonsmooth.engine.memory.blocks import GAP
 from scenarios.rolling_disc import steady
 from tests.bodies.carriers import Rig
 
 Array = NDArray[np.float64]
 
 GRAVITY = 9.81
+LAWS: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(0.5)}
 R = 0.05
 DISC, CYLINDER, CONE = DiscBody(R, mass=0.2), CylinderBody(R, 0.02, mass=0.2), ConeBody(R, 0.06, mass=0.2)
 STANDS = {DISC: USUAL * R, CYLINDER: 0.02, CONE: 0.015}
@@ -249,3 +251,39 @@ def test_a_ball_beside_a_body_with_feet(build: Any) -> None:
     assert len(build.over(one).contacts) == 2 + 6
     assert len(build.over(other).contacts) == 2
     assert len(build.over(DISC).contacts) == 1 + 6
+
+
+@pytest.mark.parametrize("tilt", [1e-6, 1e-4, 1e-2])
+def test_springs_that_press_the_feet_in_let_it_settle(tilt: float) -> None:
+    """Its face touches the plane then, and its force goes from one side of the rim to the other without a jump."""
+    plate = Plate()
+    system = ns.System([plate, DISC])
+    system.contact(plate, DISC, normal=LinearCompliant(1e4, 0.5), friction=Frictionless(), impact=None)
+    system.place(DISC, position=(0.0, 0.0, 0.02), orientation=_about((1.0, 0.3, 0.0), tilt))
+    solution = ns.simulate(system, 0.3)
+    assert solution.status == "done"
+    assert solution.energy.unexplained < 1e-7 * solution.energy.scale
+    assert solution.counters.steps < 5000
+
+
+def test_the_crown_within_the_feet_touches_no_plane_that_they_stand_on() -> None:
+    """Of a disc over a plane the rim's gap is that of the feet at least up to 1.5 f / R, where it stands on both."""
+    rig = Rig((Plane(), Disc(R, foot_height=USUAL * R)), {**LAWS})
+    for tilt in np.linspace(0.0, 1.5 * USUAL, 40).tolist():
+        rig.put(((np.zeros(3), (1.0, 0.0, 0.0, 0.0)), ((0.0, 0.0, R), _about((1.0, 0.3, 0.0), tilt))), np.zeros(12))
+        gaps = rig.geometry[:, GAP]
+        assert gaps[0] >= np.min(gaps[1:]) - 1e-12 * R
+
+
+def test_the_crown_goes_over_into_the_rim() -> None:
+    """Gap and lowest point of the face are continuous in the tilt, and the point is where the gap's rate is its own."""
+    rig = Rig((Plane(), Disc(R, foot_height=USUAL * R)), {**LAWS})
+    spin = np.array([0.0] * 9 + [1.0, 0.0, 0.0])
+    tilts = USUAL * np.linspace(0.01, 2.0, 400)
+    rows = []
+    for tilt in tilts.tolist():
+        rig.put(((np.zeros(3), (1.0, 0.0, 0.0, 0.0)), ((0.0, 0.0, R), _about((1.0, 0.0, 0.0), tilt))), spin)
+        rows.append([rig.geometry[0, GAP], rig.rate[0, 0]])
+    gaps, rates = np.array(rows).T
+    step = tilts[1] - tilts[0]
+    np.testing.assert_allclose(np.diff(gaps) / step, 0.5 * (rates[1:] + rates[:-1]), rtol=0.0, atol=2e-3 * R)

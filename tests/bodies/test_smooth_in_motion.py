@@ -18,6 +18,7 @@ from bodies import (
     BoxBody,
     CapsuleBody,
     DrivenBody,
+    Ellipsoid,
     EllipsoidBody,
     Plate,
     Rest,
@@ -153,3 +154,16 @@ def test_radii_of_curvature_are_derivatives_of_the_support_point(along: float, a
         np.array(support_of(core, *(n + e).tolist())[1:4]) - support_of(core, *(n - e).tolist())[1:4] for e in step
     ]
     np.testing.assert_allclose(np.array(points) / 2e-6, second, rtol=0, atol=1e-6)
+
+
+def test_smooth_bodies_slide_on_each_other_in_few_steps() -> None:
+    """What a stage overlaps has a gap, however far from the state: a superellipsoid slides on a held ellipsoid."""
+    held = DrivenBody(Rest(), (Ellipsoid(0.0146, 0.013, 0.0094),))
+    body = SuperellipsoidBody(0.0151, 0.0101, 0.0159, 0.46, 0.64, density=1200.0)
+    system = ns.System([held, body], gravity=9.81)
+    system.contact(held, body, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.0))
+    ns.touching(system, body, position=(0.002, 0.001, 0.03), angular_velocity=(15.0, -20.0, 10.0))
+    solution = ns.simulate(system, 0.01)
+    assert solution.counters.steps < 100
+    assert solution.counters.rejected < 20
+    assert solution.energy.unexplained < 1e-9 * solution.energy.scale

@@ -25,8 +25,9 @@ from bodies import (
     Sphere,
 )
 from bodies.contacts.plane.plane_point import evaluate_ball_over_plane
-from laws import EnergeticImpact, Frictionless, Unilateral
+from laws import Cohesive, EnergeticImpact, Frictionless, LinearCompliant, Unilateral
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import PAST_END
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, ContactKinematics, Joint, Shape
@@ -90,10 +91,26 @@ class ShortNormal(JumpingGap):
         return short_normal
 
 
-def _over(gap: JumpingGap, z: float, gravity: float) -> ns.System:
+def ending(a: Floats, b: Floats, out: Floats, depth: float, radius: float) -> None:
+    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
+    out[PAST_END] = depth if b[0] > 0.05 else -1.0
+    if b[0] > 0.05 and out[0] > 0.0:
+        out[0] += depth
+
+
+@dataclass(frozen=True)
+class Ending(JumpingGap):
+    """A ball over a plane that ends there: past x = 0.05 the features are past their end, a gap is no distance."""
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        return ending
+
+
+def _over(gap: JumpingGap, z: float, gravity: float, laws: Mapping[str, Any] = LAWS) -> ns.System:
     plate, ball = Plate(Rest()), Ball(RADIUS, 7800.0)
     system = ns.System([plate, ball], gravity)
-    system.contact(plate, ball, **LAWS)
+    system.contact(plate, ball, **laws)
     system._contacts[0] = dataclasses.replace(system.contacts[0], kinematics=gap)
     system.place(ball, position=(0.0, 0.0, z), velocity=(1.0, 0.0, 0.0))
     return system
@@ -138,6 +155,25 @@ def test_a_gap_of_an_open_contact_that_jumps_below_zero_ends_the_run_by_name() -
     with pytest.raises(ns.RunFailed, match=r"the gap is -0\.04 m.*jumping_gap") as caught:
         ns.simulate(_over(JumpingGap(0.05), 2.0 * RADIUS, 0.0), 0.1)
     assert _kept(caught.value).q_end[2] == pytest.approx(2.0 * RADIUS, abs=1e-11)
+
+
+SPRING: Mapping[str, Any] = {"normal": LinearCompliant(1e4), "friction": Frictionless(), "impact": None}
+
+
+def test_bodies_that_springs_hold_do_not_pass_where_their_contact_ends() -> None:
+    """A ball that a spring lets into a plane loses its contact, and has no other: it would fall through the plane."""
+    with pytest.raises(ns.RunFailed, match=r"plate - ball.*the gap is -[0-9.]+e-05 m.*ending") as caught:
+        ns.simulate(_over(Ending(1e-6), RADIUS, 9.81, SPRING), 0.1)
+    assert _kept(caught.value).q_end[0] == pytest.approx(0.05, abs=1e-9)
+
+
+def test_the_end_of_a_contact_that_jumps_is_an_event() -> None:
+    """A spring holds a ball under a ceiling, and behind the end it would pull with 1 m: no step leads there."""
+    pulls: Mapping[str, Any] = {**SPRING, "normal": Cohesive(1e4, 1.0)}
+    solution = ns.simulate(_over(Ending(1.0), RADIUS, -9.81, pulls), 0.1)
+    assert solution.status == "done"
+    assert solution.events.causes()[-1] == "end of a feature"
+    assert solution.events.time[-1] == pytest.approx(0.05, abs=2e-11)
 
 
 @pytest.mark.parametrize("angle", [1e-3, 1e-5, 1e-7, 1e-9])

@@ -69,14 +69,12 @@ def evaluate_flank_edge(
     away = ex * px + ey * py - gap * cosine
     up = cosine * (pz - gap * nz - frustum[LOW]) - sine * (away - frustum[0])
     over = max(max(-s, s - edge[LENGTH]), max(-up, up - frustum[SIDE]))
-    past = past_end(gap, over, abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz), size)
     if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
         # no normal is across both
-        past, over = max(past, size), size
+        over = size
     qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
-    overlap = 0.0
-    if past > 0.0:
-        overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, px, py, pz, cx, cy, cz)
+    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, px, py, pz, cx, cy, cz)
+    past = past_end(gap, over, abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz), overlap, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
     write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, nx, ny, nz, qx, qy, qz, overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)

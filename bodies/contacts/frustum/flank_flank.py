@@ -79,16 +79,16 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
         s = (nx * (wy * vz - wz * vy) + ny * (wz * vx - wx * vz) + nz * (wx * vy - wy * vx)) / cross
         t = (nx * (wy * uz - wz * uy) + ny * (wz * ux - wx * uz) + nz * (wx * uy - wy * ux)) / cross
     over = max(max(-s, s - first[SIDE]), max(-t, t - second[SIDE]))
-    past = max(past_border(gap, over, 0.0, size), size * (PARALLEL - abs(cross)))
     if none or abs(cross) <= 1e-6:
-        past, over = max(past, size), size
+        over = size
     px, py, pz = px + s * ux, py + s * uy, pz + s * uz
     qx, qy, qz = px + gap * nx, py + gap * ny, pz + gap * nz
     away_a = first[0] - first[SIN] * s
     away_b = second[0] - second[SIN] * t
     overlap = 0.0
-    if past > 0.0 and over <= 0.0:
+    if over <= 0.0:
         overlap = overlap_of(a, first, b, second, gap, size, (px, py, pz), (nx, ny, nz))
+    past = max(past_border(gap, over, 0.0, overlap, size), size * (PARALLEL - abs(cross)))
     write_two(a, out, 0.0, first, second, gap, past, nx, ny, nz, px, py, pz, overlap)
     write_side(out, 0.0, first, FLANK, ax, ay, az, px - cx, py - cy, pz - cz, nx, ny, nz, max(away_a, 0.0))
     write_side(out, 1.0, second, FLANK, bx, by, bz, qx - kx, qy - ky, qz - kz, -nx, -ny, -nz, max(away_b, 0.0))

@@ -26,7 +26,7 @@ PARALLEL = 0.01
 _ASTRAY = 0.25
 """Sine of the angle by which the normal may leave the normals of a body: what may soon close is followed."""
 _INSIDE = 4.0
-"""What overlaps does so only where it crosses so many depths away from its ends."""
+"""Where no point is found inside, what overlaps does so only where it crosses so many depths away from its ends."""
 
 
 def size_of_both(first: Frustum, second: SweptPolytope) -> float:
@@ -56,13 +56,14 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
 
 
 @compiled
-def past_end(gap: float, over: float, sine: float, astray: float, size: float) -> float:
+def past_end(gap: float, over: float, sine: float, astray: float, overlap: float, size: float) -> float:
     """Return how far a crossing is past its ends, by the way over them, the sine of the crossing and the normal.
 
-    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.
+    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.  Where a point of
+    either is inside of the other, by a negative ``overlap``, it holds up to its ends.
     """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - _ASTRAY))
-    if gap < 0.0:
+    if gap < 0.0 and overlap >= -DEEP * size:
         past = max(past, over - _INSIDE * gap - REACH * size)
     return past
 

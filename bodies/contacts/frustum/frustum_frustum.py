@@ -66,7 +66,10 @@ def _evaluate(
     px, py, pz = cx + radius * ex, cy + radius * ey, cz + radius * ez
     along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
     gap = up * (along - height)
-    past = past_border(gap, away - wide, 0.0, size)
+    overlap = 0.0
+    if away <= wide:
+        overlap = overlap_of(own, first, other, second, gap, size, (px, py, pz), (nx, ny, nz))
+    past = past_border(gap, away - wide, 0.0, overlap, size)
     if gap < 0.0 and second[SIDE] == 0.0 and first[SWEEP] + second[SWEEP] > 0.0:
         # at a distance from a disc on its other side
         past = max(past, size)
@@ -91,9 +94,6 @@ def _evaluate(
         past = max(past, inside - REACH * size)
     # deep in the body the other cap, or the side, is nearer
     past = max(past, -gap - 0.5 * max(second[HIGH] - second[LOW], 0.1 * size))
-    overlap = 0.0
-    if past > 0.0 and away <= wide:
-        overlap = overlap_of(own, first, other, second, gap, size, (px, py, pz), (nx, ny, nz))
     write_two(a, out, swap, first, second, gap, past, nx, ny, nz, px, py, pz, overlap)
     write_side(out, swap, first, LOW_RIM, ax, ay, az, ex, ey, ez, nx, ny, nz, radius)
     write_side(out, 1.0 - swap, second, part, bx, by, bz, fx, fy, fz, -nx, -ny, -nz, away)

@@ -20,17 +20,18 @@ Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
 """Sine of the angle by which the normal may leave the normals of a rim: what may soon close is followed."""
 _INSIDE = 4.0
-"""What overlaps does so only where it is so many depths away from its ends."""
+"""Where no point is found inside, what overlaps does so only where it is so many depths away from its ends."""
 
 
 @compiled
-def past_border(gap: float, over: float, astray: float, size: float) -> float:
+def past_border(gap: float, over: float, astray: float, overlap: float, size: float) -> float:
     """Return how far features are past their ends, by the way over them and the sine by which the normal leaves.
 
-    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.
+    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.  Where a point of
+    either is inside of the other, by a negative ``overlap``, the features hold up to their ends.
     """
     past = max(over - REACH * size, size * (astray - ASTRAY))
-    if gap < 0.0:
+    if gap < 0.0 and overlap == 0.0:
         past = max(past, over - _INSIDE * gap - REACH * size)
     return past
 

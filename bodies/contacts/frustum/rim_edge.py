@@ -173,18 +173,15 @@ def evaluate_rim_edge(
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = flip * ahead
     over = max(-s, s - edge[LENGTH])
-    past = past_end(gap, over, crossing, astray, size)
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
-        past, over = max(past, size), size
+        over = size
     qx, qy, qz = forth(axes, px, py, pz)
-    if past <= 0.0 and total == 0.0 and n_faces > 0.0 and gap < -THROUGH * size:
-        wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
-        if _aside(b, frustum, n_faces, faces, cx + qx, cy + qy, cz + qz, wx, wy, wz):
-            past = -gap
-    overlap = 0.0
-    if past > 0.0:
-        wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
-        overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, wx, wy, wz, cx, cy, cz)
+    wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
+    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, wx, wy, wz, cx, cy, cz)
+    past = past_end(gap, over, crossing, astray, overlap, size)
+    deep = past <= 0.0 and total == 0.0 and n_faces > 0.0 and gap < -THROUGH * size
+    if deep and _aside(b, frustum, n_faces, faces, cx + qx, cy + qy, cz + qz, wx, wy, wz):
+        past = -gap
     qx, qy, qz = cx + qx, cy + qy, cz + qz
     write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, nx, ny, nz, qx, qy, qz, overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)

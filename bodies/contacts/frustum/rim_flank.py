@@ -159,18 +159,17 @@ def _evaluate(
     if first[SWEEP] + second[SWEEP] > 0.0:
         # as far as the other rim takes over, along which the lowest point may go much farther
         over -= _BEYOND * size
-    past = past_border(gap, over, astray, size)
     if not found or (steep and half < 0.0):
-        past, over = max(past, size), size
-    # deep in the body a cap is nearer
-    past = max(past, -gap - 0.5 * second[0])
+        over = size
     wx, wy, wz = forth(axes, nx, ny, nz)
     px, py, pz = forth(axes, x, y, z)
     ux, uy, uz = forth(axes, ox, oy, oz)
     overlap = 0.0
-    if past > 0.0 and over <= 0.0:
+    if over <= 0.0:
         point = (kx + px, ky + py, kz + pz)
         overlap = overlap_of(own, first, other, second, gap, size, point, (wx, wy, wz))
+    # deep in the body a cap is nearer
+    past = max(past_border(gap, over, astray, overlap, size), -gap - 0.5 * second[0])
     write_two(a, out, swap, first, second, gap, past, wx, wy, wz, kx + px, ky + py, kz + pz, overlap)
     write_side(out, swap, first, part, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
     away = max(away - gap * cosine, 0.0)

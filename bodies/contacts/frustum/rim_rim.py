@@ -209,7 +209,7 @@ def _evaluate(
             astray, flip = off, sign
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = nx * wx + ny * wy + nz * wz
-    past = max(past_border(gap, -size, astray, size), size * (_PARALLEL - crossing))
+    past = max(past_border(gap, -size, astray, 0.0, size), size * (_PARALLEL - crossing))
     if total > 0.0:
         # along sides it is the rims over the other's side that hold
         lean = size

@@ -9,7 +9,7 @@ from typing import ClassVar, final
 from bodies.contacts.plane.plane_rim import evaluate_rim_over_plane
 from bodies.contacts.plane.plane_sphere import PlaneSphere
 from bodies.contacts.plane.plane_vertex import PlaneVertex
-from bodies.shapes.frustum import AXIS, Frustum, Point
+from bodies.shapes.frustum import AXIS, FEET, Frustum, Point
 from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
@@ -23,6 +23,10 @@ class PlaneFrustum(ContactKinematics):
     Two rims, or a rim and the apex, hold a body that lies on its side.  A rim that lies flat has no lowest point: the
     numbers stay finite, but a single contact cannot hold it.  Its feet can, each a contact of its own.  A rounded body
     has a torus about every rim, and spheres about its apex and the tips of its feet.
+
+    Where springs press feet into the plane the face comes to touch it, and would lie now on one point of the rim, now
+    on the opposite one, without anything between.  So the face has a crown, half as high as the feet, which on a plane
+    is touched only where these are pressed in.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Frustum)
@@ -36,6 +40,7 @@ class PlaneFrustum(ContactKinematics):
     axis_z: float = parameter(doc="unit axis in its body frame, third component")
     height: float = parameter(doc="height of the plane in its body frame", unit="m")
     rounding: float = parameter(0.0, doc="radius of the torus about a rounded rim", unit="m", minimum=0.0)
+    crown: float = parameter(0.0, doc="sine at the rim of the cap of a sphere within the feet", minimum=0.0)
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
@@ -49,7 +54,7 @@ class PlaneFrustum(ContactKinematics):
             return PlaneSphere(sweep, *place, height) if sweep > 0.0 else PlaneVertex(*place, height)
 
         rims = (
-            cls(radius, *center, *axis, height, sweep) if radius > 0.0 else point(center)
+            cls(radius, *center, *axis, height, sweep, second.frustum[FEET] / radius) if radius > 0.0 else point(center)
             for radius, center in second.standing_rims
         )
         return *rims, *(point(foot) for foot in second.feet)

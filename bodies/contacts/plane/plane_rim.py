@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from bodies.contacts.features.across import across
 from bodies.contacts.features.curvature import write_principal, write_sweep
 from bodies.contacts.features.frames import point_in_world, vector_in_world
@@ -39,19 +41,25 @@ def evaluate_rim_over_plane(
     axis_z: float,
     height: float,
     rounding: float,
+    crown: float,
 ) -> None:
     """Write the geometry block of the lowest point of the rim, or of the torus about it.
 
     For a rim that lies flat all points are lowest; the one is taken that its turning makes the lowest, and stands for a
     rim that is :data:`FLATTEST`.  One that hardly turns has its lowest point on a crown, by which a face is not quite
-    flat: the middle of it where it lies flat, a point of the rim where that is :data:`FLATTEST`.
+    flat: the middle of it where it lies flat, a point of the rim where that is :data:`FLATTEST`.  A face whose feet
+    stand out beyond a ``crown`` has a larger one, a cap of a sphere with that sine at the rim.
     """
     x, y, z = point_in_world(b, x, y, z)
     axis_x, axis_y, axis_z = vector_in_world(b, axis_x, axis_y, axis_z)
     n_x, n_y, n_z = a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8]
-    _, sine, down_x, down_y, down_z = across(-n_x, -n_y, -n_z, axis_x, axis_y, axis_z)
-    reach, flat, turn, below = radius, 1.0, 0.0, rounding
-    if sine < FLATTEST:
+    along, sine, down_x, down_y, down_z = across(-n_x, -n_y, -n_z, axis_x, axis_y, axis_z)
+    reach, flat, turn, below, out_of_rim = radius, 1.0, 0.0, rounding, 0.0
+    if FLATTEST < crown > sine:
+        reach, flat, turn = radius * sine / crown, crown, radius
+        sum_of_cosines = math.sqrt(1.0 - crown * crown) + math.sqrt(1.0 - sine * sine)
+        out_of_rim = math.copysign(radius / crown * (crown * crown - sine * sine) / sum_of_cosines, along)
+    elif sine < FLATTEST:
         turning, soon_x, soon_y, soon_z = _soonest(a, b, axis_x, axis_y, axis_z)
         if turning > _STILL:
             down_x, down_y, down_z = soon_x, soon_y, soon_z
@@ -60,9 +68,10 @@ def evaluate_rim_over_plane(
         # the gap is that of the rim's lowest point all the same
         below += radius * sine + reach * (down_x * n_x + down_y * n_y + down_z * n_z)
     x, y, z = x + reach * down_x, y + reach * down_y, z + reach * down_z
+    x, y, z = x + out_of_rim * axis_x, y + out_of_rim * axis_y, z + out_of_rim * axis_z
     place_over_plane(a, out, x - below * n_x, y - below * n_y, z - below * n_z, height)
     rim_x = axis_y * down_z - axis_z * down_y
     rim_y = axis_z * down_x - axis_x * down_z
     rim_z = axis_x * down_y - axis_y * down_x
-    write_principal(out, SIDE_B, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, flat, turn)
+    write_principal(out, SIDE_B, rim_x, rim_y, rim_z, max(sine, crown, FLATTEST), radius, flat, turn)
     write_sweep(out, SIDE_B, rounding)

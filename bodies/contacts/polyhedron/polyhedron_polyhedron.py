@@ -104,7 +104,7 @@ def _evaluate(
             past = max(past, size * (minus - _ASTRAY))
         else:
             past = max(past, size * (plus - _ASTRAY))
-            if gap < 0.0:
+            if gap < 0.0 and not deep:
                 past = max(past, over - _INSIDE * gap - margin)
         if deep and past > 0.0:
             # they overlap elsewhere: no contact of these edges, but a sign that another one was passed

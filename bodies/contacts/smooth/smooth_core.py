@@ -5,6 +5,7 @@ A core is the tuple of :func:`bodies.shapes.smooth.core_numbers`.
 
 from __future__ import annotations
 
+import math
 from typing import TypeAlias
 
 from bodies.shapes.support_function import Support, support_of
@@ -43,6 +44,25 @@ def axes_in_world(frame: Floats, core: Floats) -> Axes:
         f[9] * c[9] + f[10] * c[12] + f[11] * c[15],
         f[9] * c[10] + f[10] * c[13] + f[11] * c[16],
         f[9] * c[11] + f[10] * c[14] + f[11] * c[17],
+    )
+
+
+@compiled
+def unit_axes_in_world(frame: Floats, core: Floats) -> Axes:
+    """Return the same, of length 1: within a step a quaternion is not, and the axes are as long as its square."""
+    found = axes_in_world(frame, core)
+    x, y, z = found[0], found[1], found[2]
+    part = 1.0 / math.sqrt(x * x + y * y + z * z)
+    return (
+        part * x,
+        part * y,
+        part * z,
+        part * found[3],
+        part * found[4],
+        part * found[5],
+        part * found[6],
+        part * found[7],
+        part * found[8],
     )
 
 

@@ -9,7 +9,7 @@ from typing import ClassVar, final
 from bodies.blocks import put
 from bodies.contacts.features.frames import point_in_world
 from bodies.contacts.features.tangents import write_tangent
-from bodies.contacts.smooth.smooth_core import RADIUS, axes_in_world, back, between_axes, forth
+from bodies.contacts.smooth.smooth_core import RADIUS, back, between_axes, forth, unit_axes_in_world
 from bodies.contacts.smooth.smooth_newton import widest, write_surface
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_function import OF_FUNCTION
@@ -25,7 +25,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) 
 
     The gap is nan where Newton's method does not end with a residual of round-off.
     """
-    axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
+    axes_a, axes_b = unit_axes_in_world(a, first), unit_axes_in_world(b, second)
     ax, ay, az = point_in_world(a, first[6], first[7], first[8])
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
     x, y, z = back(axes_a, bx - ax, by - ay, bz - az)

@@ -39,9 +39,12 @@ def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     )
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
-    if contact.normal_function != 0 and contact.gap < 0.0 < contact.beyond:
-        # bodies that press into each other are no sign that a contact was passed
-        contact.gap = length((contact.gap, contact.beyond))
+    if contact.normal_function != 0:
+        contact.overlap = 0.0
+        if contact.gap < 0.0 < contact.beyond:
+            # bodies that press into each other are no sign that a contact was passed, as long as another one presses
+            contact.overlap = contact.gap
+            contact.gap = length((contact.gap, contact.beyond))
 
 
 @kernel("v3(F, i8, v3)")

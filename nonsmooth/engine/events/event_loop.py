@@ -21,6 +21,7 @@ from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, wanted_step
 from nonsmooth.engine.events.stopping import stopping
 from nonsmooth.engine.flow.clearance import UNKNOWN_FALL, bound_speeds
+from nonsmooth.engine.flow.ending import end_features
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, right_hand_side, slope
 from nonsmooth.engine.flow.follow import orient_slips
@@ -310,6 +311,10 @@ def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
     if status == STEP_TOO_SMALL and leap(S, w, k, S.time_tolerance) == 1:
         return _after_leap(S, w, k)
     if status == STEP_TOO_SMALL:
+        which = end_features(S, w, k)
+        if which >= 0:
+            _take_over(S, w, k, S.h)
+            return _carry_out(S, w, k, FEATURE_END, which)
         which = _hardest_pressed(S, w, k, 1)
         if which >= 0:
             outcome = _carry_out(S, w, k, JAM, which)

@@ -49,7 +49,7 @@ _WRONG_GAP = -1e3
 """A gap that is not armed fires below so many gap tolerances all the same,"""
 _WRONG_SLIP = -0.05
 """and a slip below so many velocity tolerances."""
-_LATE = 2.0
+LATE = 2.0
 """A closed contact ends so many gap tolerances past the end of its features; up to one it may close."""
 
 
@@ -57,7 +57,7 @@ _LATE = 2.0
 def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the way left to the end of the features of a closed contact, negative if it has other ones than before."""
     contact = contact_at(S, w, k, c)
-    left = _LATE * S.gap_tolerance - contact.beyond if contact.beyond != 0.0 else 1.0
+    left = LATE * S.gap_tolerance - contact.beyond if contact.beyond != 0.0 else 1.0
     if left < 0.0 or contact.feature < 0 or int(contact.feature_now) == contact.feature:
         return float(left)
     return float(-left)
@@ -205,6 +205,7 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         contact.gap_rate_end = contact.gap_rate
         contact.gap_end = contact.gap
+        contact.overlap_end = contact.overlap
         contact.past_end = contact.beyond
         contact.rate_end = contact.velocity
     for i in range(number_of_guards(S)):

@@ -51,14 +51,30 @@ def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     return float(EXPLAINED * (S.gap_tolerance + S.rtol * farthest + late) + way)
 
 
+@kernel("i8(S, F, I, i8)")
+def _presses(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if some contact of the same two frames as contact ``c`` is closed."""
+    contact = contact_at(S, w, k, c)
+    for other in range(S.n_contacts):
+        another = contact_at(S, w, k, other)
+        if another.mode != OPEN and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
+            return 1
+    return 0
+
+
 @kernel("void(S, F, I)")
 def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
-    """Look at the gaps where a step begins: open contacts must be apart, closed rigid ones closed."""
+    """Look at the gaps where a step begins: open contacts must be apart, closed rigid ones closed.
+
+    Bodies that springs let into each other overlap at other features, too, as long as one contact of theirs is closed.
+    """
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         gap = contact.gap_end
         if contact.mode == OPEN:
             gap = min(0.0, gap)
+            if contact.overlap_end < 0.0 and _presses(S, w, k, c) == 0:
+                gap = contact.overlap_end
         elif contact.normal_function != 0 or contact.beyond > 0.0:
             continue
         # looked at closely only where it is not plainly explained
@@ -132,7 +148,7 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         evaluate_geometry(S, w, k, c)
-        contact.gap_end = contact.gap
+        contact.gap_end, contact.overlap_end = contact.gap, contact.overlap
     book_mean_forces(S, w, k)
     S.scale_energy = _scale_energy(S, w, k)
     close_account(S, w, k)

@@ -63,6 +63,7 @@ ARRAYS = Arrays(
         "skew": per(4, "n_slots"),
         "motion": fixed(5),
         "compliant_force": per(1, "n_slots"),
+        "overlap": per(1, "n_slots"),
         "reach": per(1, "n_slots"),
         "closing_rate": per(1, "n_slots"),
         "turned": per(1, "n_slots"),

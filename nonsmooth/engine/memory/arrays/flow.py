@@ -73,6 +73,7 @@ ARRAYS = Arrays(
         "gap_rate_end": per(1, "n_slots"),
         "gap_first": per(1, "n_slots"),
         "gap_end": per(1, "n_slots"),
+        "overlap_end": per(1, "n_slots"),
         "past_end": per(1, "n_slots"),
         "past_first": per(1, "n_slots"),
         "speed_end": per(1, "n_slots"),

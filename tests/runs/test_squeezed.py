@@ -1,0 +1,47 @@
+"""A body that driven ones squeeze: rigid bodies have no answer, and the run says so by name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import nonsmooth as ns
+from bodies import Ball, ConstantVelocity, DrivenBody, Plate, Rest, Sphere
+from laws import Coulomb, EnergeticImpact, LinearCompliant, NewtonImpact, PlasticImpact, Unilateral
+from nonsmooth.interfaces import ImpactLaw, NormalLaw
+
+RADIUS = 0.01
+IMPACTS: list[ImpactLaw] = [EnergeticImpact(0.5), NewtonImpact(0.5), PlasticImpact()]
+
+
+def _system(normal: NormalLaw, impact: ImpactLaw | None, friction: float, aside: float) -> ns.System:
+    """Return a ball on a plate under a sphere that comes down at 0.1 m/s, ``aside`` of it."""
+    plate, ball = Plate(Rest()), Ball(RADIUS)
+    press = DrivenBody(ConstantVelocity((0.0, 0.0, -0.1), position=(aside, 0.0, 0.05)), (Sphere(0.02),))
+    system = ns.System([plate, press, ball])
+    laws: dict[str, Any] = {"normal": normal, "friction": Coulomb(friction), "impact": impact}
+    system.contact(plate, ball, **laws)
+    system.contact(press, ball, **laws)
+    system.place(ball, position=(0.0, 0.0, RADIUS))
+    return system
+
+
+@pytest.mark.parametrize("impact", IMPACTS, ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize(("friction", "aside"), [(0.5, 0.0), (0.5, 0.006)])
+def test_a_ball_between_a_plate_and_what_comes_down_on_it_is_squeezed(
+    impact: ImpactLaw, friction: float, aside: float
+) -> None:
+    """The message names the ball, both contacts, how fast, and what helps."""
+    with pytest.raises(ns.RunFailed, match=r"'ball' is squeezed.*plate - ball.*driven body - ball.*compliant"):
+        ns.simulate(_system(Unilateral(), impact, friction, aside), 0.3)
+
+
+def test_springs_have_an_answer() -> None:
+    """They give way, as the message says."""
+    assert ns.simulate(_system(LinearCompliant(1e5, 1.0), None, 0.5, 0.0), 0.21).status == "done"
+
+
+def test_what_slips_out_is_not_squeezed() -> None:
+    """The line between the points leans by more than either friction holds: the ball is pushed aside, and goes on."""
+    assert ns.simulate(_system(Unilateral(), PlasticImpact(), 0.1, 0.02), 0.35).status == "done"
