@@ -11,7 +11,7 @@ from nonsmooth.engine.contact.gauss_seidel import SWEEPS, sweep
 from nonsmooth.engine.contact.newton import step_by_newton
 from nonsmooth.engine.contact.problem import write_friction
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _EXACT = 1e-4
@@ -82,7 +82,7 @@ def _follow(S: Scalars, w: Floats, k: Integers) -> int:
     return 1 if found * _fastest(S, w, k) <= _TRUE * S.velocity_tolerance else 0
 
 
-@kernel("i8(S, F, I, f8)")
+@entry_point("i8(S, F, I, f8)")
 def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int:
     """Write to ``active_forces`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
 

@@ -49,7 +49,7 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
     A point that joints let move across one line only is wedged where that line lies within the cone of friction: slip
     and approach stop together, and the force of the contact goes into the joints.  G f = 0 means f.G f = 0, the forces
     then accelerate no part of the bodies, and so it stays: the deformation is never given back.  Rates that have next
-    to no energy count as none; they would not change either.
+    to no energy count as none, and those too slow to bounce; they would not change either.
     """
     brought = 0.0
     for a in range(S.n_active):
@@ -58,7 +58,8 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
-        if loaded and abs(active.gap_rate) > REST * math.sqrt(brought * diagonal_block(S, w, k, a).nn):
+        still = max(REST * math.sqrt(brought * diagonal_block(S, w, k, a).nn), S.slow_speed)
+        if loaded and abs(active.gap_rate) > still:
             return 0
     size = left = 0.0
     for a in range(S.n_active):
@@ -72,14 +73,14 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
-    return 1 if left <= SINGULAR * size else 0
+    return 1 if left < max(SINGULAR, S.impact_rtol) * size else 0
 
 
-@kernel("void(S, F, I)")
-def end_trapped(S: Scalars, w: Floats, k: Integers) -> None:
-    """End the phases of contacts that are trapped, if they are; what they have stored is lost to restitution."""
+@kernel("i8(S, F, I)")
+def end_trapped(S: Scalars, w: Floats, k: Integers) -> int:
+    """End the phases of contacts that are trapped, if they are (1); what they have stored is lost to restitution."""
     if _trapped(S, w, k) == 0:
-        return
+        return 0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         if active.phase == COMPRESSION or active.phase == EXPANSION:
@@ -87,6 +88,7 @@ def end_trapped(S: Scalars, w: Floats, k: Integers) -> None:
             active.phase = IDLE
             empty(S, w, a)
             S.phases += 1
+    return 1
 
 
 @kernel("i8(S, F, I)")

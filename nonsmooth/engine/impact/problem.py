@@ -380,6 +380,10 @@ def _go_on(S: Scalars, w: Floats, k: Integers, shortest: float) -> None:
         S.phases += 1
         return
     _orient(S, w, k)
+    if end_trapped(S, w, k) == 1:
+        prepare_guards(S, w, k)
+        write_impact_slope(S, w, k, S.impact_slopes)
+        return
     arm_impact_guards(S, w, k)
     n = STRIDE * S.n_active
     for i in range(n):

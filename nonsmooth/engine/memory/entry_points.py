@@ -24,6 +24,7 @@ ENTRY_POINTS = (
     "evaluate_contact",
     "locate_switch",
     "gauss_seidel",
+    "inelastic_impulses",
     "solve_doubtful",
     "choose_friction",
     "slope",

@@ -1,0 +1,76 @@
+"""The inelastic impact on Coulomb's cone, where contacts wedge and repeat each other."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from laws import Coulomb
+from nonsmooth.contact import _memory
+from nonsmooth.engine.contact import inelastic
+from nonsmooth.engine.native.kernel import PLAIN, call_entry
+from nonsmooth.model.delassus import write_delassus
+
+Floats = NDArray[np.float64]
+FRICTION = 0.8
+REST = 1e-8
+"""Velocity that counts as none [m/s]."""
+
+
+def wedged(seed: int) -> tuple[Floats, Floats]:
+    """Return the Delassus matrix and the rates of balls with two contacts each, with walls and with one another.
+
+    Normals are drawn, so that some wedge, and there may be more contacts than motions.
+    """
+    random = np.random.default_rng(seed)
+    n = int(random.integers(3, 7))
+    jacobian = np.zeros((6 * n, 6 * n))
+    for contact in range(2 * n):
+        first, second = random.choice(n, 2, replace=False)
+        meets_wall = random.random() < 0.5
+        axes = np.linalg.qr(random.normal(size=(3, 3)))[0]
+        for r, axis in enumerate(axes):
+            row, turn = jacobian[3 * contact + r], np.cross(axes[0], axis)
+            row[6 * first : 6 * first + 6] = [*axis, *-turn]
+            if not meets_wall:
+                row[6 * second : 6 * second + 6] = [*-axis, *-turn]
+    mobility = np.tile([1.0, 1.0, 1.0, 2.5, 2.5, 2.5], n) * np.repeat(random.choice([1.0, 7.0], n), 6)
+    return (jacobian * mobility) @ jacobian.T, jacobian @ random.normal(size=6 * n)
+
+
+def impact(delassus: Floats, rates: Floats) -> tuple[bool, Floats]:
+    """Return whether impulses are found, and them, shape [n, 3]."""
+    n = len(rates) // 3
+    memory = _memory([Coulomb(FRICTION)] * n, 0)
+    write_delassus(memory, delassus)
+    memory.scalars["velocity_tolerance"] = REST
+    memory.array("free_accelerations", 3 * n)[:] = rates
+    found = call_entry("inelastic_impulses", memory, 1.0) == 1
+    return found, memory.array("active_forces", 3 * n).reshape(n, 3).copy()
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_impulses_keep_the_laws(seed: int) -> None:
+    """None pulls, all are in their cones, what moves rubs against its motion, and the energy does not grow."""
+    delassus, rates = wedged(seed)
+    found, impulses = impact(delassus, rates)
+    assert found
+    after = (rates + delassus @ impulses.ravel()).reshape(-1, 3)
+    own = np.diag(delassus).reshape(-1, 3)
+    normal, friction = impulses[:, 0], impulses[:, 1:]
+    assert np.all(normal >= -1e-9 * np.max(normal))
+    np.testing.assert_allclose(np.minimum(own[:, 0] * normal, after[:, 0]), 0.0, rtol=0, atol=REST)
+    pull, speed = np.hypot(*friction.T), np.hypot(*after[:, 1:].T)
+    assert np.all(pull <= FRICTION * normal + 1e-9 * np.max(normal))
+    moves = (speed > 1e3 * REST) & (own[:, 0] * normal > REST)
+    against = -FRICTION * normal[moves, None] * after[moves, 1:] / speed[moves, None]
+    np.testing.assert_allclose(friction[moves], against, rtol=0, atol=1e-5 * np.max(normal))
+    assert impulses.ravel() @ (rates + after.ravel()) <= 0.0
+
+
+@pytest.mark.skipif(not PLAIN, reason="the path is compiled into the engine")
+def test_some_are_found_by_giving_way_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sweeps and Newton's method from them do not do."""
+    monkeypatch.setattr(inelastic, "_follow", lambda *_: 0)
+    assert not all(impact(*wedged(seed))[0] for seed in range(60))
