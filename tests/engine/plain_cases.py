@@ -51,6 +51,7 @@ from nonsmooth import engine
 from nonsmooth.engine.memory.modes import POLICIES
 from nonsmooth.engine.memory.solvers import SOLVERS
 from tests.bodies.meshes.parts import hills
+from tests.engine.test_inelastic import impact, wedged
 from tests.physics.test_own_guards import Level
 
 Numbers: TypeAlias = dict[str, Any]
@@ -327,6 +328,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "border": lambda: _border(60.0, 1e-9),
     "flat": _flat,
     "groove": _groove,
+    "wedged impacts": lambda: {str(seed): impact(*wedged(seed))[1] for seed in range(60)},
     "slow border": lambda: _border(12.0, 3e-9),
     **{
         f"contact problem, {solver}, {n} contacts, {n_u} velocities, sliding {sliding}": (

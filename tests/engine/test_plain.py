@@ -26,11 +26,12 @@ NOT_ENTERED = {
     "events/event_loop": {"_up_to_end", "_cause_at_start"},
     "impact/clock": {"_restore_phases"},
     "impact/end": {"cut_short", "faded"},
+    "contact/mean_forces": {"may_be_longer"},
     "events/averaging": {"average_island_of"},
     "events/stopping": {"_share"},
     "events/twins": {"take_over"},
     "flow/location": {"_advance", "_behind_jump", "_hides_another", "_sampled", "_soonest"},
-    "flow/self_check": {"blame"},
+    "flow/self_check": {"_presses", "blame"},
     "events/event_update": {"_force_gone", "_share_a_bound"},
     "contact/enumeration": {"_sweep_slips"},
 }

@@ -14,11 +14,9 @@ from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_EXACT = 1e-4
-"""Part of what counts as no velocity to which rates are found,"""
 _TRUE = 0.5
-"""and to which they have to be where contacts that give way less have none."""
-_RATIO = 0.1
+"""Contacts give way no more where that makes rates wrong by no more than this part of what counts as none."""
+_RATIO = 0.01
 """Contacts give way by this part of what they did before,"""
 _STUCK = 0.5
 """or by the root of it where that leads nowhere; above this it does not at all."""
@@ -54,32 +52,45 @@ def _fastest(S: Scalars, w: Floats, k: Integers) -> float:
     return fastest
 
 
+@kernel("void(S, F, I)")
+def _keep(S: Scalars, w: Floats, k: Integers) -> None:
+    for i in range(3 * S.n_active):
+        w[S.active_forces_first + i] = w[S.active_forces + i]
+
+
+@kernel("i8(S, F, I)")
+def _step_or_stay(S: Scalars, w: Floats, k: Integers) -> int:
+    """Go to the next answer by Newton's method, or stay at the last (0)."""
+    if step_by_newton(S, w, k) == 1:
+        return 1
+    for i in range(3 * S.n_active):
+        w[S.active_forces + i] = w[S.active_forces_first + i]
+    return 0
+
+
 @kernel("i8(S, F, I)")
 def _follow(S: Scalars, w: Floats, k: Integers) -> int:
     """Follow the impulses from contacts that give way to those that do not; return 1 if that leads there."""
     _keep_rigid(S, w, k)
-    part = ratio = 1.0
-    found = 1e300
-    while part > 0.0:
-        _soften(S, w, k, part)
-        for i in range(3 * S.n_active):
-            w[S.active_forces_first + i] = w[S.active_forces + i]
-        sweep(S, w, k, SWEEPS if found > 1.0 else 0)
-        if step_by_newton(S, w, k) == 1:
-            found, ratio = part, _RATIO if found > 1.0 else ratio
-            if found * _fastest(S, w, k) <= _EXACT * S.velocity_tolerance:
-                break
-        elif found > 1.0:
-            break
+    found, ratio = 1.0, _RATIO
+    _soften(S, w, k, found)
+    sweep(S, w, k, SWEEPS)
+    if step_by_newton(S, w, k) == 0:
+        ratio = 1.0
+    while ratio <= _STUCK and found * _fastest(S, w, k) > _TRUE * S.velocity_tolerance:
+        _keep(S, w, k)
+        _soften(S, w, k, ratio * found)
+        if _step_or_stay(S, w, k) == 1:
+            found *= ratio
         else:
-            for i in range(3 * S.n_active):
-                w[S.active_forces + i] = w[S.active_forces_first + i]
             ratio **= 0.5
-            if ratio > _STUCK:
-                break
-        part = ratio * found
     _soften(S, w, k, 0.0)
-    return 1 if found * _fastest(S, w, k) <= _TRUE * S.velocity_tolerance else 0
+    if found * _fastest(S, w, k) > _TRUE * S.velocity_tolerance:
+        return 0
+    # so near, contacts that do not give way at all have an answer as a rule
+    _keep(S, w, k)
+    _step_or_stay(S, w, k)
+    return 1
 
 
 @entry_point("i8(S, F, I, f8)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, evaluate_impact_rates
+from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, NOISE, evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
@@ -34,10 +34,12 @@ def empty(S: Scalars, w: Floats, a: int) -> None:
 
 @kernel("i8(S, F, I)")
 def finished(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if no contact is loaded."""
+    """Return 1 if no contact is loaded: compressions that have not come to anything, and do not, are none."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        if active.phase == COMPRESSION or active.phase == EXPANSION:
+        begins = a == S.lone or impact_state(w, S.impact_y, a).deformation > 0.0
+        comes = begins or active.gap_rate < -NOISE * S.speed_scale
+        if active.phase == EXPANSION or (active.phase == COMPRESSION and comes):
             return 0
     return 1
 
