@@ -7,7 +7,7 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
-from nonsmooth.engine.contact.mean_forces import averaging_time
+from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
 from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed, group_touching
@@ -182,6 +182,27 @@ def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
         _rest_closed(S, w, k)
         record_event(S, w, k, CLOSING, which, 0)
     return stopped
+
+
+@kernel("i8(S, F, I)")
+def average_slow(S: Scalars, w: Floats, k: Integers) -> int:
+    """Let the forces of islands be averaged that approach slowly though they were stopped; return 1 if others approach.
+
+    Where contacts had to give way for impulses to be found, these may leave an approach for ever.
+    """
+    free_acceleration(S, w, k, 1)
+    push_compliant(S, w, k)
+    group_touching(S, w, k)
+    others = 0
+    for group in range(S.n_groups):
+        activate_group(S, w, k, group)
+        fastest = _fastest_of_active(S, w, k)
+        if fastest < 0:
+            continue
+        slow = -contact_at(S, w, k, fastest).rate[0] <= slow_speed(S, w, k)
+        if not slow or (is_averaged(S, w, k) == 0 and average_active(S, w, k) == 0):
+            others = 1
+    return others
 
 
 @kernel("void(S, F, I)")

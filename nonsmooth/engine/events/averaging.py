@@ -53,9 +53,14 @@ def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
 
     Where slow slips have held time up they do until they may be averaged for long, lest it is tried ever again.
     """
-    if S.n_active == 1 or is_averaged(S, w, k) == 0:
+    if is_averaged(S, w, k) == 0:
         return 0
-    if ends == 0 or is_settled(S, w, k) == 0:
+    if ends == 0:
+        return 1
+    # a contact by itself has forces of its own
+    if S.n_active == 1:
+        return 0
+    if is_settled(S, w, k) == 0:
         return 1
     return 1 if S.crowd > _BURST and may_be_longer(S, w, k) == 1 else 0
 

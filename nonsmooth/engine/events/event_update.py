@@ -15,6 +15,7 @@ from nonsmooth.engine.contact.trial import slope_of_slip, small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
 from nonsmooth.engine.events.accumulation import (
+    average_slow,
     close_contacts,
     hand_over,
     provisional_mode,
@@ -345,7 +346,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = 0
-    resting = projected = 0
+    resting = projected = stopped = 0
     ends = 1 if cause == AVERAGING and which < 0 else 0
     if S.mean_until < 1e300:
         touch(S, w, k)
@@ -365,14 +366,16 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         if approaching == 1 and hand_over(S, w, k) == 1:
             approaching = touch(S, w, k)
             continue
-        if approaching == 1 and stop_slow(S, w, k) > 0:
-            approaching = touch(S, w, k)
+        if approaching == 1 and stopped == 0 and stop_slow(S, w, k) > 0:
+            stopped, approaching = 1, touch(S, w, k)
             continue
+        if approaching == 1 and stopped == 1:
+            approaching = average_slow(S, w, k)
         if approaching == 1:
             status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k), 0.0)
             if status != RUNNING:
                 return status
-            approaching = _approaches(S, w, k)
+            approaching, stopped = _approaches(S, w, k), 0
             continue
         if S.recorded == 0 and projected == 0:
             remember(S, w, k)
@@ -409,6 +412,9 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
             # what brings others to rest may turn so slow a slip, and modes follow from its direction
             projected += 1
             S.closing_loss += project_closed(S, w, k, 1, 0)
+        else:
+            # those whose averaging has begun with it go on with it
+            ends = 0
         approaching = touch(S, w, k)
     return UPDATE_ENDLESS
 
