@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.compliance import begin_contact, decouple_normals, push_compliant
+from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
@@ -116,7 +116,6 @@ def _stop_active(S: Scalars, w: Floats, k: Integers) -> None:
         active = active_at(S, w, k, a)
         for r in range(3):
             active.free[r] = active.force[r] = 0.0
-    decouple_normals(S, w, k)
     inelastic_impulses(S, w, k, 0.0)
     add_response(S, w, k, S.active_forces, S.y + S.n_q)
     loss, before = 0.0, S.driven_work
