@@ -160,7 +160,10 @@ def slow_speed(S: Scalars, w: Floats, k: Integers) -> float:
 
 @kernel("i8(S, F, I)")
 def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
-    """Stop islands in which what approaches is slow, in place of a collision; return how many."""
+    """Stop islands in which what approaches is slow, in place of a collision; return how many.
+
+    So it is, however fast, where an impact has been cut short: another one would be, too.
+    """
     free_acceleration(S, w, k, 1)
     push_compliant(S, w, k)
     group_touching(S, w, k)
@@ -168,7 +171,9 @@ def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
     for group in range(S.n_groups):
         activate_group(S, w, k, group)
         fastest = _fastest_of_active(S, w, k)
-        if fastest < 0 or -contact_at(S, w, k, fastest).rate[0] > slow_speed(S, w, k):
+        if fastest < 0:
+            continue
+        if S.truncated == 0 and -contact_at(S, w, k, fastest).rate[0] > slow_speed(S, w, k):
             continue
         if stopped == 0:
             remember(S, w, k)

@@ -345,7 +345,7 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
 @entry_point("i8(S, F, I, i8, i8)")
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
-    S.recorded = 0
+    S.recorded = S.truncated = 0
     resting = projected = stopped = 0
     ends = 1 if cause == AVERAGING and which < 0 else 0
     if S.mean_until < 1e300:

@@ -51,12 +51,17 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
     A point that joints let move across one line only is wedged where that line lies within the cone of friction: slip
     and approach stop together, and the force of the contact goes into the joints.  G f = 0 means f.G f = 0, the forces
     then accelerate no part of the bodies, and so it stays: the deformation is never given back.  Rates that have next
-    to no energy count as none, and those too slow to bounce; they would not change either.
+    to no energy count as none, and those too slow to bounce; they would not change either.  Nor would what a small part
+    of the forces gives back, the square of it in parts of what is stored.
     """
-    brought = 0.0
+    brought = stored = 0.0
+    lightest = math.inf
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         brought = max(brought, active.energy_scale)
+        if active.phase != IDLE:
+            stored += impact_state(w, S.impact_y, a).energy
+        lightest = min(lightest, 0.5 / diagonal_block(S, w, k, a).nn)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
@@ -75,7 +80,9 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
-    return 1 if left < max(SINGULAR, S.impact_rtol) * size else 0
+    if left < max(SINGULAR, S.impact_rtol) * size:
+        return 1
+    return 1 if left * left * stored < size * size * lightest * S.slow_speed * S.slow_speed else 0
 
 
 @kernel("i8(S, F, I)")
@@ -97,12 +104,14 @@ def end_trapped(S: Scalars, w: Floats, k: Integers) -> int:
 def faded(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
     small = max(S.impact_rtol, 1e-11)
-    slow = max(S.slow_speed, small * S.speed_scale)
+    # behind the impact, what is within the tolerance of velocities is no approach
+    slowest = max(S.slow_speed, S.velocity_tolerance)
+    slow = max(slowest, small * S.speed_scale)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         state = impact_state(w, S.impact_y, a)
         stored = state.energy if active.phase != IDLE else 0.0
-        least = max(small * small * active.energy_scale, 0.5 * S.slow_speed**2 / diagonal_block(S, w, k, a).nn)
+        least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / diagonal_block(S, w, k, a).nn)
         if active.gap_rate < -slow or stored > least:
             return 0
         if active.gap_rate > slow and stored > 0.0 and active.phase == EXPANSION:

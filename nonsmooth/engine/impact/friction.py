@@ -8,7 +8,8 @@ from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
-from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, evaluate_impact_rates, normal_force
+from nonsmooth.engine.impact.guards import GUARDS, RATE_GUARD
+from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, NOISE, evaluate_impact_rates, normal_force
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -84,6 +85,20 @@ def _hold_idle(S: Scalars, w: Floats, k: Integers) -> None:
                 active.tangent_held = 1
 
 
+@kernel("i8(S, F, I, i8)")
+def _gets_away(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+    """Return 1 if the active contact ``a`` slips faster and faster where a contact begins or ends to be pressed.
+
+    No force jumps there.  To stop the slip would turn the rates of others by what it has, and it would start again.
+    """
+    active = active_at(S, w, k, a)
+    if S.trigger < 0 or S.trigger % GUARDS != RATE_GUARD or length(active.slip) <= NOISE * S.speed_scale:
+        return 0
+    growth = active.slip[0] * add_product(S, w, k, 0.0, a, 1, S.active_forces)
+    growth += active.slip[1] * add_product(S, w, k, 0.0, a, 2, S.active_forces)
+    return 1 if growth > 0.0 else 0
+
+
 @entry_point("void(S, F, I, f8)")
 def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
     """Decide which contacts at rest stick and which way the others start to slide.
@@ -96,7 +111,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         active = active_at(S, w, k, a)
         speed = length(active.slip)
         active.mu_static = friction_coefficient(S, w, k, active.slot, 0.0)
-        slow = speed <= active.rest_slip or active.tangent_held == 1
+        slow = (speed <= active.rest_slip and _gets_away(S, w, k, a) == 0) or active.tangent_held == 1
         # without friction nothing can stop a slip, however slow
         active.at_rest = 1 if slow and (active.mu_static > 0.0 or speed == 0.0) else 0
         open_question = max(open_question, active.at_rest)
@@ -117,7 +132,7 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         x = state.deformation
         active.normal_force = 0.0
         if active.phase == COMPRESSION or active.phase == EXPANSION:
-            x = max(x, -probe * active.gap_rate)
+            x = x if x > 0.0 else -probe * active.gap_rate
             active.normal_force = normal_force(S, w, k, a, x)
         if active.at_rest == 0:
             active.direction = v1 / speed, v2 / speed

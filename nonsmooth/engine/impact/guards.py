@@ -196,6 +196,9 @@ def locate_switch(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             break
         S.trigger = first
         theta = _switch_fraction(S, w, k, h, theta, w[S.impact_guard + first], first)
+        if w[S.impact_guard_first + first] <= 0.0:
+            # others that are wrong from the start would cut the step for one another until nothing is left of it
+            break
         first = fired_guard(S, w, k, first)
         if first >= 0 and w[S.impact_guard + first] >= -TOGETHER:
             break

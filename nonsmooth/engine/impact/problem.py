@@ -58,7 +58,8 @@ from nonsmooth.engine.numerics.vectors import length
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
 """How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
 
-_MOST_STEPS = 100000
+_MOST_STEPS = 20000
+"""An impact that asks for more goes on for ever: sharp edges of its laws let ever smaller bounces feed one another."""
 _LARGEST = 1e6
 _PATIENCE = 20
 """Steps that a slip may take next to rest without slowing down."""
@@ -175,6 +176,7 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float, seed: float) 
     for i in range(STRIDE * S.n_active):
         w[S.impact_y + i] = 0.0
     S.phases = 0
+    S.trigger = -1
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         state = impact_state(w, S.impact_y, a)
@@ -332,7 +334,9 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
             S.impact_h = h
             return MOVED
         write_impact_slope(S, w, k, S.impact_slopes)
-    return ENDLESS
+    cut_short(S, w, k)
+    finish(S, w, k)
+    return FINISHED
 
 
 @kernel("void(S, F, I)")
