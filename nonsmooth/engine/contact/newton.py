@@ -22,7 +22,7 @@ from nonsmooth.engine.numerics.vectors import length
 
 STAGES = 4
 _SWEEPS = 10
-_STEPS = 12
+_STEPS = 30
 _HALVINGS = 8
 _FLOOR = 1e-8
 """Added to the diagonal, whose entries are near 1: forces that are not unique must not stop the elimination."""
