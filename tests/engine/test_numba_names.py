@@ -30,6 +30,7 @@ from nonsmooth.engine.native.types import FLOATS, call_at, moved
 
 NAMES: tuple[tuple[Any, str, str], ...] = (
     (codegen.JITCodeLibrary, "_optimize_final_module", "each kernel is optimised by itself, and again in every caller"),
+    (codegen.JITCodeLibrary, "add_ir_module", "a law is called by two calls"),
     (codegen.JITCodeLibrary, "_optimize_functions", "loops are unrolled, for a fifth more of the time"),
     (cpu_target.target_context.codegen(), "_tm", "no passes of our own are built"),
     (cpu_target.target_context.codegen(), "_data_layout", "code is optimised for a processor without vectors"),
@@ -126,7 +127,7 @@ def test_what_a_shim_calls_is_compiled_within_it_alone() -> None:
     for names in named.values():
         assert {"number", "remembering_type_inference"} <= names
         assert "nopython_type_inference" not in names
-    assert [("raw_native_lowering" in names, "native_lowering" in names) for names in named.values()] == [
+    assert [("raw_native_lowering" in names, "shim_native_lowering" in names) for names in named.values()] == [
         (True, False),
         (False, True),
     ]
@@ -136,6 +137,14 @@ def test_what_a_shim_calls_is_compiled_within_it_alone() -> None:
     assert not defined(compiled.fndesc.llvm_func_name)
     assert _call(address, -1.0) == -1.0
     assert build._typed
+
+
+def test_a_call_of_a_shim_is_one() -> None:
+    """All that it calls, and what has its address, are one function."""
+    function: Any = CFunction(_shim(jit(_law)), types.float64(types.float64, FLOATS), None, ShimPasses)
+    function.compile()
+    defined = [one.name for one in function._library._final_module.functions if not one.is_declaration]
+    assert defined == [function._wrapper_name]
 
 
 def test_numbers_of_functions_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,9 +13,25 @@ from laws import Coulomb, NewtonImpact, Unilateral
 G, MU = 9.81, 0.2
 
 
-def _dumbbell(spin: float, tolerance: float, t_end: float, height: float = 0.0) -> ns.Solution:
+class _AlongItself(Dumbbell):  # type: ignore[misc]
+    """A dumbbell whose spin is integrated along its own axes, whatever it does."""
+
+    @property
+    def spin(self) -> int:
+        """None."""
+        return -1
+
+
+def _dumbbell(
+    spin: float,
+    tolerance: float,
+    t_end: float,
+    height: float = 0.0,
+    across: float = 0.3,
+    kind: type[Dumbbell] = Dumbbell,
+) -> ns.Solution:
     """Return the run of a tilted dumbbell that slides over its lower ball and spins about its rod."""
-    plate, body = Plate(), Dumbbell()
+    plate, body = Plate(), kind()
     system = ns.System([plate, body], G)
     system.contact(plate, body, normal=Unilateral(), friction=Coulomb(MU), impact=NewtonImpact(0.5))
     tilt, half = 0.3, 0.5 * body.centre_distance
@@ -23,7 +39,7 @@ def _dumbbell(spin: float, tolerance: float, t_end: float, height: float = 0.0) 
         body,
         position=(half * math.cos(tilt), 0.0, height + body.radius + half * math.sin(tilt)),
         orientation=(math.cos(0.5 * tilt), 0.0, -math.sin(0.5 * tilt), 0.0),
-        velocity=(0.2, 0.3, 0.0),
+        velocity=(0.2, across, 0.0),
         angular_velocity=(spin, 0.0, 0.0),
     )
     return ns.simulate(system, t_end, engine=ns.EventDriven(tolerance=tolerance))
@@ -49,3 +65,17 @@ def test_a_spin_about_the_rod_asks_for_no_looks_at_gaps() -> None:
     assert looks <= 4 * flights
     assert spinning.counters.limits.get("turning in flight", 0) == 0
     assert still.counters.gap_looks <= 4 * len(still.events)
+
+
+def test_a_spin_that_keeps_its_direction_is_integrated_along_the_body() -> None:
+    """In a plane the run is that of a body which asks for nothing else, bit for bit; in space it is another one."""
+
+    def ends(across: float) -> tuple[np.ndarray, np.ndarray]:
+        own, along = (_dumbbell(0.0, 1e-9, 0.05, across=across, kind=kind).u_end for kind in (Dumbbell, _AlongItself))
+        return own, along
+
+    own, along = ends(0.0)
+    assert np.array_equal(own, along)
+    own, along = ends(0.3)
+    assert not np.array_equal(own, along)
+    assert np.allclose(own, along, rtol=0.0, atol=1e-6)

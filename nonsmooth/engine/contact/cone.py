@@ -75,7 +75,11 @@ def _cut_to_disc(g11: float, g12: float, g22: float, c1: float, c2: float, radiu
     if radius <= 0.0:
         return 0.0, 0.0
     x = y = 0.0
-    alpha = _FLAT * (g11 + g22)
+    alpha, size = _FLAT * (g11 + g22), length((c1, c2))
+    if size > 0.0:
+        # exact where c is an eigenvector of G, as in a plane
+        d1, d2 = c1 / size, c2 / size
+        alpha = max(alpha, size / radius - (g11 * d1 * d1 + 2.0 * g12 * d1 * d2 + g22 * d2 * d2))
     for _iteration in range(60):
         a11, a22 = g11 + alpha, g22 + alpha
         determinant = a11 * a22 - g12 * g12
@@ -85,7 +89,7 @@ def _cut_to_disc(g11: float, g12: float, g22: float, c1: float, c2: float, radiu
         slope = (a22 * x * x - 2.0 * g12 * x * y + a11 * y * y) / (determinant * norm)
         step = (norm - radius) * norm / (radius * slope)
         alpha = max(_FLAT * (g11 + g22), alpha + step)
-        if abs(step) <= 1e-16 * (alpha + g11 + g22):
+        if abs(step) <= _SETTLED * (alpha + g11 + g22):
             break
     norm = length((x, y))
     return x * (radius / norm), y * (radius / norm)

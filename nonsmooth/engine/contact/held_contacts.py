@@ -203,9 +203,9 @@ def _hold_alone(S: Scalars, w: Floats, k: Integers) -> int:
     active.normal_force = force
     push_response(S, w, k, c, 0, force, S.du)
     friction_of_slip(S, w, k, 0)
-    S.driven_power += force * row(S, w, k, c, 1, S.free_velocities)
-    for r in range(3):
-        S.driven_power -= active.force[r] * contact.rate[r]
+    (t1, t2), (v1, v2) = active.friction, contact.slip
+    on_coordinates = force * row(S, w, k, c, 1, S.free_velocities)
+    S.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
     return 1
 
 

@@ -143,8 +143,8 @@ def state_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, out
     for span in range(S.n_spans):
         i, n = k[S.span_first + span], k[S.span_length + span]
         dense_part(w, S.y + i, S.slopes + i, n, S.n_y, early, late, out + i)
-    for i in range(S.n_integrated):
-        spin_within(S, w, k, k[S.integrated + i], early, late, out)
+    for i in range(S.n_turning):
+        spin_within(S, w, k, k[S.turning_body + i], early, late, out)
     if S.n_spans == 0:
         for i in range(S.n_q + S.n_u, S.n_y):
             w[out + i] = w[S.y + i]

@@ -3,7 +3,8 @@
 Along its own axes a force on a body that spins turns as fast as the body does, in space as slowly as the motion asks
 for.  The angular velocity w of a body with attitude R is integrated as R w, whose rate is R w', and turned back with
 the attitude of every stage; everything else knows its components along the body.  That is for bodies which ask for it
-(:attr:`nonsmooth.interfaces.Body.spin`): what an asymmetric one has of its own is slower along its axes.
+(:attr:`nonsmooth.interfaces.Body.spin`): what an asymmetric one has of its own is slower along its axes.  A spin that
+keeps its direction, as in a plane, has it in space and along the body alike, and is left along the body.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ from nonsmooth.engine.numerics.runge_kutta import dense_part, stage_part, weigh_
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot
 
 _TO_SPACE, _TO_BODY = 1.0, -1.0
+_KEPT = 1e-9
+"""Sine of the angle between a spin and its rate, along the body, up to which it keeps its direction: that of motion in
+a plane is round-off, 1e-16, and a step in which a spin turns by so much of its change is as long in either axes."""
 
 
 @kernel("void(F, i8, i8, f8, i8)")
@@ -37,17 +41,37 @@ def _slopes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
     return int(S.spin_slopes + 3 * N_STAGES * number)
 
 
+@kernel("i8(F, i8, i8)")
+def _turns(w: Floats, spin: int, rate: int) -> int:
+    """Return 1 if a spin does not keep its direction."""
+    u, v = (w[spin], w[spin + 1], w[spin + 2]), (w[rate], w[rate + 1], w[rate + 2])
+    across = cross(u, v)
+    return 1 if dot(across, across) > _KEPT * _KEPT * dot(u, u) * dot(v, v) else 0
+
+
+@kernel()
+def choose_spins(S: Scalars, w: Floats, k: Integers) -> None:
+    """List the bodies whose spin turns from where the step begins: it is integrated along axes in space."""
+    S.n_turning = 0
+    for i in range(S.n_integrated):
+        number = k[S.integrated + i]
+        body = body_at(S, w, k, number)
+        u = S.n_q + body.u + body.spin
+        body.turns = _turns(w, S.y + u, S.slopes + u) if body.spin >= 0 else 0
+        if body.turns == 1:
+            k[S.turning_body + S.n_turning] = number
+            S.n_turning += 1
+
+
 @kernel("void(S, F, I, i8, i8)")
 def keep_spins(S: Scalars, w: Floats, k: Integers, stage: int, state: int) -> None:
     """Keep the slopes of a stage, evaluated at ``state``, along axes in space; before the first one the spins, too.
 
     Those of its quaternions become what they are at the length that these had.
     """
-    for i in range(S.n_integrated):
-        number = k[S.integrated + i]
+    for i in range(S.n_turning):
+        number = k[S.turning_body + i]
         body = body_at(S, w, k, number)
-        if body.spin < 0:
-            continue
         q, u = body.q + body.quaternion, S.n_q + body.u + body.spin
         slope = S.slopes + stage * S.n_y
         _turn(w, state + q, slope + u, _TO_SPACE, _slopes(S, w, k, number) + 3 * stage)
@@ -65,11 +89,9 @@ def stage_spins(S: Scalars, w: Floats, k: Integers, stage: int, h: float, out: i
     They are brought to unit length where the step does not end: as long as they are the body would spin faster by
     their square.
     """
-    for i in range(S.n_integrated):
-        number = k[S.integrated + i]
+    for i in range(S.n_turning):
+        number = k[S.turning_body + i]
         body = body_at(S, w, k, number)
-        if body.spin < 0:
-            continue
         q, u = out + body.q + body.quaternion, out + S.n_q + body.u + body.spin
         stage_part(S, w, S.stages, S.spin_start + 3 * number, _slopes(S, w, k, number), 3, 3, stage, h, u)
         _turn(w, q, u, _TO_BODY, u)
@@ -85,11 +107,9 @@ def stage_spins(S: Scalars, w: Floats, k: Integers, stage: int, h: float, out: i
 @kernel("void(S, F, I, f8, i8)")
 def weigh_spins(S: Scalars, w: Floats, k: Integers, h: float, out: int) -> None:
     """Write the errors of the spins in a step of ``h`` to ``out``, along the bodies where the step ends."""
-    for i in range(S.n_integrated):
-        number = k[S.integrated + i]
+    for i in range(S.n_turning):
+        number = k[S.turning_body + i]
         body = body_at(S, w, k, number)
-        if body.spin < 0:
-            continue
         u = out + S.n_q + body.u + body.spin
         weigh_part(S, w, S.error_weights, _slopes(S, w, k, number), 3, 3, h, u)
         _turn(w, S.y_new + body.q + body.quaternion, u, _TO_BODY, u)
@@ -102,7 +122,7 @@ def spin_within(S: Scalars, w: Floats, k: Integers, number: int, early: Vector, 
     An implicit step has its interpolant along the bodies.
     """
     body = body_at(S, w, k, number)
-    if body.spin < 0 or S.stage_time > 0.0:
+    if body.turns == 0 or S.stage_time > 0.0:
         return
     u = out + S.n_q + body.u + body.spin
     dense_part(w, S.spin_start + 3 * number, _slopes(S, w, k, number), 3, 3, early, late, u)

@@ -11,7 +11,7 @@ import math
 
 from nonsmooth.engine.flow.flight import land
 from nonsmooth.engine.flow.flow import is_violated, slope
-from nonsmooth.engine.flow.spins import keep_spins, stage_spins, weigh_spins
+from nonsmooth.engine.flow.spins import choose_spins, keep_spins, stage_spins, weigh_spins
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
@@ -195,6 +195,7 @@ def _try_explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one explicit step of ``h``; return its relative error."""
     n = S.n_y
     S.stage_time = 0.0
+    choose_spins(S, w, k)
     if S.n_integrated == 0:
         for i in range(S.n_q + S.n_u, n):
             w[S.y_new + i] = w[S.y + i]

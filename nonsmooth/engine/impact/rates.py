@@ -25,6 +25,7 @@ from nonsmooth.engine.native.kernel import (
     impact_state,
     kernel,
 )
+from nonsmooth.engine.numerics.vectors import Vector
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
@@ -60,69 +61,99 @@ def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float
     return call_scalar(contact.efficiency_function, rate, at(w, contact.efficiency_parameters))
 
 
+@kernel("v3(S, F, I, i8, i8)")
+def _rates(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> Vector:
+    """Return z = z_0 + G P of the active contact ``a`` at the impact state ``y``."""
+    active = active_at(S, w, k, a)
+    z0, (z1, z2) = active.gap_rate_before, active.slip_before
+    for block in range(active.first_block, active.end_block):
+        p = impact_state(w, y, k[S.block_column + block]).impulse
+        p0, p1, p2 = p[0], p[1], p[2]
+        g = at(w, S.delassus + DELASSUS * block)
+        z0 += g[0] * p0 + g[1] * p1 + g[2] * p2
+        z1 += g[3] * p0 + g[4] * p1 + g[5] * p2
+        z2 += g[6] * p0 + g[7] * p1 + g[8] * p2
+    return z0, z1, z2
+
+
 @kernel("void(S, F, I, i8)")
 def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write z = z_0 + G P: gap rates and slip velocities at the impact state ``y``."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        z0, z1, z2 = active.rate_before[0], active.rate_before[1], active.rate_before[2]
-        for block in range(active.first_block, active.end_block):
-            p = impact_state(w, y, k[S.block_column + block]).impulse
-            p0, p1, p2 = p[0], p[1], p[2]
-            g = at(w, S.delassus + DELASSUS * block)
-            z0 += g[0] * p0 + g[1] * p1 + g[2] * p2
-            z1 += g[3] * p0 + g[4] * p1 + g[5] * p2
-            z2 += g[6] * p0 + g[7] * p1 + g[8] * p2
+        z0, z1, z2 = _rates(S, w, k, a, y)
         active.gap_rate, active.slip = z0, (z1, z2)
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def _act(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> int:
+    """Write rates and force of the active contact ``a`` at the impact state ``y``; return 1 if it is held in part."""
+    active = active_at(S, w, k, a)
+    z0, z1, z2 = _rates(S, w, k, a, y)
+    active.gap_rate, active.slip = z0, (z1, z2)
+    phase, loaded = active.phase, 0.0
+    if phase == COMPRESSION or phase == EXPANSION:
+        loaded = normal_force(S, w, k, a, impact_state(w, y, a).deformation)
+    active.normal_force = loaded
+    active.normal_held = 1 if phase == HELD else 0
+    if active.tangent_held == 1:
+        return 1
+    follow_slip(S, w, k, a, (z1, z2), active.rest_slip)
+    friction_of_slip(S, w, k, a)
+    return int(active.normal_held)
+
+
+@kernel()
+def _hold(S: Scalars, w: Floats, k: Integers) -> None:
+    """Complete the forces of what is held."""
+    for i in range(3 * S.n_active):
+        w[S.free_accelerations + i] = 0.0
+    resolve(S, w, k)
 
 
 @entry_point("void(S, F, I, i8)")
 def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
     """Write the ``active_forces`` of the active contacts at the impact state ``y`` in the present phases."""
-    evaluate_impact_rates(S, w, k, y)
     held = 0
     for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, y, a)
-        phase = active.phase
-        if phase == COMPRESSION or phase == EXPANSION:
-            active.normal_force = normal_force(S, w, k, a, state.deformation)
-        else:
-            active.normal_force = 0.0
-        active.normal_held = 1 if phase == HELD else 0
-        held += active.normal_held + active.tangent_held
-        if active.tangent_held == 0:
-            follow_slip(S, w, k, a, active.slip, active.rest_slip)
-            friction_of_slip(S, w, k, a)
+        held += _act(S, w, k, a, y)
     if held > 0:
-        for i in range(3 * S.n_active):
-            w[S.free_accelerations + i] = 0.0
-        resolve(S, w, k)
+        _hold(S, w, k)
 
 
-@kernel("void(S, F, I, i8, i8)")
+@entry_point("void(S, F, I, i8, i8)")
 def impact_slope(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> None:
     """Write d(P, x, W, D, E)/ds of all active contacts at the impact state ``y``."""
-    evaluate_impact_forces(S, w, k, y)
-    write_impact_slope(S, w, k, out)
+    held = 0
+    for a in range(S.n_active):
+        held += _act(S, w, k, a, y)
+        _write_slope(S, w, k, a, out)
+    if held > 0:
+        _hold(S, w, k)
+        write_impact_slope(S, w, k, out)
 
 
 @kernel("void(S, F, I, i8)")
 def write_impact_slope(S: Scalars, w: Floats, k: Integers, out: int) -> None:
     """Write the slope where rates and forces are evaluated."""
     for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        rate, force, slope = active.rate, active.force, impact_state(w, out, a)
-        for r in range(3):
-            slope.impulse[r] = force[r]
-        slope.deformation = 0.0
-        if active.phase == COMPRESSION:
-            slope.deformation = -rate[0]
-        elif active.phase == EXPANSION:
-            slope.deformation = -rate[0] / efficiency(S, w, k, a, max(rate[0], 1e-300))
-        slope.energy = force[0] * slope.deformation
-        if a == S.lone:
-            slope.deformation = 0.0
-        slope.work = force[0] * rate[0]
-        slope.rubbed = -(force[1] * rate[1] + force[2] * rate[2])
-        slope.lost = 0.0
+        _write_slope(S, w, k, a, out)
+
+
+@kernel("void(S, F, I, i8, i8)")
+def _write_slope(S: Scalars, w: Floats, k: Integers, a: int, out: int) -> None:
+    """Write the slope of the active contact ``a``."""
+    active, slope = active_at(S, w, k, a), impact_state(w, out, a)
+    phase, rate, (v1, v2) = active.phase, active.gap_rate, active.slip
+    force, (t1, t2) = active.normal_force, active.friction
+    deforming = 0.0
+    if phase == COMPRESSION:
+        deforming = -rate
+    elif phase == EXPANSION:
+        deforming = -rate / efficiency(S, w, k, a, max(rate, 1e-300))
+    slope.normal_force, slope.friction = force, (t1, t2)
+    slope.deformation = 0.0 if a == S.lone else deforming
+    slope.work = force * rate
+    slope.rubbed = -(t1 * v1 + t2 * v2)
+    slope.energy = force * deforming
+    slope.lost = 0.0

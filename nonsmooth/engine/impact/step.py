@@ -92,8 +92,14 @@ def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
         # a maximum does not show what is not a number
         if not moved + deformed + worked + rubbed + stored + lost < math.inf:
             return math.inf
-        booked = max(max(worked, rubbed), max(stored, lost)) / energy
-        worst = max(worst, math.sqrt(moved / energy), deformed / active.deformation_scale, booked)
+        booked = max(max(worked, rubbed), max(stored, lost))
+        # few of them are divided
+        if moved > worst * worst * energy:
+            worst = math.sqrt(moved / energy)
+        if deformed > worst * active.deformation_scale:
+            worst = deformed / active.deformation_scale
+        if booked > worst * energy:
+            worst = booked / energy
     return worst / float(S.impact_rtol)
 
 

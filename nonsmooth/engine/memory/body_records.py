@@ -38,6 +38,7 @@ BODY = without(
     "body_flight_parameters",
     "body_flight_out",
     "body_flies",
+    "body_turns",
     "body_version",
     "body_accelerated",
     "body_stood",

@@ -223,6 +223,7 @@ ACTIVE: Fields = {
     "slip": vector("impact_z", 1),
     "rate_before": row("impact_z0"),
     "gap_rate_before": one("impact_z0"),
+    "slip_before": vector("impact_z0", 1),
     "deformation_scale": one("impact_x_scale"),
     "force_scale": one("impact_f_scale"),
     "energy_scale": one("impact_energy_scale"),
@@ -271,6 +272,7 @@ PART_OF_STEP: Fields = {
 
 IMPACT_STATE: Fields = {
     "impulse": Field("", 8, 0, 3),
+    "normal_force": Field("", 8, 0),
     "friction": Field("", 8, 1, 2, is_vector=True),
     "deformation": Field("", 8, 3),
     "work": Field("", 8, 4),

@@ -10,6 +10,7 @@ ENTRY_POINTS = (
     "run_impact",
     "windowed_impact",
     "evaluate_impact_forces",
+    "impact_slope",
     "solve_contact",
     "solve_from_rates",
     "find_modes",

@@ -11,6 +11,7 @@ import secrets
 from collections.abc import Callable, Iterator
 from typing import Any, final
 
+from llvmlite import ir
 from llvmlite.binding import create_pass_builder, create_pipeline_tuning_options
 from numba.core import types
 from numba.core.ccallback import CFunc
@@ -124,6 +125,46 @@ class _RawLibrary(_RolledLibrary):
         """Leave it: no code, no environment."""
 
 
+def _let_inline(module: Any) -> None:
+    """Let the wrapper that has the address take in what it wraps, which numba forbids."""
+    for function in module.functions if module.name == "cfunc_wrapper" else ():
+        for block in function.blocks:
+            for instruction in block.instructions:
+                if isinstance(instruction, ir.CallInstr):
+                    instruction.attributes.discard("noinline")
+
+
+class _EntryLibrary(_RolledLibrary):
+    """Code of an entry point, in which the function is one with its wrapper: a call of it is one call."""
+
+    def add_ir_module(self, module: Any) -> None:
+        """Add a module to those that are linked."""
+        _let_inline(module)
+        super().add_ir_module(module)
+
+    def _optimize_final_module(self) -> None:
+        functions = {function.name: function for function in self._final_module.functions}
+        for name, function in functions.items():
+            if f"cfunc.{name}" in functions:
+                function.linkage = "internal"
+        super()._optimize_final_module()
+
+
+class _ShimLibrary(JITCodeLibrary):
+    """Code of a shim, all of which is taken into its one function."""
+
+    def add_ir_module(self, module: Any) -> None:
+        """Add a module to those that are linked."""
+        _let_inline(module)
+        super().add_ir_module(module)
+
+    def _optimize_final_module(self) -> None:
+        for function in self._final_module.functions:
+            if not function.is_declaration and not function.name.startswith("cfunc."):
+                function.linkage = "internal"
+        super()._optimize_final_module()
+
+
 class _Lower(NativeLowering):
     """Lowering to intermediate code into a library of one's own."""
 
@@ -149,7 +190,15 @@ class LowerRaw(_Lower):
 class LowerEntry(_Lower):
     """Lowering into code with loops as they stand."""
 
-    _name, _library = "entry_native_lowering", _RolledLibrary
+    _name, _library = "entry_native_lowering", _EntryLibrary
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+@final
+class LowerShim(_Lower):
+    """Lowering into code of one function."""
+
+    _name, _library = "shim_native_lowering", _ShimLibrary
 
 
 _ENGINE = (
@@ -195,7 +244,7 @@ EntryPasses = _compiler(_engine_passes, LowerEntry)
 """For functions of the engine that are called by address."""
 KernelPasses = _compiler(_engine_passes, LowerRaw)
 """For functions of the engine that those take in."""
-ShimPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, NativeLowering)
+ShimPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerShim)
 """For shims, which are called by address."""
 LawPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerRaw)
 """For functions of plug-ins, which shims take in."""

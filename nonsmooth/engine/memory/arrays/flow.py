@@ -24,6 +24,7 @@ ARRAYS = Arrays(
             "n_astray",
             "n_flying",
             "n_spans",
+            "n_turning",
         ),
         **real(
             "h",
@@ -100,6 +101,7 @@ ARRAYS = Arrays(
         "doubtful": per(1, "n_slots"),
         "astray": per(1, "n_slots"),
         "flying": per(1, "n_bodies"),
+        "turning_body": per(1, "n_bodies"),
         "span_first": lambda n: 2 * n["n_bodies"] + 1,
         "span_length": lambda n: 2 * n["n_bodies"] + 1,
         "redundant_contact": per(1, "n_slots"),
