@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
+from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
@@ -30,6 +31,8 @@ def provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Give contact ``c`` the mode that its rates tell, until the instant is settled."""
     contact = contact_at(S, w, k, c)
     rigid = contact.normal_function == 0
+    if is_on_course(S, w, k, c) == 1:
+        return
     if contact.touching == 0 or contact.released == 1 or (rigid and contact.rate[0] > S.velocity_tolerance):
         contact.mode = OPEN
         return

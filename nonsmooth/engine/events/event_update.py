@@ -8,6 +8,7 @@ from nonsmooth.engine.bodies.compliance import (
     push_compliant,
     rubs_unasked,
 )
+from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_up, solve_contact
@@ -211,7 +212,7 @@ def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     largest = 0.0
     for other in range(S.n_contacts):
         pushing = contact_at(S, w, k, other)
-        if pushing.mode != OPEN and pushing.normal_function == 0:
+        if pushing.mode != OPEN and pushing.normal_function == 0 and is_on_course(S, w, k, other) == 0:
             largest = max(largest, guard_at(S, w, k, normal_guard(other)).first)
     rigid = contact.normal_function == 0
     return 1 if rigid and contact.mode != OPEN and guard_at(S, w, k, normal_guard(c)).value <= 1e-9 * largest else 0
@@ -229,7 +230,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         contact.member = 0
-        contact.mode_agreed = OPEN
+        contact.mode_agreed = contact.mode if is_on_course(S, w, k, c) == 1 else OPEN
         if contact.normal_function != 0:
             _expect_compliant(S, w, k, c, which, cause)
         elif contact.touching == 1 and (contact.rate[0] <= S.velocity_tolerance or contact.averaged != OPEN):

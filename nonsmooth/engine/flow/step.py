@@ -191,8 +191,8 @@ def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 
 
 @kernel("f8(S, F, I, f8)")
-def _try_explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
-    """Take one explicit step of ``h``; return its relative error."""
+def explicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+    """Take one explicit step of ``h`` of what is integrated; return its relative error."""
     n = S.n_y
     S.stage_time = 0.0
     if S.n_integrated == 0:
@@ -221,11 +221,11 @@ def _integrated(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Take one step of ``h`` of what is integrated; return its relative error."""
     if S.stage_time > 0.0:
         error = _try_implicit_step(S, w, k, h)
-        return error if error < math.inf else _try_explicit_step(S, w, k, h)
-    error = _try_explicit_step(S, w, k, h)
+        return error if error < math.inf else explicit_step(S, w, k, h)
+    error = explicit_step(S, w, k, h)
     if error > 1.0 and h * S.relaxation > STIFF:
         implicit = _try_implicit_step(S, w, k, h)
-        return implicit if implicit < math.inf else _try_explicit_step(S, w, k, h)
+        return implicit if implicit < math.inf else explicit_step(S, w, k, h)
     return error
 
 

@@ -101,6 +101,8 @@ ARRAYS = Arrays(
         "body_flight_parameters": per(1, "n_bodies"),
         "body_flight_out": per(1, "n_bodies"),
         "body_flies": per(1, "n_bodies"),
+        "body_course": per(1, "n_bodies"),
+        "body_closed": per(1, "n_bodies"),
         "body_version": per(1, "n_bodies"),
         "body_stood": per(1, "n_bodies"),
         "body_accelerated": per(1, "n_bodies"),
