@@ -9,7 +9,7 @@ from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
-from nonsmooth.engine.contact.problem import free_acceleration
+from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed, group_touching
 from nonsmooth.engine.events.averaging import average_active
@@ -164,7 +164,7 @@ def slow_speed(S: Scalars, w: Floats, k: Integers) -> float:
 @kernel("i8(S, F, I)")
 def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
     """Stop islands in which what approaches is slow, in place of a collision; return how many."""
-    free_acceleration(S, w, k, 1)
+    accelerate_touching(S, w, k)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     stopped, which = 0, -1
@@ -192,7 +192,7 @@ def average_slow(S: Scalars, w: Floats, k: Integers) -> int:
 
     Where contacts had to give way for impulses to be found, these may leave an approach for ever.
     """
-    free_acceleration(S, w, k, 1)
+    accelerate_touching(S, w, k)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     others = 0

@@ -203,9 +203,6 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         S.fresh = 0
         return update_at_event(S, w, k, AVERAGING, -1)
     _evaluate_start(S, w, k)
-    S.h_listed = longest_step(S, w, k) if S.n_units > 0 else 1e300
-    if S.h_listed == 0.0:
-        return int(list_contacts(S, w, k))
     check_gaps(S, w, k)
     if S.failed != RUNNING:
         return int(S.failed)
@@ -213,6 +210,9 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     which = _due_at_start(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
+    S.h_listed = longest_step(S, w, k) if S.n_units > 0 else 1e300
+    if S.h_listed == 0.0:
+        return int(list_contacts(S, w, k))
     orient_slips(S, w, k, 1)
     arm_guards(S, w, k)
     which = holds_time_up(S, w, k) if S.n_grouped > 0 else -1

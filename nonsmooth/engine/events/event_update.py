@@ -11,7 +11,7 @@ from nonsmooth.engine.bodies.compliance import (
 from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
-from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_up, solve_contact
+from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, set_up, solve_contact
 from nonsmooth.engine.contact.trial import slope_of_slip, small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
@@ -125,7 +125,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
     An impact without collision needs a speed for its ``seed`` [m/s].
     """
     remember(S, w, k)
-    free_acceleration(S, w, k, 1)
+    accelerate_touching(S, w, k)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
@@ -273,7 +273,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
 
     Return 2 where all is to be done again, some friction having another bound than it seemed.
     """
-    free_acceleration(S, w, k, 1)
+    accelerate_touching(S, w, k)
     push_compliant(S, w, k)
     S.mean_until = 1e300
     turned = 0

@@ -143,6 +143,8 @@ def land(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         fly(S, w, k, h, number, S.y_new)
         evaluate_once(S, w, k, S.t + h, S.y_new, number)
         accelerate_freely(S, w, k, number)
+    if S.n_integrated == 0:
+        S.free_t = S.t + h
     accelerate_on_courses(S, w, k, S.t + h)
     for i in range(S.n_flying):
         body = body_at(S, w, k, k[S.flying + i])

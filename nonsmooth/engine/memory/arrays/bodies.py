@@ -49,6 +49,8 @@ ARRAYS = Arrays(
         ),
         # no driven body is evaluated yet
         "driven_t": -math.inf,
+        # nor any other
+        "free_t": math.nan,
     },
     floats={
         "y": per(1, "n_y"),
