@@ -243,7 +243,7 @@ def _evaluate_start(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(S.n_y):
             w[S.slopes + i] = w[S.slopes + LAST_STAGE * S.n_y + i]
         return
-    set_off(S, w, k)
+    set_off(S, w, k, S.h_closed, S.h_valid)
     group_closed(S, w, k)
     choose_integrated(S, w, k)
     slope(S, w, k, S.t, S.y, S.slopes, 1, 1)

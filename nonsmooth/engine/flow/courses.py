@@ -18,7 +18,7 @@ from nonsmooth.engine.flow.flight import integrate, integrate_velocities
 from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slope
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
 from nonsmooth.engine.flow.step import explicit_step
-from nonsmooth.engine.memory.layout import DRIVEN, FRICTION_LOSS, N_STAGES
+from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -103,16 +103,22 @@ def _widen(S: Scalars, w: Floats, k: Integers, i: int, value: float, anew: int) 
 
 @kernel("void(S, F, I, i8)")
 def _look_at_forces(S: Scalars, w: Floats, k: Integers, anew: int) -> None:
-    """Let the ranges of the forces of the grouped contacts reach to what they are; features become another's."""
+    """Let the ranges of the forces of the grouped contacts reach to what they are.
+
+    Its guard stays armed if at all looks it has the same features, sticks by friction, and what bears it rests.
+    """
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
         _widen(S, w, k, normal_guard(c), hold_guard(S, w, k, c), anew)
         _widen(S, w, k, friction_guard(S, c), contact.static_margin, anew)
+        normal = guard_at(S, w, k, normal_guard(c))
         if anew == 1:
-            contact.feature = int(contact.feature_now)
-        contact.holds = 1 if contact.holds == 1 and contact.beyond <= 0.0 else 0
-        contact.holds = contact.holds if int(contact.feature_now) == contact.feature else 0
+            contact.feature, normal.armed = int(contact.feature_now), 1
+        is_same = contact.beyond <= 0.0 and int(contact.feature_now) == contact.feature
+        bears = _rests(S, w, k, contact.body_a, contact.frame_a) + _rests(S, w, k, contact.body_b, contact.frame_b)
+        if not is_same or bears == 0 or contact.holds == 0:
+            normal.armed = 0
 
 
 @kernel("i8(S, F, I, i8)")
@@ -122,11 +128,11 @@ def _stays_far(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     return 1 if guard.start > 0.0 and guard.start >= _KEPT * guard.end else 0
 
 
-@kernel("f8(S, F, I)")
-def _step_alone(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(S, F, I, f8, f8)")
+def _step_alone(S: Scalars, w: Floats, k: Integers, usual: float, longest: float) -> float:
     """Take a step of the bodies that may set off; return its length, or 0 where none was found."""
-    wanted = min(S.h_course if S.h_course > 0.0 else S.h_closed, S.h_max)
-    h = min(wanted, S.h_valid, S.course_end - S.t)
+    wanted = min(S.h_course if S.h_course > 0.0 else usual, S.h_max)
+    h = min(wanted, longest, S.course_end - S.t)
     for _attempt in range(_ATTEMPTS):
         error = explicit_step(S, w, k, h)
         factor = step_factor(error) if error < 1e300 else SHRINK
@@ -151,20 +157,22 @@ def _begin(S: Scalars, w: Floats, k: Integers, number: int, h: float) -> None:
                 w[S.course_slopes + stage * S.n_y + i] = w[S.slopes + stage * S.n_y + i]
 
 
-@kernel("void(S, F, I)")
-def set_off(S: Scalars, w: Floats, k: Integers) -> None:
-    """Let bodies set off on their courses that can, where a step begins behind an event; bodies do not stand there."""
+@kernel("void(S, F, I, f8, f8)")
+def set_off(S: Scalars, w: Floats, k: Integers, usual: float, longest: float) -> None:
+    """Let bodies set off on their courses that can, where a step begins behind an event; bodies do not stand there.
+
+    No course is longer than ``longest``; the first one that is tried is as long as is ``usual``.
+    """
     if S.n_loads + S.n_joints + S.n_states > 0 or _find_riders(S, w, k) == 0:
         return
-    accounts, stage_time = S.n_q + S.n_u, S.stage_time
+    stage_time = S.stage_time
     for i in range(S.n_grouped):
         contact_at(S, w, k, k[S.grouped + i]).least_force = 1e300
     slope(S, w, k, S.t, S.y, S.slopes, 0, 0)
     _look_at_forces(S, w, k, 1)
-    h = _step_alone(S, w, k)
+    h = _step_alone(S, w, k, usual, longest)
     S.stage_time = stage_time
-    lost = w[S.y_new + accounts + FRICTION_LOSS] != w[S.y + accounts + FRICTION_LOSS]
-    if h == 0.0 or lost or w[S.y_new + accounts + DRIVEN] != w[S.y + accounts + DRIVEN]:
+    if h == 0.0:
         return
     _look_at_forces(S, w, k, 0)
     dense_state(S, w, S.y, S.slopes, S.n_y, h, 0.5, S.y_stage)
@@ -175,7 +183,7 @@ def set_off(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         _widen(S, w, k, normal_guard(c), contact.least_force, 0)
         far = _stays_far(S, w, k, normal_guard(c)) + _stays_far(S, w, k, friction_guard(S, c))
-        if contact.holds == 1 and far == 2:
+        if guard_at(S, w, k, normal_guard(c)).armed == 1 and far == 2:
             number = contact.body_b if body_at(S, w, k, contact.body_b).nu > 0 else contact.body_a
             _begin(S, w, k, number, h)
             S.course_end = min(S.course_end, S.t + h)

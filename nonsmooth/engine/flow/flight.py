@@ -8,6 +8,8 @@ are integrated, those that fly among them as soon as one of their contacts close
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.bodies import evaluate_once
 from nonsmooth.engine.contact.problem import accelerate_freely
 from nonsmooth.engine.flow.spins import spin_within
@@ -98,15 +100,27 @@ def take_off(S: Scalars, w: Floats, k: Integers) -> None:
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
+def _go_on(S: Scalars, w: Floats, k: Integers, t: float, number: int, out: int) -> None:
+    """Write the state of a body on its course to the state at ``out``, its quaternion of unit length, as rates ask."""
+    body = body_at(S, w, k, number)
+    theta = (t - body.course_t) / body.course_h
+    early, late = dense_weights(S, w, body.course_h, theta, 0), dense_weights(S, w, body.course_h, theta, 1)
+    i, j, turn = body.q, S.n_q + body.u, out + body.q + body.quaternion
+    dense_part(w, S.course_start + i, S.course_slopes + i, body.nq, S.n_y, early, late, out + i)
+    dense_part(w, S.course_start + j, S.course_slopes + j, body.nu, S.n_y, early, late, out + j)
+    if body.quaternion >= 0:
+        square = w[turn] * w[turn] + w[turn + 1] * w[turn + 1] + w[turn + 2] * w[turn + 2] + w[turn + 3] * w[turn + 3]
+        factor = 1.0 / math.sqrt(square)
+        for r in range(4):
+            w[turn + r] *= factor
+
+
+@kernel("void(S, F, I, f8, i8, i8)")
 def fly(S: Scalars, w: Floats, k: Integers, elapsed: float, number: int, out: int) -> None:
     """Write the state of one body after a time of its flight from ``y``, or on its course, to the state at ``out``."""
     body = body_at(S, w, k, number)
     if body.course == 1:
-        theta = (S.t + elapsed - body.course_t) / body.course_h
-        early, late = dense_weights(S, w, body.course_h, theta, 0), dense_weights(S, w, body.course_h, theta, 1)
-        i, j = body.q, S.n_q + body.u
-        dense_part(w, S.course_start + i, S.course_slopes + i, body.nq, S.n_y, early, late, out + i)
-        dense_part(w, S.course_start + j, S.course_slopes + j, body.nu, S.n_y, early, late, out + j)
+        _go_on(S, w, k, S.t + elapsed, number, out)
         return
     found = body.flight_out
     q, u = at(w, S.y + body.q), at(w, S.y + S.n_q + body.u)
@@ -117,17 +131,18 @@ def fly(S: Scalars, w: Floats, k: Integers, elapsed: float, number: int, out: in
         w[out + S.n_q + body.u + i] = w[found + body.nq + i]
 
 
-@kernel("void(S, F, I, f8)")
-def accelerate_on_courses(S: Scalars, w: Floats, k: Integers, t: float) -> None:
-    """Write the accelerations of all bodies on their courses to ``du``, linear in time: only bounds ask for them."""
-    for i in range(S.n_flying):
-        body = body_at(S, w, k, k[S.flying + i])
-        if body.course == 1:
-            part = (t - body.course_t) / body.course_h
-            first = S.course_slopes + S.n_q + body.u
-            last = first + LAST_STAGE * S.n_y
-            for j in range(body.nu):
-                w[S.du + body.u + j] = w[first + j] + part * (w[last + j] - w[first + j])
+@kernel("void(S, F, I, f8, i8)")
+def accelerate_in_flight(S: Scalars, w: Floats, k: Integers, t: float, number: int) -> None:
+    """Write the acceleration of a body that flies to ``du``; on its course it is linear in time: only bounds ask."""
+    body = body_at(S, w, k, number)
+    if body.course == 0:
+        accelerate_freely(S, w, k, number)
+        return
+    part = (t - body.course_t) / body.course_h
+    first = S.course_slopes + S.n_q + body.u
+    last = first + LAST_STAGE * S.n_y
+    for j in range(body.nu):
+        w[S.du + body.u + j] = w[first + j] + part * (w[last + j] - w[first + j])
 
 
 @kernel("f8(S, F, I, f8)")
@@ -140,19 +155,17 @@ def land(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     end = S.slopes + LAST_STAGE * S.n_y
     for i in range(S.n_flying):
         number = k[S.flying + i]
+        body = body_at(S, w, k, number)
         fly(S, w, k, h, number, S.y_new)
         evaluate_once(S, w, k, S.t + h, S.y_new, number)
-        accelerate_freely(S, w, k, number)
-    if S.n_integrated == 0:
-        S.free_t = S.t + h
-    accelerate_on_courses(S, w, k, S.t + h)
-    for i in range(S.n_flying):
-        body = body_at(S, w, k, k[S.flying + i])
+        accelerate_in_flight(S, w, k, S.t + h, number)
         for j in range(body.nq):
             w[end + body.q + j] = w[body.tail + j]
         for j in range(body.nu):
             w[end + S.n_q + body.u + j] = w[S.du + body.u + j]
             error += 0.0 * w[S.y_new + S.n_q + body.u + j]
+    if S.n_integrated == 0:
+        S.free_t = S.t + h
     S.power_end = _power(S, w, k, S.y_new + S.n_q)
     S.exchanged_in_flight = 0.5 * h * (S.power_first + S.power_end)
     w[S.y_new + S.n_q + S.n_u + EXCHANGED] += S.exchanged_in_flight
