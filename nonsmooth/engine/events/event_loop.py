@@ -350,6 +350,11 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     if which >= 0:
         return _carry_out(S, w, k, SLIP_TO_STICK, which)
     S.fresh = 1 if ended == 0 else 0
+    if S.limit == BY_EVENT and S.fresh == 1 and S.failed == RUNNING and S.t_end - S.t > S.time_tolerance:
+        # it was made to end where a gap is about to close
+        which = _due_at_start(S, w, k)
+        if which >= 0:
+            return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
     return RUNNING
 
 
