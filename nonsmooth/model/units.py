@@ -22,7 +22,7 @@ _SLOTS = 16
 """Slots for each unit, at least."""
 _NEIGHBOURS = 6
 """Pairs with all their contacts for which each unit has slots."""
-_MARGIN = 0.3
+_MARGIN = 0.5
 """Margin of the list, in units of the smallest radius."""
 
 
