@@ -145,7 +145,8 @@ def _fly(
         ez = (1.0 - inertia_z / inertia_x) * oz
     x, y, z = ox - ex, oy - ey, oz - ez
     rate = math.sqrt(x * x + y * y + z * z)
-    c, s = math.cos(half * rate), math.sin(half * rate) / rate if rate > 0.0 else half
+    c, s = math.cos(half * rate), math.sin(half * rate)
+    s = s / rate if rate > 0.0 else half
     _turn(out, q[3], q[4], q[5], q[6], c, s * x, s * y, s * z)
     if ex + ey + ez != 0.0:
         c, s = math.cos(half * (ex + ey + ez)), math.sin(half * (ex + ey + ez))

@@ -27,7 +27,8 @@ from nonsmooth.parameters import rules
 _FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "entry_points")
 _CHANGING = {
     *("facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent"),
-    *("body_flies", "body_turns", "body_version", "body_stood", "body_accelerated", "integrated", "seen_a", "seen_b"),
+    *("body_flies", "body_turns", "body_course", "body_closed", "body_version", "body_stood", "body_accelerated"),
+    *("integrated", "seen_a", "seen_b"),
     *CATALOGUE,
 }
 """Integers of the bodies that a run changes; all others say where something stands."""

@@ -18,7 +18,7 @@ from nonsmooth.solution.files import FileError
 
 _STEPS_NEAR_END = 16
 """So many steps at most a run that goes on repeats, or more where an image is large:"""
-_IMAGE_PER_STEP = 1 << 15
+_IMAGE_PER_STEP = 1 << 13
 """to copy so much of one takes a small part of the time of a step [bytes]."""
 Progress = Callable[[float, float], None]
 

@@ -185,6 +185,19 @@ def _balls(n: int, plate: bool, laws: Numbers, t_end: float, **options: Any) -> 
     return _numbers(system, t_end, **options)
 
 
+def _rolling() -> Numbers:
+    """Let a ball roll towards one at rest while a third one bounces."""
+    ground, balls = Plate(), [Ball(0.01) for _ in range(3)]
+    system = ns.System([ground, *balls])
+    for ball in balls:
+        system.contact(ground, ball, **_rigid())
+    system.contact(balls[0], balls[1], **_rigid())
+    system.place(balls[0], position=(0.0, 0.0, 0.01), velocity=(0.2, 0.0, 0.0), angular_velocity=(0.0, 20.0, 0.0))
+    system.place(balls[1], position=(0.021, 0.0, 0.01))
+    system.place(balls[2], position=(0.1, 0.0, 0.0105))
+    return _numbers(system, 0.04)
+
+
 def _cloud(n: int) -> Numbers:
     """Let balls on a lattice fly at each other, all pairs of them in contact."""
     rng, balls = np.random.default_rng(3), [Ball(0.01) for _ in range(n)]
@@ -323,6 +336,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "row": lambda: _balls(5, False, _rigid(EnergeticImpact(0.9), Frictionless()), 1e-3),
     "row on a plate": lambda: _balls(4, True, _rigid(EnergeticImpact(0.5), Coulomb(0.3)), 1e-3),
     "long row": lambda: _balls(18, False, _rigid(EnergeticImpact(0.9), Frictionless()), 2e-4, impact_tolerance=1e-5),
+    "rolling": _rolling,
     "cloud": lambda: _cloud(13),
     "hills": _hills,
     "border": lambda: _border(60.0, 1e-9),

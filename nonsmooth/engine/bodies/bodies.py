@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.articulations import evaluate_articulation
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.memory.blocks import FRAME
@@ -35,8 +37,11 @@ def _write(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) ->
 @kernel("void(S, F, I, f8, i8, i8)")
 def evaluate_body(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> None:
     """Let one body write its output block at time ``t`` and the state at offset ``y``, which is a new version of it."""
+    body = body_at(S, w, k, number)
     _write(S, w, k, t, y, number)
-    body_at(S, w, k, number).version += 1
+    body.version += 1
+    if body.nu > 0:
+        S.free_t = math.nan
 
 
 @kernel("i8(S, F, I, f8, i8, i8)")
@@ -73,6 +78,20 @@ def evaluate_once(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: 
         w[S.y_stood + i] = w[y + i]
 
 
+@kernel("i8(S, F, I, f8, i8)")
+def _all_stand(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> int:
+    """Return 1 if all bodies with coordinates were evaluated last at this time and state, and nothing acts on them.
+
+    Most of what an instant asks for is asked of bodies that stand.
+    """
+    if S.free_t != t or S.n_loads + S.n_joints > 0:
+        return 0
+    differ = 0
+    for i in range(S.n_q + S.n_u):
+        differ += 1 if w[S.y_stood + i] != w[y + i] else 0
+    return 1 if differ == 0 else 0
+
+
 @kernel("void(S, F, I, f8, i8)")
 def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
     """Let the bodies without coordinates write their output blocks, unless they stand there already."""
@@ -96,6 +115,8 @@ def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int, e
     S.load_power = 0.0
     if S.n_loads + S.n_joints > 0:
         evaluate_driven_bodies(S, w, k, t, y)
+    if every == 1 and _all_stand(S, w, k, t, y) == 1:
+        return
     for i in range(S.n_bodies if every == 1 else S.n_integrated):
         number = i if every == 1 else k[S.integrated + i]
         body = body_at(S, w, k, number)
@@ -110,6 +131,8 @@ def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int, e
             evaluate_once(S, w, k, t, y, number)
         else:
             evaluate_body(S, w, k, t, y, number)
+    if every == 1:
+        S.free_t = t
     for load in range(S.n_loads):
         _apply(S, w, k, load, t, y)
     if S.n_joints > 0:

@@ -32,7 +32,7 @@ from nonsmooth.engine.memory.layout import (
     SIZE,
     SMALL_FORCE,
 )
-from nonsmooth.engine.memory.modes import NO_SLOT, OPEN, RUNNING
+from nonsmooth.engine.memory.modes import NO_SLOT, RUNNING
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
@@ -135,17 +135,20 @@ def _enter_pair(S: Scalars, w: Floats, k: Integers, one: int, two: int) -> int:
     return 1
 
 
-@kernel("i8(S, F, I, i8)")
-def _is_clear(S: Scalars, w: Floats, k: Integers, number: int) -> int:
-    """Return 1 if the ball of a unit is farther above a wall at rest than the margin, their contact being open."""
-    wall = wall_at(S, w, k, number)
-    if wall.steady == 0 or k[S.catalogue + _WIDTH * wall.contact + _MODE] != OPEN:
-        return 0
-    frame, unit = frame_at(w, wall.frame), unit_at(S, w, k, wall.unit)
+@kernel("i8(F, i8)")
+def _is_still(w: Floats, place: int) -> int:
+    """Return 1 if a frame neither moves nor begins to."""
+    frame = frame_at(w, place)
     moves = dot(frame.velocity, frame.velocity) + dot(frame.spin, frame.spin)
     moves += dot(frame.acceleration, frame.acceleration) + dot(frame.spin_acceleration, frame.spin_acceleration)
-    if moves > 0.0:
-        return 0
+    return 1 if moves == 0.0 else 0
+
+
+@kernel("i8(S, F, I, i8)")
+def _is_clear(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+    """Return 1 if the ball of a unit is farther above a wall at rest than the margin: a closed contact has none."""
+    wall = wall_at(S, w, k, number)
+    frame, unit = frame_at(w, wall.frame), unit_at(S, w, k, wall.unit)
     third = frame.rotation[2], frame.rotation[5], frame.rotation[8]
     height = dot(third, minus(unit.place, frame.origin)) - wall.ceiling
     return 1 if height - unit.radius > S.margin_of_list else 0
@@ -211,8 +214,14 @@ def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
         status = fill_pools(S, w, k)
     if status != RUNNING:
         return status
+    frame = still = -1
     for i in range(S.n_walls):
-        if _is_clear(S, w, k, i) == 0 and _enter(S, w, k, wall_at(S, w, k, i).contact) == 0:
+        wall = wall_at(S, w, k, i)
+        # the walls of one frame follow one another
+        if wall.frame != frame:
+            frame, still = wall.frame, _is_still(w, wall.frame)
+        clear = still == 1 and wall.steady == 1 and _is_clear(S, w, k, i) == 1
+        if not clear and _enter(S, w, k, wall.contact) == 0:
             return NO_SLOT
     axis = _widest_axis(S, w, k)
     _sort_units(S, w, k, axis)

@@ -102,6 +102,19 @@ def free_acceleration(S: Scalars, w: Floats, k: Integers, every: int) -> None:
                 constrain(S, w, k, number)
 
 
+@kernel()
+def accelerate_touching(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write the same of the bodies of contacts that touch, which is all that an instant asks for."""
+    if S.n_joints > 0:
+        free_acceleration(S, w, k, 1)
+        return
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.touching == 1:
+            accelerate_freely(S, w, k, contact.body_a)
+            accelerate_freely(S, w, k, contact.body_b)
+
+
 @kernel("void(S, F, I, i8)")
 def write_friction(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     """Write coefficients, slip direction and whether it is at rest of active contact ``a``."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import (
@@ -100,10 +101,10 @@ def group_members(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("void(S, F, I)")
 def group_closed(S: Scalars, w: Floats, k: Integers) -> None:
-    """Sort the closed contacts into islands."""
+    """Sort the closed contacts into islands, but for those of bodies on their courses."""
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        contact.member = 1 if contact.mode != OPEN else 0
+        contact.member = 1 if contact.mode != OPEN and is_on_course(S, w, k, c) == 0 else 0
     group_members(S, w, k)
 
 

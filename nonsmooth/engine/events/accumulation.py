@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
+from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
-from nonsmooth.engine.contact.problem import free_acceleration
+from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed, group_touching
 from nonsmooth.engine.events.averaging import average_active
@@ -30,6 +31,8 @@ def provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Give contact ``c`` the mode that its rates tell, until the instant is settled."""
     contact = contact_at(S, w, k, c)
     rigid = contact.normal_function == 0
+    if is_on_course(S, w, k, c) == 1:
+        return
     if contact.touching == 0 or contact.released == 1 or (rigid and contact.rate[0] > S.velocity_tolerance):
         contact.mode = OPEN
         return
@@ -164,7 +167,7 @@ def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
 
     So it is, however fast, where an impact has been cut short: another one would be, too.
     """
-    free_acceleration(S, w, k, 1)
+    accelerate_touching(S, w, k)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     stopped, which = 0, -1
@@ -194,7 +197,7 @@ def average_slow(S: Scalars, w: Floats, k: Integers) -> int:
 
     Where contacts had to give way for impulses to be found, these may leave an approach for ever.
     """
-    free_acceleration(S, w, k, 1)
+    accelerate_touching(S, w, k)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     others = 0

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
+from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.events.averaging import average_island_of, holds_time_up
@@ -18,9 +21,10 @@ from nonsmooth.engine.events.record import (
     remember,
 )
 from nonsmooth.engine.events.stall import stalls
-from nonsmooth.engine.events.step_length import accepted_step, wanted_step
+from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
 from nonsmooth.engine.flow.clearance import UNKNOWN_FALL, bound_speeds
+from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
 from nonsmooth.engine.flow.ending import end_features
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, right_hand_side, slope
@@ -81,47 +85,34 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.vectors import length
 
-_DRIFT = 0.3
 _SPACINGS = 4.0 * 2.0**-52
 """Times closer than this part of the time are not told apart."""
 _NO_STEP = 1e-3
 """A step below this part of the time tolerance in which guards crowd or the error grows leads nowhere."""
 
 
-@kernel("i8(S, F, I)")
-def _drifted(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.mode != OPEN and contact.averaged == OPEN:
-            rate, gap = abs(contact.rate_end[0]), abs(contact.gap_end)
-            if contact.normal_function != 0:
-                rate = gap = 0.0
-            if contact.mode == STICK:
-                rate += abs(contact.slip_end[0]) + abs(contact.slip_end[1])
-            if rate > _DRIFT * S.velocity_tolerance or gap > _DRIFT * S.gap_tolerance:
-                return 1
-    return 0
-
-
-@kernel("void(S, F, I, f8)")
-def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> None:
-    """Take over the step of ``h`` with its samples."""
+@kernel("i8(S, F, I, f8)")
+def _commit(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Take over the step of ``h`` with its samples; return how many courses end."""
     record_samples(S, w, k, h)
-    _take_over(S, w, k, h)
+    return _take_over(S, w, k, h)
 
 
-@kernel("void(S, F, I, f8)")
-def _take_over(S: Scalars, w: Floats, k: Integers, h: float) -> None:
-    """Take over the step of ``h``: state, time, constraints."""
+@kernel("i8(S, F, I, f8)")
+def _take_over(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Take over the step of ``h``: state, time, constraints; return how many courses end."""
     for i in range(S.n_y):
         w[S.y + i] = w[S.y_new + i]
     S.t += h
     normalise_quaternions(S, w, k)
     if S.n_joints > 0:
         project_joints(S, w, k)
-    if _drifted(S, w, k) == 1:
+    ended = end_courses(S, w, k)
+    if ended > 0:
+        group_closed(S, w, k)
+    if drifted(S, w, k) == 1:
         S.closing_loss += project_closed(S, w, k, 0, 0)
+    return ended
 
 
 @kernel("i8(S, i8)")
@@ -198,6 +189,7 @@ def _hardest_pressed(S: Scalars, w: Floats, k: Integers, sliding: int) -> int:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         takes_part = contact.mode == SLIDE if sliding == 1 else contact.mode != OPEN
+        takes_part = takes_part and is_on_course(S, w, k, c) == 0
         force = contact.force[0] if sliding == 1 else abs(contact.force[0])
         if takes_part and contact.normal_function == 0 and force > most:
             hardest, most = c, force
@@ -211,9 +203,6 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         S.fresh = 0
         return update_at_event(S, w, k, AVERAGING, -1)
     _evaluate_start(S, w, k)
-    S.h_listed = longest_step(S, w, k) if S.n_units > 0 else 1e300
-    if S.h_listed == 0.0:
-        return int(list_contacts(S, w, k))
     check_gaps(S, w, k)
     if S.failed != RUNNING:
         return int(S.failed)
@@ -221,6 +210,9 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     which = _due_at_start(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
+    S.h_listed = longest_step(S, w, k) if S.n_units > 0 else 1e300
+    if S.h_listed == 0.0:
+        return int(list_contacts(S, w, k))
     orient_slips(S, w, k, 1)
     arm_guards(S, w, k)
     which = holds_time_up(S, w, k) if S.n_grouped > 0 else -1
@@ -251,6 +243,7 @@ def _evaluate_start(S: Scalars, w: Floats, k: Integers) -> None:
         for i in range(S.n_y):
             w[S.slopes + i] = w[S.slopes + LAST_STAGE * S.n_y + i]
         return
+    set_off(S, w, k, S.h_closed, S.h_valid)
     group_closed(S, w, k)
     choose_integrated(S, w, k)
     slope(S, w, k, S.t, S.y, S.slopes, 1, 1)
@@ -286,6 +279,8 @@ def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
         # what put the contacts on their constraints may have put one past its end
         if contact.mode != OPEN and guard_at(S, w, k, first_end_guard(S) + c).end < 0.0:
             return c
+        if is_on_course(S, w, k, c) == 1:
+            continue
         # and may have turned a slip so that its force is another one
         unique = contact.mode != OPEN and contact.normal_function == 0 and contact.redundant == 0
         if S.fresh == 0 and unique and is_violated(S, w, k, c) == 1:
@@ -350,11 +345,16 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     if S.h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
-    _commit(S, w, k, S.h)
+    ended = _commit(S, w, k, S.h)
     which = stopping(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, SLIP_TO_STICK, which)
-    S.fresh = 1
+    S.fresh = 1 if ended == 0 else 0
+    if S.limit == BY_EVENT and S.fresh == 1 and S.failed == RUNNING and S.t_end - S.t > S.time_tolerance:
+        # it was made to end where a gap is about to close
+        which = _due_at_start(S, w, k)
+        if which >= 0:
+            return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
     return RUNNING
 
 
@@ -364,7 +364,7 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     S.fresh, S.limit = 0, BY_EVENT
     h = locate(S, w, k, S.h, high)
     if h < 0.0:
-        status = _shorten(S)
+        status = _shorten(S, w, k)
         return _without_step(S, w, k, status) if status == STEP_TOO_SMALL else status
     if h > S.t_end - S.t:
         S.limit = BY_END
@@ -372,13 +372,15 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     return _event(S, w, k, h, S.trigger)
 
 
-@kernel("i8(S)")
-def _shorten(S: Scalars) -> int:
+@kernel("i8(S, F, I)")
+def _shorten(S: Scalars, w: Floats, k: Integers) -> int:
     """Ask for a quarter of the step, in which no event could be located; return the status."""
     S.limit = BY_CROWD
     if S.h < _NO_STEP * S.time_tolerance:
         return STEP_TOO_SMALL
-    if S.n_grouped > 0:
+    if S.n_integrated == 0 and S.course_end < math.inf:
+        S.course_end = S.t + 0.25 * S.h
+    elif is_held(S, w, k) == 1:
         S.h_closed = 0.25 * S.h
     else:
         S.h_free = 0.25 * S.h
@@ -476,7 +478,7 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))
-        if wary == 1 and wanted_step(S, w, k) > S.t_end - S.t:
+        if wary == 1 and longest_wanted(S, w, k) > S.t_end - S.t:
             return PAUSED
         if S.t_end - S.t <= S.time_tolerance:
             return _arrived(S, w, k)

@@ -8,9 +8,10 @@ from nonsmooth.engine.bodies.compliance import (
     push_compliant,
     rubs_unasked,
 )
+from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
-from nonsmooth.engine.contact.problem import accelerate, free_acceleration, set_up, solve_contact
+from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, set_up, solve_contact
 from nonsmooth.engine.contact.trial import slope_of_slip, small_force
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_members, group_touching
@@ -124,7 +125,7 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
     An impact without collision needs a speed for its ``seed`` [m/s].
     """
     remember(S, w, k)
-    free_acceleration(S, w, k, 1)
+    accelerate_touching(S, w, k)
     push_compliant(S, w, k)
     group_touching(S, w, k)
     phases = truncated = 0
@@ -211,7 +212,7 @@ def _force_gone(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     largest = 0.0
     for other in range(S.n_contacts):
         pushing = contact_at(S, w, k, other)
-        if pushing.mode != OPEN and pushing.normal_function == 0:
+        if pushing.mode != OPEN and pushing.normal_function == 0 and is_on_course(S, w, k, other) == 0:
             largest = max(largest, guard_at(S, w, k, normal_guard(other)).first)
     rigid = contact.normal_function == 0
     return 1 if rigid and contact.mode != OPEN and guard_at(S, w, k, normal_guard(c)).value <= 1e-9 * largest else 0
@@ -229,7 +230,7 @@ def _expect(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> None:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         contact.member = 0
-        contact.mode_agreed = OPEN
+        contact.mode_agreed = contact.mode if is_on_course(S, w, k, c) == 1 else OPEN
         if contact.normal_function != 0:
             _expect_compliant(S, w, k, c, which, cause)
         elif contact.touching == 1 and (contact.rate[0] <= S.velocity_tolerance or contact.averaged != OPEN):
@@ -272,7 +273,7 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
 
     Return 2 where all is to be done again, some friction having another bound than it seemed.
     """
-    free_acceleration(S, w, k, 1)
+    accelerate_touching(S, w, k)
     push_compliant(S, w, k)
     S.mean_until = 1e300
     turned = 0

@@ -60,7 +60,7 @@ def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 
 
 @kernel("i8(S, F, I)")
-def _is_held(S: Scalars, w: Floats, k: Integers) -> int:
+def is_held(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if some contact is closed."""
     for c in range(S.n_contacts):
         if contact_at(S, w, k, c).mode != OPEN:
@@ -69,16 +69,26 @@ def _is_held(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("f8(S, F, I)")
-def wanted_step(S: Scalars, w: Floats, k: Integers) -> float:
-    """Return how long the next step is if nothing cuts it short; it is never longer."""
-    return float(min(S.h_closed if _is_held(S, w, k) == 1 else S.h_free, S.h_max))
+def longest_wanted(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return what the next step is no longer than, whatever sets off on a course before it."""
+    if is_held(S, w, k) == 0:
+        return float(min(S.h_free, S.h_max))
+    return float(min(S.h_max, max(S.h_closed, S.h_course, S.course_end - S.t if S.course_end < math.inf else 0.0)))
+
+
+@kernel("f8(S, F, I)")
+def _wanted(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return how long the step is if nothing cuts it short; if nothing is integrated, up to the end of the courses."""
+    if S.n_integrated == 0 and S.course_end < math.inf:
+        return float(min(S.course_end - S.t, S.h_max))
+    return float(min(S.h_closed if is_held(S, w, k) == 1 else S.h_free, S.h_max))
 
 
 @kernel("f8(S, F, I, f8)")
 def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
     """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
     S.h_turn = _TURN / S.fastest_turn if S.fastest_turn > 0.0 else 1e300
-    h = min(wanted, S.h_listed, S.sample_span, S.h_valid, S.h_turn, S.mean_until - S.t)
+    h = min(wanted, S.h_listed, S.sample_span, S.h_valid, S.h_turn, S.mean_until - S.t, S.course_end - S.t)
     S.h_closing = S.h_arrival = 1e300
     soonest = foresee(S, w, k, h) if S.fresh == 0 or S.n_flying > 0 else 1e300
     if S.fresh == 0:
@@ -99,8 +109,8 @@ def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
 @kernel("i8(S, f8, f8)")
 def _limit(S: Scalars, wanted: float, h: float) -> int:
     """Return what limits the step of ``h`` that is tried first, where ``wanted`` is how long it may be."""
-    if h == wanted:
-        return BY_LARGEST if wanted == S.h_max else BY_ERROR
+    if h == wanted or h == S.course_end - S.t:
+        return BY_LARGEST if h == S.h_max else BY_ERROR
     if h == S.h_listed:
         return BY_LIST
     if h == S.mean_until - S.t:
@@ -135,16 +145,16 @@ def _remember_step(S: Scalars, w: Floats, k: Integers, h: float, error: float, w
     following = h * step_factor(error)
     if h < wanted:
         following = max(following, wanted)
-    if _is_held(S, w, k) == 1:
-        S.h_closed = following
-    else:
+    if is_held(S, w, k) == 0:
         S.h_free = following
+    elif S.n_integrated > 0:
+        S.h_closed = following
 
 
 @kernel("i8(S, F, I)")
 def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
-    wanted = wanted_step(S, w, k)
+    wanted = _wanted(S, w, k)
     S.relaxation = relaxation(S, w, k)
     h = _first_attempt(S, w, k, wanted)
     S.limit = _limit(S, wanted, h)

@@ -16,6 +16,7 @@ from nonsmooth.engine.contact.held_contacts import hold_contacts, write_rows
 from nonsmooth.engine.contact.implicit_slip import hold_at_end
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient, slip_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
+from nonsmooth.engine.flow.flight import accelerate_in_flight
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import (
@@ -196,6 +197,10 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
     """
     S.evaluations += 1
     right_hand_side(S, w, k, t, y, choosing, every)
+    if every == 1:
+        for i in range(S.n_flying):
+            if body_at(S, w, k, k[S.flying + i]).course == 1:
+                accelerate_in_flight(S, w, k, t, k[S.flying + i])
     lost = own = 0.0
     for i in range(S.n_bodies if every == 1 else S.n_integrated):
         body = body_at(S, w, k, i if every == 1 else k[S.integrated + i])

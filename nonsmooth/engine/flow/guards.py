@@ -17,6 +17,7 @@ zero at the start does not fire while the next one does.
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies, evaluate_free_bodies
+from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.kinematics import evaluate_kinematics
 from nonsmooth.engine.flow.flow import WRONG_FORCE, hold_guard, right_hand_side, slip_guard
 from nonsmooth.engine.flow.guard_numbers import (
@@ -92,6 +93,10 @@ def write_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, forces: i
     for c in range(S.n_contacts):
         if contact_at(S, w, k, c).mode == OPEN:
             _write_gap(S, w, k, c)
+        elif is_on_course(S, w, k, c) == 1:
+            # nothing of it ends before its course does
+            _write_gap(S, w, k, c)
+            guard_at(S, w, k, normal_guard(c)).value = 1.0
 
 
 @kernel("void(S, F, I, f8, i8, i8)")
@@ -117,7 +122,7 @@ def _write_other_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, fo
     for c in range(S.n_contacts):
         end, contact = guard_at(S, w, k, first_end_guard(S) + c), contact_at(S, w, k, c)
         end.value = 1.0
-        if contact.mode != OPEN and forces == 1 and S.n_grouped > 0:
+        if contact.mode != OPEN and forces == 1 and S.n_grouped > 0 and is_on_course(S, w, k, c) == 0:
             end.value = _feature_guard(S, w, k, c)
 
 

@@ -49,6 +49,8 @@ ARRAYS = Arrays(
         ),
         # no driven body is evaluated yet
         "driven_t": -math.inf,
+        # nor any other
+        "free_t": math.nan,
     },
     floats={
         "y": per(1, "n_y"),
@@ -102,6 +104,8 @@ ARRAYS = Arrays(
         "body_flight_out": per(1, "n_bodies"),
         "body_flies": per(1, "n_bodies"),
         "body_turns": per(1, "n_bodies"),
+        "body_course": per(1, "n_bodies"),
+        "body_closed": per(1, "n_bodies"),
         "body_version": per(1, "n_bodies"),
         "body_stood": per(1, "n_bodies"),
         "body_accelerated": per(1, "n_bodies"),

@@ -36,6 +36,7 @@ ARRAYS = Arrays(
             "power_first",
             "power_end",
             "exchanged_in_flight",
+            "h_course",
             "rtol",
             "driven_work",
             "friction_loss",
@@ -53,6 +54,8 @@ ARRAYS = Arrays(
         ),
         # nothing has happened yet
         "feature_t": -math.inf,
+        # no body is on a course
+        "course_end": math.inf,
     },
     floats={
         "y_new": per(1, "n_y"),
@@ -62,6 +65,10 @@ ARRAYS = Arrays(
         "spin_slopes": per(3 * N_STAGES, "n_bodies"),
         "spin_start": per(3, "n_bodies"),
         "quaternion_length": per(1, "n_bodies"),
+        "course_start": per(1, "n_y"),
+        "course_slopes": per(N_STAGES, "n_y"),
+        "body_course_t": per(1, "n_bodies"),
+        "body_course_h": per(1, "n_bodies"),
         "y_guess": per(1, "n_y"),
         "slope_kept": per(1, "n_y"),
         "guard": guards,

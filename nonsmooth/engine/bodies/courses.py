@@ -1,0 +1,29 @@
+"""Courses: bodies that stick to one at rest by one contact go on past events that are none of theirs.
+
+Such a body has had a step of its own (:mod:`nonsmooth.engine.flow.courses`), whose end is known; until then it is where
+the interpolant of that step says, as long as nothing else touches it.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, kernel
+
+
+@kernel("i8(S, F, I, i8)")
+def is_on_course(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if contact ``c`` is the closed one of a body on its course, which has no other."""
+    contact = contact_at(S, w, k, c)
+    if contact.mode == OPEN:
+        return 0
+    return int(body_at(S, w, k, contact.body_a).course + body_at(S, w, k, contact.body_b).course)
+
+
+@kernel("i8(S, F, I, i8)")
+def end_courses_of(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """End the courses of the bodies of contact ``c``, which stay where they are; return how many."""
+    contact = contact_at(S, w, k, c)
+    one, two = body_at(S, w, k, contact.body_a), body_at(S, w, k, contact.body_b)
+    ended = one.course + two.course
+    one.course = two.course = 0
+    return int(ended)
