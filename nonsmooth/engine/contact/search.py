@@ -21,12 +21,12 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at,
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import length
 
-_ROUNDS = 4
 _MOST_EFFORT = 3e8
 """What the trials of one problem may cost, each counting as the cube of its unknowns: about a second."""
 _EQUAL = 1e3
 """Accelerations that tell modes may be so many times those that count as zero."""
 _SAME = 1e-6
+"""Contacts that pull alike, but for this part, open together."""
 
 
 @kernel("i8(S, F, I, i8, i8)")
@@ -252,7 +252,7 @@ def _free_sliding(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I, i8)")
 def _search_from(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     """Search, and again while contacts are found to slide that the higher static bound might still hold."""
-    for _round in range(_ROUNDS):
+    for _round in range(1 + S.n_active):
         if _search_round(S, w, k, solver) == 1:
             return 1
         if _free_sliding(S, w, k) == 0:

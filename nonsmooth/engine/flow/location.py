@@ -32,7 +32,7 @@ from nonsmooth.engine.flow.guards import (
 )
 from nonsmooth.engine.flow.self_check import explained_gap
 from nonsmooth.engine.flow.step import try_step
-from nonsmooth.engine.memory.layout import LAST_STAGE
+from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
@@ -44,10 +44,6 @@ _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
 _NEGLIGIBLE = 0.01
 """A step whose error is below this part of the tolerance is interpolated within it."""
-_MOST_ROOTS = 30
-"""So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
-_FEW_ROOTS = 4
-"""After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
 _SAMPLES = 16
 """Parts of a step, at least, at whose ends it is asked whether features face each other,"""
 _FARTHEST = 0.25
@@ -68,8 +64,6 @@ _BEHIND = 1e-3
 """later by this part of the time that it takes."""
 _FAR_BEHIND = 10.0
 """Other gaps may be closed by so many gap tolerances at an event: what closes at one instant does to round-off."""
-_CORRECTIONS = 40
-"""Steps to an event, as many as halvings of its bracket need; two or three do unless the guard is not smooth."""
 
 
 @kernel("i8(S, F, I)")
@@ -370,7 +364,8 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
     h, step = S.h, root
     # the guard is positive before the first and not after the second of these steps
     early, late = 0.0, 1e300
-    for _iteration in range(_CORRECTIONS):
+    # two or three do unless the guard is not smooth
+    for _halving in range(PARTS):
         S.h = step
         if not try_step(S, w, k, step) <= TRUSTED:
             return -1.0
@@ -451,10 +446,6 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     fired = max(0, first)
     roots = 0
     while first >= 0 and roots < number_of_guards(S):
-        if closed == 1 and roots == _MOST_ROOTS:
-            return -1.0
-        if closed == 1 and roots > _FEW_ROOTS and guard_at(S, w, k, first).first < 0.0:
-            return -1.0
         roots += 1
         later = theta
         theta = _event_fraction(S, w, k, h, later, first, closed)
