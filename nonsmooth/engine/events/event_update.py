@@ -78,9 +78,6 @@ from nonsmooth.engine.native.kernel import (
 from nonsmooth.engine.native.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
-_PAINLEVE_ATTEMPTS = 5
-_FACINGS = 20
-"""So often friction may be found to oppose the other way."""
 
 
 @kernel("i8(S, F, I)")
@@ -329,7 +326,7 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = 0
-    resting = stopped = 0
+    resting = stopped = facings = 0
     ends = 1 if cause == AVERAGING and which < 0 else 0
     if S.mean_until < 1e300:
         touch(S, w, k)
@@ -364,7 +361,9 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
             remember(S, w, k)
         _expect(S, w, k, cause, which)
         solved = _solve_islands(S, w, k, ends)
-        if solved == 2 and _attempt < _FACINGS:
+        # friction of each contact may be found to oppose the other way
+        if solved == 2 and facings <= S.n_contacts:
+            facings += 1
             approaching = touch(S, w, k)
             continue
         if S.stopped == 1:
@@ -376,7 +375,8 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
                     return NOT_FINITE
             resting += 1
             status = NO_CONTACT_SOLUTION
-            if resting <= _PAINLEVE_ATTEMPTS:
+            # each brings a slip to rest
+            if resting <= 1 + S.n_active:
                 status = _impact_without_collision(S, w, k)
             if status == NO_CONTACT_SOLUTION and average_active(S, w, k) == 1:
                 # those that are averaged already begin anew with it

@@ -30,7 +30,7 @@ from nonsmooth.engine.flow.guards import (
     stand_at,
     write_guards,
 )
-from nonsmooth.engine.flow.self_check import explained_gap
+from nonsmooth.engine.flow.self_check import EXPLAINED, NEAR, explained_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
@@ -42,7 +42,7 @@ _NEAR = 0.2
 """A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
 _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
-_NEGLIGIBLE = 0.01
+NEGLIGIBLE = 0.01
 """A step whose error is below this part of the tolerance is interpolated within it."""
 _SAMPLES = 16
 """Parts of a step, at least, at whose ends it is asked whether features face each other,"""
@@ -54,16 +54,12 @@ _JUMP = 1e-3
 """A guard of which this part of the start value is left next to its root jumps."""
 _NEARER = 0.5
 """Next to a root no more than this part of the start value is left."""
-_WAYS = 14
-"""So often the way behind a jump is doubled, from a part of the time tolerance on, until the jump is passed."""
 _FINE = 0.01
-"""Part of the time tolerance to which roots are found."""
+"""Part of the time tolerance to which roots are found, and the first way behind a jump, doubled till that is passed."""
 _LOOKS = 4
 """So often, between two of them, a gap that is to close is looked at when it should have closed,"""
 _BEHIND = 1e-3
 """later by this part of the time that it takes."""
-_FAR_BEHIND = 10.0
-"""Other gaps may be closed by so many gap tolerances at an event: what closes at one instant does to round-off."""
 
 
 @kernel("i8(S, F, I)")
@@ -109,7 +105,7 @@ def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
         value = g_middle + (vertex - middle) * (left + bend * (vertex - low))
         if not low < vertex < high or value > _NEAR * max(g_low, g_high):
             return 0.0
-        if abs(vertex - middle) < 1e-9:
+        if abs(vertex - middle) < SHORT:
             return 0.0
         g = _guard_at(S, w, k, h, vertex, i, 1)
         if g < 0.0:
@@ -290,7 +286,7 @@ def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(S, w, k, h, low, i, forces)
-        if low < 1e-4 * high:
+        if low < _SHORTEST * high:
             if g_low > 0.0 or not guard_at(S, w, k, i).first > 0.0 or guard_at(S, w, k, i).deflated == 1:
                 return low
             # it vanishes next to the start, where it was still positive
@@ -346,7 +342,7 @@ def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> flo
     if not try_step(S, w, k, step) <= TRUSTED:
         return -1.0
     way = _FINE * S.time_tolerance
-    for _doubling in range(_WAYS):
+    while way <= EXPLAINED * S.time_tolerance:
         evaluate_guards(S, w, k, S.t + step, S.y_new, step, 1)
         if guard_at(S, w, k, i).value < 0.0:
             return step
@@ -406,7 +402,8 @@ def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
         contact = contact_at(S, w, k, c)
         if contact.mode == OPEN and c != contact_of(S, i) and contact.beyond <= 0.0:
             start = min(0.0, guard_at(S, w, k, normal_guard(c)).start)
-            if contact.gap < start - _FAR_BEHIND * S.gap_tolerance and contact.gap_rate < 0.0:
+            # what closes at one instant does to round-off
+            if contact.gap < start - NEAR * S.gap_tolerance and contact.gap_rate < 0.0:
                 return 1
     return 0
 
@@ -476,7 +473,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         and is_gap(S, w, k, fired) == 0
         else 0
     )
-    if S.step_error <= _NEGLIGIBLE or jumps == 1:
+    if S.step_error <= NEGLIGIBLE or jumps == 1:
         state_within(S, w, k, h, theta, S.y_new)
         return step
     if S.guard_slope == -math.inf:

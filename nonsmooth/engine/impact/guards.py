@@ -53,8 +53,6 @@ _ROUGH = 1e-11
 _SMALL = 1e-3
 """But it must be small next to what the guard was before, which may be next to nothing, too."""
 _CORRECTIONS = 8
-_APART = 1e-7
-"""Fractions of a step that are nearer to each other tell no slope of a guard: round-off does."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -157,7 +155,8 @@ def _switch_fraction(S: Scalars, w: Floats, k: Integers, h: float, high: float, 
     for _iteration in range(60):
         theta = high - g_high * (high - low) / (g_high - g_low)
         g = _guard_at(S, w, k, h, theta, i)
-        if abs(theta - theta_before) > _APART:
+        # of what is nearer round-off would tell the slope
+        if abs(theta - theta_before) > SHORT:
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
         largest = max(largest, g)

@@ -58,15 +58,14 @@ from nonsmooth.engine.numerics.vectors import length
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
 """How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
 
-_MOST_STEPS = 100000
+MOST_STEPS = 100000
+"""Steps of an impact, or of a window of one; and windows."""
 _PATIENCE = 20
 """Steps that a slip may take next to rest without slowing down."""
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
 PROBE = 1e-2
 """Where no force has built up yet, forces are compared after this part of the shortest compression."""
-_SHORTEST = 1e-12
-"""A law that still has no finite value in a step of this part of the shortest compression has none."""
 _FIRST = 0.25
 """The first step of an impact is the tolerance to this power, in units of the shortest compression."""
 _SHARE = 0.7
@@ -77,8 +76,8 @@ _AT_EVENT = 4.0 * NOISE
 """A guard this near zero at the end of a step that was aimed at it has fired, one that began small only nearer."""
 _FAR = 4.0
 """A lone contact's first step, in units of the impulse that stops it: beyond all of its events."""
-_NO_RETURN = 2e-16
-"""Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
+_NO_RETURN = 2.0**-52
+"""Efficiencies up to the spacing of doubles at one count as none: what is lost is then all that was stored."""
 
 
 @kernel("void(S, F, I, f8, i8)")
@@ -288,7 +287,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
     S.aimed = -1
     prepare_guards(S, w, k)
     write_impact_slope(S, w, k, S.impact_slopes)
-    for _step in range(_MOST_STEPS):
+    for _step in range(MOST_STEPS):
         if interrupted(S, 8 * S.n_active) == 1:
             return ENDLESS
         if finished(S, w, k) == 1:
@@ -301,13 +300,14 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
         error = try_impact_step(S, w, k, h) if linear == 0 else 0.0
         S.impact_steps += 1
         if not error <= 1.0:
-            if not error < math.inf and h < _SHORTEST * shortest:
+            if not error < math.inf and h < NOISE * shortest:
+                # a law that still has no finite value has none
                 return INVALID
             h *= step_factor(error) if error < math.inf else 0.1
             continue
         located = _step_to_switch(S, w, k, h, linear)
         if not located <= TRUSTED:
-            if not located < math.inf and h < _SHORTEST * shortest:
+            if not located < math.inf and h < NOISE * shortest:
                 return INVALID
             h *= 0.25
             continue
