@@ -65,6 +65,7 @@ def rod(seed: int) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     arm = np.append(random.normal(size=2), -random.uniform(0.2, 1.0))
     mass, columns = np.eye(6), np.vstack([np.eye(3)[:, [2, 0, 1]], np.zeros((3, 3))])
     mass[3:, 3:] = turn @ np.diag([1.0 / 12.0, 1.0 / 12.0, 10.0 ** random.uniform(-6.0, -1.0)]) @ turn.T
+    mass = 0.5 * (mass + mass.T)
     columns[3:] = np.cross(arm, columns[:3], axisb=0).T
     delassus = columns.T @ np.linalg.solve(mass, columns)
     return mass, columns, float(np.linalg.norm(np.linalg.solve(delassus[1:, 1:], delassus[1:, 0])))
