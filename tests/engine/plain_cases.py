@@ -21,8 +21,10 @@ from bodies import (
     Ball,
     BallJoint,
     BoxBody,
+    ConstantVelocity,
     DrivenBody,
     Dumbbell,
+    FunctionLoad,
     Harmonic,
     PlanarBody,
     Plate,
@@ -35,6 +37,7 @@ from bodies import (
 )
 from bodies.contacts.surface.surface_pairs import MOST_NEAR
 from bodies.meshes.patches import patches_for_ball
+from bodies.shapes.box import Box
 from laws import (
     Anisotropic,
     Bristle,
@@ -52,6 +55,7 @@ from nonsmooth.engine.memory.modes import POLICIES
 from nonsmooth.engine.memory.solvers import SOLVERS
 from tests.bodies.meshes.parts import hills
 from tests.engine.test_inelastic import impact, wedged
+from tests.laws.test_stiff_slips import rod
 from tests.physics.test_own_guards import Level
 
 Numbers: TypeAlias = dict[str, Any]
@@ -79,6 +83,8 @@ def _numbers(system: ns.System, t_end: float, **options: Any) -> Numbers:
         "q": s.q,
         "u": s.u,
         "impulse": s.events.impulse,
+        "wrong": [s.energy.residual],
+        "cost": [s.counters.steps + s.counters.rejected + s.counters.impact_steps + s.counters.gap_looks],
     }
 
 
@@ -268,6 +274,37 @@ def _groove() -> Numbers:
     return _numbers(system, 5e-3)
 
 
+def _bouncing() -> Numbers:
+    """Let a ball bounce and spin until it rests."""
+    plate, ball = Plate(), Ball(0.01)
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, **_rigid(EnergeticImpact(0.5, duration=1e-3), Coulomb(0.3)))
+    system.place(ball, position=(0.0, 0.0, 0.03), velocity=(0.1, 0.0, 0.0), angular_velocity=(0.0, 0.0, 3.0))
+    return _numbers(system, 0.5)
+
+
+def _over_an_edge() -> Numbers:
+    """Let a ball slide over the edge of a box and off."""
+    table, ball = DrivenBody(carried=(Box(0.1, 0.1, 0.1),)), Ball(0.02)
+    system = ns.System([table, ball])
+    system.contact(table, ball, **_rigid(EnergeticImpact(0.0), Frictionless()))
+    system.place(ball, position=(0.096, 0.0, 0.12), velocity=(0.2, 0.0, 0.0))
+    return _numbers(system, 0.14)
+
+
+def _squeezed() -> Numbers:
+    """Lower a lid onto a ball, slower than bounces are: no impulse stops it on both sides."""
+    lid = Plate(
+        ConstantVelocity(position=(0.0, 0.0, 0.02), velocity=(0.0, 0.0, -1e-7), orientation=(0.0, 1.0, 0.0, 0.0))
+    )
+    sides, ball = (Plate(), lid), Ball(0.01)
+    system = ns.System([*sides, ball])
+    for side in sides:
+        system.contact(side, ball, **_rigid(EnergeticImpact(0.5, duration=1e-3), Coulomb(0.3)))
+    system.place(ball, position=(0.0, 0.0, 0.01))
+    return _numbers(system, 1e-5)
+
+
 def _contact_problem(seed: int, n: int, n_u: int, solver: str, sliding: bool) -> Numbers:
     """Solve for random contacts, more of them than the velocities need where n_u is small."""
     rng = np.random.default_rng(seed)
@@ -304,6 +341,33 @@ def _doubled_chain(n: int, solver: str) -> Numbers:
     return {"modes": result.modes, "acceleration": result.acceleration, "normal": result.normal_force}
 
 
+def _creeping() -> Numbers:
+    """Drag a ball by a force that turns and falls below the bound of friction, until its slip stops."""
+    ground, ball = Plate(), Ball(0.01, density=1000.0)
+    system = ns.System([ground, ball])
+    system.contact(ground, ball, **_rigid(friction=Coulomb(0.3)))
+    system.place(ball, position=(0.0, 0.0, 0.01), velocity=(5e-4, 0.0, 0.0))
+    system.load(FunctionLoad(_dragging, {"bound": 3.5 * 0.3 * 9.81 * ball.total_mass}), ground, ball)
+    return _numbers(system, 0.02, tolerance=1e-8)
+
+
+def _dragging(t: float, a: Any, b: Any, out: Any, bound: float) -> None:
+    for i in range(9):
+        out[i] = b[i - 3] if 3 <= i < 6 else 0.0
+    size = bound * (0.999 - 0.5 * t)
+    out[0], out[1] = size * math.cos(7.0 * t), size * math.sin(7.0 * t)
+
+
+def _next_to_the_bound(seed: int) -> Numbers:
+    """Let a point of a light rod strike with slip and with 1e-5 less friction than holds it."""
+    mass, columns, bound = rod(seed)
+    u = np.linalg.lstsq(columns.T, [-1.0, 0.6, 0.8], rcond=None)[0]
+    result = ns.solve_impact(
+        mass, columns[:, :1], columns[:, 1:].reshape(6, 1, 2), u, [_IMPACT], [Coulomb((1.0 - 1e-5) * bound)]
+    )
+    return _impact_numbers(mass, u, result)
+
+
 def _impact_problem(seed: int, n: int, law: Any) -> Numbers:
     rng = np.random.default_rng(seed)
     n_u = 3 * n + 1
@@ -311,7 +375,19 @@ def _impact_problem(seed: int, n: int, law: Any) -> Numbers:
     u = -u if np.all(normal.T @ u >= 0.0) else u
     mass = np.diag(rng.uniform(0.5, 2.0, n_u))
     result = ns.solve_impact(mass, normal, tangential, u, [law] * n, [Coulomb(0.2, 0.3)] * n)
-    return {"velocity": result.velocity, "normal": result.normal_impulse, "stored": result.stored}
+    return _impact_numbers(mass, u, result)
+
+
+def _impact_numbers(mass: Any, u: Any, result: ns.ImpactResult) -> Numbers:
+    lost = 0.5 * (u @ mass @ u - result.velocity @ mass @ result.velocity)
+    booked = np.sum(result.restitution_loss + result.friction_loss)
+    return {
+        "velocity": result.velocity,
+        "normal": result.normal_impulse,
+        "stored": result.stored,
+        "wrong": [(booked - lost) / (u @ mass @ u)],
+        "cost": [result.steps],
+    }
 
 
 CASES: dict[str, Callable[[], Numbers]] = {
@@ -342,6 +418,11 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "border": lambda: _border(60.0, 1e-9),
     "flat": _flat,
     "groove": _groove,
+    "squeezed": _squeezed,
+    "bouncing": _bouncing,
+    "creeping": _creeping,
+    **{f"next to the bound, {n}": lambda n=n: _next_to_the_bound(n) for n in (1, 4)},  # type: ignore[misc]
+    "over an edge": _over_an_edge,
     "wedged impacts": lambda: {str(seed): impact(*wedged(seed))[1] for seed in range(60)},
     "slow border": lambda: _border(12.0, 3e-9),
     **{

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -14,6 +16,8 @@ from nonsmooth.model.delassus import write_delassus
 
 Floats = NDArray[np.float64]
 FRICTION = 0.8
+MOST = 200
+"""Newton's method is tried so often at most for all wedges that are drawn."""
 REST = 1e-8
 """Velocity that counts as none [m/s]."""
 
@@ -50,8 +54,7 @@ def impact(delassus: Floats, rates: Floats) -> tuple[bool, Floats]:
     return found, memory.array("active_forces", 3 * n).reshape(n, 3).copy()
 
 
-@pytest.mark.parametrize("seed", range(60))
-def test_impulses_keep_the_laws(seed: int) -> None:
+def assert_lawful(seed: int) -> None:
     """None pulls, all are in their cones, what moves rubs against its motion, and the energy does not grow."""
     delassus, rates = wedged(seed)
     found, impulses = impact(delassus, rates)
@@ -69,8 +72,39 @@ def test_impulses_keep_the_laws(seed: int) -> None:
     assert impulses.ravel() @ (rates + after.ravel()) <= 0.0
 
 
+@pytest.mark.parametrize("seed", range(60))
+def test_impulses_keep_the_laws(seed: int) -> None:
+    """Of every wedge that is drawn."""
+    assert_lawful(seed)
+
+
 @pytest.mark.skipif(not PLAIN, reason="the path is compiled into the engine")
 def test_some_are_found_by_giving_way_only(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sweeps and Newton's method from them do not do."""
     monkeypatch.setattr(inelastic, "_follow", lambda *_: 0)
     assert not all(impact(*wedged(seed))[0] for seed in range(60))
+
+
+def _assert_all_short(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Hold all answers against the laws, and the steps of Newton's method that they took to a few on average."""
+    steps, step = [], vars(inelastic)["step_by_newton"]
+
+    def counted(*given: Any) -> int:
+        steps.append(1)
+        return int(step(*given))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(inelastic, "step_by_newton", counted)
+        for seed in range(60):
+            assert_lawful(seed)
+    assert len(steps) < MOST
+
+
+@pytest.mark.skipif(not PLAIN, reason="constants are compiled into the engine")
+@pytest.mark.parametrize(("name", "value"), [("_TRUE", 1e10), ("_STUCK", 0.0), ("_RATIO", 0.99)])
+def test_the_path_needs_its_constants(name: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It ends where rates are right, tries again where it does not go on, and is short."""
+    _assert_all_short(monkeypatch)
+    monkeypatch.setattr(inelastic, name, value)
+    with pytest.raises(AssertionError):
+        _assert_all_short(monkeypatch)

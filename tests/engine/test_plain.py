@@ -27,7 +27,6 @@ NOT_ENTERED = {
     "impact/clock": {"_restore_phases"},
     "impact/end": {"cut_short", "faded"},
     "contact/mean_forces": {"may_be_longer"},
-    "events/accumulation": {"average_slow"},
     "events/averaging": {"average_island_of"},
     "events/stopping": {"_share"},
     "events/twins": {"take_over"},

@@ -22,10 +22,8 @@ from nonsmooth.engine.native.kernel import (
     joint_row,
     kernel,
 )
+from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.engine.numerics.vectors import Vector, minus, opposite
-
-_REDUNDANT = 1e-10
-"""A pivot below this part of its diagonal belongs to a row that the rows before it imply."""
 
 
 @kernel("f8(F, i8, v3, v3, v3)")
@@ -97,7 +95,7 @@ def _factorise(w: Floats, a: int, n: int) -> None:
         pivot = own
         for i in range(j):
             pivot -= w[a + j * n + i] * w[a + j * n + i]
-        if not pivot > _REDUNDANT * own:
+        if not pivot > SINGULAR * own:
             for i in range(j, n):
                 w[a + i * n + j] = 0.0
             continue

@@ -10,7 +10,6 @@ from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, 
 from nonsmooth.engine.numerics.vectors import length
 
 _STEPS = 60
-_NO_GAIN = 1e-9
 _FLOOR = 1e-6
 """Added to the Hessian, whose largest eigenvalue is 1: the shortest move that does is made, not one of round-off."""
 _FLOOR_IN_BAND = 1e-3
@@ -189,7 +188,7 @@ def distribute(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float)
             slope += w[S.right + i] * w[S.x + i]
             w[S.sigma + i] = force_of(S, w, k, i)
         # where the distance has its smallest value, and it is not zero, there are no such forces
-        if not slope < -_NO_GAIN * square:
+        if not slope < 0.0:
             return 0
         share, moved = 1.0, 0
         for _halving in range(30):

@@ -12,7 +12,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
 from nonsmooth.engine.contact.null_space_forces import shift_forces
-from nonsmooth.engine.contact.polish import polish
+from nonsmooth.engine.contact.polish import EXACT, polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, diagonal_block
@@ -26,8 +26,6 @@ _ARRIVED = 1e-10
 """Forces that are not unique may be so much out of their cones."""
 _TURNS = 8
 """Newton steps of the direction of a slip that is alone; from a step before three or four do."""
-_EXACT = 1e-14
-"""Part of the accelerations that is left across it, by round-off."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -138,7 +136,7 @@ def _oppose_alone(S: Scalars, w: Floats, k: Integers) -> int:
         p1, p2 = g.n1 - mu * (g.t11 * d1 + g.t12 * d2), g.n2 - mu * (g.t12 * d1 + g.t22 * d2)
         a1, a2 = active.free[1] + force * p1, active.free[2] + force * p2
         across, along = a1 * d2 - a2 * d1, a1 * d1 + a2 * d2
-        if abs(across) <= _EXACT * max(S.acceleration_scale, abs(a1), abs(a2)):
+        if abs(across) <= EXACT * max(S.acceleration_scale, abs(a1), abs(a2)):
             if not along > 0.0 or not force > 0.0:
                 return 0
             active.normal_force, active.direction = force, (d1, d2)

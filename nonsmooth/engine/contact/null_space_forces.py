@@ -10,6 +10,7 @@ the contacts let go.
 from __future__ import annotations
 
 from nonsmooth.engine.contact.distribution import distribute
+from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.contact.unknowns import force_of, set_force
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -29,7 +30,7 @@ _AMPLE = 1e-2
 _LEAST = 1e-11
 """A distance below this part of the largest force is none."""
 _ARRIVED = 1e-12
-_SLACK = 2e-9
+_SLACK = 2.0 * NO_FORCE
 """Then a bound that is passed by this part of the largest force holds, as it does to the contact problem."""
 
 

@@ -19,7 +19,7 @@ from nonsmooth.engine.numerics.vectors import length
 _STEPS = 25
 _TURN = 0.7
 """Largest turn of a direction in one step [rad]."""
-_EXACT = 1e-14
+EXACT = 1e-14
 _NEAR = 1e-8
 
 
@@ -148,7 +148,7 @@ def polish(S: Scalars, w: Floats, k: Integers) -> int:
             active = active_at(S, w, k, a)
             for i in range(active.first_unknown, active.end_unknown):
                 worst = max(worst, _write_row(S, w, k, a, i, n))
-        if worst <= _EXACT or (worst <= _NEAR and worst >= best):
+        if worst <= EXACT or (worst <= _NEAR and worst >= best):
             return 1
         best = min(best, worst)
         _solve(S, w, n)

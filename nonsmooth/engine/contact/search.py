@@ -14,19 +14,17 @@ from nonsmooth.engine.contact.gauss_seidel import search_by_sweeps
 from nonsmooth.engine.contact.lemke import search_by_pivots
 from nonsmooth.engine.contact.newton import search_by_newton
 from nonsmooth.engine.contact.polish import polish
-from nonsmooth.engine.contact.trial import identify, judge, set_scales, verify
+from nonsmooth.engine.contact.trial import EQUAL, identify, judge, set_scales, verify
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import length
 
-_ROUNDS = 4
 _MOST_EFFORT = 3e8
 """What the trials of one problem may cost, each counting as the cube of its unknowns: about a second."""
-_EQUAL = 1e3
-"""Accelerations that tell modes may be so many times those that count as zero."""
 _SAME = 1e-6
+"""Contacts that pull alike, but for this part, open together."""
 
 
 @kernel("i8(S, F, I, i8, i8)")
@@ -62,7 +60,7 @@ def _restore_cones(S: Scalars, w: Floats, k: Integers) -> None:
 def _guess_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
     """Try the modes that the accelerations tell, but for those of the past; return 1 if they differ."""
     differ = 0
-    small = _EQUAL * S.small_acceleration
+    small = EQUAL * S.small_acceleration
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         if active.mode_tried == active.mode_past or active.normal_acceleration > small:
@@ -252,7 +250,7 @@ def _free_sliding(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I, i8)")
 def _search_from(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
     """Search, and again while contacts are found to slide that the higher static bound might still hold."""
-    for _round in range(_ROUNDS):
+    for _round in range(1 + S.n_active):
         if _search_round(S, w, k, solver) == 1:
             return 1
         if _free_sliding(S, w, k) == 0:

@@ -15,8 +15,9 @@ NO_FORCE = 1e-9
 _SOLVED = 1e-5
 """Part of what counts as zero in an island that round-off of its largest forces leaves in all of them."""
 _ARRIVED = 0.1
-_DISAGREEMENT = 1e3
-"""More contacts than can hold independently may disagree on the motion by so many times what counts as zero."""
+EQUAL = 1e3
+"""Accelerations that tell modes, and those on which more contacts than can hold independently may disagree, may be so
+many times what counts as zero."""
 
 
 @kernel("void(S, F, I)")
@@ -90,7 +91,7 @@ def _compare(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
     """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
     set_scales(S, w, k)
     small = S.small_acceleration
-    held = small if S.deficient == 0 else _DISAGREEMENT * small
+    held = small if S.deficient == 0 else EQUAL * small
     result = 1
     for a in range(S.n_active):
         active = active_at(S, w, k, a)

@@ -16,12 +16,10 @@ from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
-from nonsmooth.engine.flow.self_check import EXPLAINED
+from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 
-_CREEPING = 1e-3
-"""An approach below this part of what counts as zero is none."""
 _RESTS = 1.0 - 1e-6
 """What comes to rest this near the end of an averaging, in parts of it, is not told from what does not."""
 
@@ -235,7 +233,7 @@ def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         rests = contact.touching == 1 and contact.normal_function == 0 and contact.mode == OPEN
-        if rests and contact.rate[0] < -_CREEPING * S.velocity_tolerance:
+        if rests and contact.rate[0] < -NOUGHT * S.velocity_tolerance:
             creeping += 1
     if creeping == 0:
         return 0.0

@@ -14,10 +14,8 @@ from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_PACE = 1.0
-"""Evaluations of forces within a contact time beyond which time hardly passes,"""
 _BURST = 20000.0
-"""and so many more are a stop of a slip, not yet a crowd of them."""
+"""Evaluations of forces beyond one in a contact time: so many are the stop of a slip, not yet a crowd of them."""
 
 
 @kernel("i8(S, F, I)")
@@ -91,7 +89,7 @@ def holds_time_up(S: Scalars, w: Floats, k: Integers) -> int:
         time = min(time, contact_at(S, w, k, k[S.grouped + i]).contact_time)
     if time == 0.0:
         return -1
-    S.crowd = max(0.0, S.crowd - _PACE * (S.t - S.crowd_t) / time) + float(S.evaluations - S.evaluated)
+    S.crowd = max(0.0, S.crowd - (S.t - S.crowd_t) / time) + float(S.evaluations - S.evaluated)
     S.crowd_t, S.evaluated = S.t, S.evaluations
     if S.crowd <= _BURST:
         return -1

@@ -44,7 +44,7 @@ from nonsmooth.engine.flow.projection import (
     project_closed,
     project_joints,
 )
-from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_account
+from nonsmooth.engine.flow.self_check import NOUGHT, check_end, check_gaps, close_account
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
@@ -87,8 +87,6 @@ from nonsmooth.engine.numerics.vectors import length
 
 _SPACINGS = 4.0 * 2.0**-52
 """Times closer than this part of the time are not told apart."""
-_NO_STEP = 1e-3
-"""A step below this part of the time tolerance in which guards crowd or the error grows leads nowhere."""
 
 
 @kernel("i8(S, F, I, f8)")
@@ -376,7 +374,8 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
 def _shorten(S: Scalars, w: Floats, k: Integers) -> int:
     """Ask for a quarter of the step, in which no event could be located; return the status."""
     S.limit = BY_CROWD
-    if S.h < _NO_STEP * S.time_tolerance:
+    # crowded guards, or an error that grows
+    if S.h < NOUGHT * S.time_tolerance:
         return STEP_TOO_SMALL
     if S.n_integrated == 0 and S.course_end < math.inf:
         S.course_end = S.t + 0.25 * S.h

@@ -7,8 +7,10 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.events.stopping import share_before_stop
-from nonsmooth.engine.flow.clearance import first_of_flying, foresee, keep_falls
+from nonsmooth.engine.flow.clearance import ABOUT, first_of_flying, foresee, keep_falls
 from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.location import NEGLIGIBLE
+from nonsmooth.engine.flow.self_check import NEAR
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
     BY_AVERAGING,
@@ -25,25 +27,18 @@ from nonsmooth.engine.memory.limits import (
     BY_TURN,
 )
 from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
+from nonsmooth.engine.memory.tableau import ORDER
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import dot
 
-_BEGINS = 10.0
-"""A compliant contact begins so many gap tolerances from its reach at most."""
 _FIRST_WAY = 1e-3
 """Way that surfaces go in the first step of one, in units of the smaller body."""
-_BEHIND = 1.1
-"""A first step goes so far, in units of the time in which a gap is expected to close: it is short, and tells when."""
-_EXACT = 0.4
-"""Only where that is below this part of the step does it make its error a hundred times smaller."""
 _SHORTEST = 0.01
-"""But it is no shorter than this part of what it would be."""
+"""A first step is no shorter than this part of what it would be."""
 _TURN = 0.5
 """What flies turns by no more within a step [rad] where that moves surfaces: the bounds of gaps ask that speeds within
 it are about those at its ends, which no control of an error sees to there."""
-_ATTEMPTS = 200
-"""Lengths that are tried of one step."""
 
 
 @kernel("f8(S, F, I, i8)")
@@ -53,7 +48,7 @@ def _first_of_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
     """
     contact = contact_at(S, w, k, c)
-    if contact.normal_function == 0 or guard_at(S, w, k, normal_guard(c)).end > _BEGINS * S.gap_tolerance:
+    if contact.normal_function == 0 or guard_at(S, w, k, normal_guard(c)).end > NEAR * S.gap_tolerance:
         return 1e300
     speed = math.sqrt(dot(contact.rate_end, contact.rate_end))
     return float(_FIRST_WAY * contact.size / max(speed, S.velocity_tolerance))
@@ -97,13 +92,15 @@ def _first_attempt(S: Scalars, w: Floats, k: Integers, wanted: float) -> float:
             if contact.mode != OPEN:
                 S.h_first = min(S.h_first, _first_of_compliant(S, w, k, c))
         h = min(h, S.h_first)
-        S.h_closing = max(_SHORTEST * h, _BEHIND * soonest)
+        # a first step to where a gap is expected to close is short, and tells when it does
+        S.h_closing = max(_SHORTEST * h, ABOUT * soonest)
         keep_falls(S, w, k, min(h, S.h_closing))
     if S.n_flying > 0 and soonest < h:
         S.h_arrival = first_of_flying(S, w, k, soonest)
     if S.h_arrival < h:
         return float(S.h_arrival)
-    return float(S.h_closing if S.h_closing < _EXACT * h else h)
+    # a step that much shorter has an error that is negligible
+    return float(S.h_closing if S.h_closing < NEGLIGIBLE ** (1.0 / ORDER) * h else h)
 
 
 @kernel("i8(S, f8, f8)")
@@ -159,7 +156,7 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
     h = _first_attempt(S, w, k, wanted)
     S.limit = _limit(S, wanted, h)
     explained = 0.0
-    for _attempt in range(_ATTEMPTS):
+    while True:
         if S.stopped == 1:
             return NOT_FINITE
         S.halting = -1
@@ -192,6 +189,5 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
                 factor = max(SHRINK, SAFETY / error)
             explained = factor * factor * error
             h *= factor
-        if h < S.time_tolerance:
+        if not h >= S.time_tolerance:
             return STEP_TOO_SMALL
-    return STEP_TOO_SMALL

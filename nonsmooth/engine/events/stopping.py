@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.flow.guard_numbers import friction_guard
+from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.flow.step import STIFF
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, guard_at, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_HELD = 1e-3
-"""Part of the tolerance of velocities below which a slip is what solving leaves of none."""
 _BEYOND = 1.5
 """Of the way to a stop, as its deceleration foretells it, an explicit step goes so much, and the stop is located;"""
 _ALMOST = 0.98
 """where none will do an implicit one goes so much, and all of it from within the tolerance of velocities on."""
-_MET = 1e-3
-"""A step ends at the stop if that is so near its end, in steps."""
 _SHARES = 1e-3, 0.9
-"""What a step may be cut to for that,"""
+"""What a step may be cut to for that, so near its end being at it,"""
 _BLIND = 0.25
 """and is where nothing is foretold."""
 
@@ -39,7 +36,7 @@ def _share(S: Scalars, w: Floats, k: Integers, c: int, h: float) -> float:
             part *= _BEYOND
         elif first > S.velocity_tolerance:
             part *= _ALMOST
-        elif abs(part - 1.0) * h <= _MET * h + least:
+        elif abs(part - 1.0) * h <= _SHARES[0] * h + least:
             S.halting = c
             return 1.0
     return float(max(_SHARES[0], least / h, min(_SHARES[1], part)))
@@ -51,7 +48,7 @@ def share_before_stop(S: Scalars, w: Floats, k: Integers, h: float) -> float:
 
     When the slip stopped within the step is not told.  What stops where it ends is ``halting``.
     """
-    share, none = 1.0, _HELD * S.velocity_tolerance
+    share, none = 1.0, NOUGHT * S.velocity_tolerance
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         rubs = contact.mode == SLIDE and contact.traction_function == 0 and contact.averaged == OPEN

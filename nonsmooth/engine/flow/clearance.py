@@ -19,6 +19,7 @@ from nonsmooth.engine.flow.flight import body_within, fly
 from nonsmooth.engine.flow.flow import slip_guard
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
 from nonsmooth.engine.flow.guards import grown, has_fired
+from nonsmooth.engine.flow.self_check import NEAR, NOUGHT
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import OPEN
@@ -42,14 +43,10 @@ UNKNOWN_FALL = -1.0, 0.0, 0.0
 """How fast the rate of a gap can fall where that has not been looked at."""
 WAY = 0.02
 """Part of the size of the smaller body that features may move unseen where they do not face each other."""
-_RESTS = 10.0
-"""A gap and a rate of so many tolerances at both ends are those of neighbours at rest, which are sampled."""
-_NEXT_TO_CLOSED = 1e-3
-"""Part of the tolerances of gaps and times that a step of bodies that fly leaves of a gap at whose closing it ends."""
 _CLOSINGS = 8
-"""Steps of Newton's method to there,"""
-_ABOUT = 1.2
-"""and of gaps that are due within this factor of the first one."""
+"""Steps of Newton's method to where a gap between bodies that fly is closed,"""
+ABOUT = 1.1
+"""and of gaps that are due within this factor of the first one: so well is known when."""
 _COARSE = 0.125
 """Part of a step to which the gap of neighbours at rest is looked at."""
 
@@ -246,7 +243,8 @@ def _closing_of_flying(S: Scalars, w: Floats, k: Integers, c: int) -> float:
         evaluate_geometry(S, w, k, c)
         evaluate_rates(S, w, k, c)
         rate = contact.rate[0]
-        aim = _NEXT_TO_CLOSED * min(S.gap_tolerance, S.time_tolerance * abs(rate))
+        # a step that ends at the closing leaves so little of the gap
+        aim = NOUGHT * min(S.gap_tolerance, S.time_tolerance * abs(rate))
         left = contact.gap - aim
         if abs(left) <= 0.5 * aim:
             return float(elapsed)
@@ -266,7 +264,7 @@ def first_of_flying(S: Scalars, w: Floats, k: Integers, soonest: float) -> float
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         fly_both = _flies(S, w, k, contact.body_a) == 1 and _flies(S, w, k, contact.body_b) == 1
-        if contact.due <= min(_ABOUT * soonest, first) and fly_both:
+        if contact.due <= min(ABOUT * soonest, first) and fly_both:
             first = min(first, _closing_of_flying(S, w, k, c))
     return first
 
@@ -460,7 +458,7 @@ def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float
         span = right.theta - left.theta
         if stays_open(w, S.part_ends, n, h, speed, fall, turning, lever, S.gap_tolerance) == 0 and n < PARTS:
             gaps, rates = max(abs(left.gap), abs(right.gap)), max(abs(left.rate), abs(right.rate))
-            rests = gaps <= _RESTS * S.gap_tolerance and rates <= _RESTS * S.velocity_tolerance
+            rests = gaps <= NEAR * S.gap_tolerance and rates <= NEAR * S.velocity_tolerance
             astray = left.past > 0.0 or right.past > 0.0
             enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * contact.size))
             if span * h > S.time_tolerance and not enough:

@@ -29,14 +29,11 @@ from nonsmooth.engine.native.kernel import (
     guard_at,
     kernel,
 )
-from nonsmooth.engine.numerics.runge_kutta import step_factor
+from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import length
 
-_ATTEMPTS = 200
 _EXCESS = 1e-8
 """Forces past their bounds by this part of the largest are so by more than round-off."""
-_SHORTEST = 0.1
-"""A step in which a slip turns is cut to this part of it at most."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -82,7 +79,7 @@ def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
             continue
         first = guard_at(S, w, k, friction_guard(S, c)).first
         if first > S.velocity_tolerance:
-            part = min(part, max(_SHORTEST, first / (first - last)))
+            part = min(part, max(SHRINK, first / (first - last)))
             continue
         part = 0.0
         guard_at(S, w, k, friction_guard(S, c)).first = -first
@@ -93,7 +90,7 @@ def _up_to_turn(S: Scalars, w: Floats, k: Integers) -> float:
 @kernel("f8(S, F, I, f8)")
 def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """Try steps of ``h`` and less until one meets the tolerance and no slip turns within it; return it, or -1."""
-    for _attempt in range(_ATTEMPTS):
+    while True:
         error = try_length(S, w, k, h)
         if S.stopped == 1:
             return -1.0
@@ -102,15 +99,14 @@ def _found_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
             part = _up_to_turn(S, w, k)
             if part == 1.0 or h <= S.time_tolerance:
                 return h
-        elif h <= S.time_tolerance:
+        elif not h > S.time_tolerance:
             return -1.0
         if part == 0.0:
             slope(S, w, k, S.t, S.y, S.slopes, 0, 1)
             part = 0.5
         elif part == 1.0:
-            part = step_factor(error) if error < 1e300 else _SHORTEST
-        h *= part
-    return -1.0
+            part = step_factor(error) if error < 1e300 else SHRINK
+        h *= min(part, SAFETY)
 
 
 @kernel("void(S, F, I)")

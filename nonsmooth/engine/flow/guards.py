@@ -29,6 +29,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     normal_guard,
     number_of_guards,
 )
+from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -44,12 +45,8 @@ from nonsmooth.engine.native.kernel import (
     own_guard_at,
 )
 
-_ROUND_OFF = 1e-3
-"""Of what starts from rest, a growth of this part of the tolerance below zero is not told from zero."""
-_WRONG_GAP = -1e3
-"""A gap that is not armed fires below so many gap tolerances all the same,"""
 _WRONG_SLIP = -0.05
-"""and a slip below so many velocity tolerances."""
+"""A slip that is not armed fires below so many velocity tolerances all the same, a gap where nothing explains it."""
 LATE = 2.0
 """A closed contact ends so many gap tolerances past the end of its features; up to one it may close."""
 
@@ -187,7 +184,7 @@ def grown(S: Scalars, w: Floats, k: Integers, i: int, value: float, elapsed: flo
         return value
     rate = guard.first
     separates = i < first_own_guard(S) and _is_open(S, w, k, i) == 1 and rate > S.velocity_tolerance
-    if separates and rate * elapsed <= _ROUND_OFF * S.gap_tolerance:
+    if separates and rate * elapsed <= NOUGHT * S.gap_tolerance:
         return float(rate)
     return float((value - guard.start) / elapsed)
 
@@ -256,16 +253,16 @@ def arm_guards(S: Scalars, w: Floats, k: Integers) -> None:
                 normal.deflated = 1
                 normal.start = min(0.0, normal.start)
                 if contact.gap_rate_end <= S.velocity_tolerance:
-                    normal.start -= _ROUND_OFF * S.gap_tolerance
+                    normal.start -= NOUGHT * S.gap_tolerance
                 normal.first = contact.gap_rate_end
         elif contact.normal_function != 0 and normal.first <= S.gap_tolerance:
             # it has just touched down, and lets go when it comes back to here
             normal.deflated = 1
-            normal.start = min(0.0, normal.start) - _ROUND_OFF * S.gap_tolerance
+            normal.start = min(0.0, normal.start) - NOUGHT * S.gap_tolerance
             normal.first = -contact.gap_rate_end
         if contact.mode == SLIDE and friction.first <= S.velocity_tolerance:
             friction.deflated = 1
-            friction.start = min(0.0, friction.start) - _ROUND_OFF * S.velocity_tolerance
+            friction.start = min(0.0, friction.start) - NOUGHT * S.velocity_tolerance
             friction.first = 0.0
         rests = contact.mode == OPEN and normal.deflated == 1
         normal.armed = 1 if rests or normal.first > _least(S, w, k, normal_guard(c)) else 0
@@ -304,7 +301,7 @@ def _rests(S: Scalars, w: Floats, k: Integers, i: int) -> int:
     if contact.mode != OPEN or is_friction_guard(S, i) == 1:
         return 0
     if guard.deflated == 1:
-        return 1 if contact.gap_rate > -_ROUND_OFF * S.velocity_tolerance else 0
+        return 1 if contact.gap_rate > -NOUGHT * S.velocity_tolerance else 0
     rests = guard.value > -S.gap_tolerance and contact.gap_rate > -S.velocity_tolerance
     return 1 if contact.beyond != 0.0 and rests else 0
 
@@ -317,7 +314,7 @@ def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
         return float(_WRONG_SLIP * S.velocity_tolerance)
     normal = is_friction_guard(S, i) == 0
     if normal and (contact.mode == OPEN or contact.normal_function != 0):
-        return float(_WRONG_GAP * S.gap_tolerance)
+        return float(-EXPLAINED * S.gap_tolerance)
     if normal or (contact.mode == STICK and contact.holds == 1):
         return float(WRONG_FORCE * contact.small_force_of)
     return float(_WRONG_SLIP * S.velocity_tolerance)

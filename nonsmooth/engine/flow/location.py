@@ -30,9 +30,9 @@ from nonsmooth.engine.flow.guards import (
     stand_at,
     write_guards,
 )
-from nonsmooth.engine.flow.self_check import explained_gap
+from nonsmooth.engine.flow.self_check import EXPLAINED, NEAR, explained_gap
 from nonsmooth.engine.flow.step import try_step
-from nonsmooth.engine.memory.layout import LAST_STAGE
+from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
@@ -42,12 +42,8 @@ _NEAR = 0.2
 """A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
 _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
-_NEGLIGIBLE = 0.01
+NEGLIGIBLE = 0.01
 """A step whose error is below this part of the tolerance is interpolated within it."""
-_MOST_ROOTS = 30
-"""So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
-_FEW_ROOTS = 4
-"""After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
 _SAMPLES = 16
 """Parts of a step, at least, at whose ends it is asked whether features face each other,"""
 _FARTHEST = 0.25
@@ -58,18 +54,12 @@ _JUMP = 1e-3
 """A guard of which this part of the start value is left next to its root jumps."""
 _NEARER = 0.5
 """Next to a root no more than this part of the start value is left."""
-_WAYS = 14
-"""So often the way behind a jump is doubled, from a part of the time tolerance on, until the jump is passed."""
 _FINE = 0.01
-"""Part of the time tolerance to which roots are found."""
+"""Part of the time tolerance to which roots are found, and the first way behind a jump, doubled till that is passed."""
 _LOOKS = 4
 """So often, between two of them, a gap that is to close is looked at when it should have closed,"""
 _BEHIND = 1e-3
 """later by this part of the time that it takes."""
-_FAR_BEHIND = 10.0
-"""Other gaps may be closed by so many gap tolerances at an event: what closes at one instant does to round-off."""
-_CORRECTIONS = 40
-"""Steps to an event, as many as halvings of its bracket need; two or three do unless the guard is not smooth."""
 
 
 @kernel("i8(S, F, I)")
@@ -112,7 +102,7 @@ def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
         value = g_middle + (vertex - middle) * (left + bend * (vertex - low))
         if not low < vertex < high or value > _NEAR * max(g_low, g_high):
             return 0.0
-        if abs(vertex - middle) < 1e-9:
+        if abs(vertex - middle) < SHORT:
             return 0.0
         g = _guard_at(S, w, k, h, vertex, i, 1)
         if g < 0.0:
@@ -293,7 +283,7 @@ def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(S, w, k, h, low, i, forces)
-        if low < 1e-4 * high:
+        if low < _SHORTEST * high:
             if g_low > 0.0 or not guard_at(S, w, k, i).first > 0.0 or guard_at(S, w, k, i).deflated == 1:
                 return low
             # it vanishes next to the start, where it was still positive
@@ -349,7 +339,7 @@ def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> flo
     if not try_step(S, w, k, step) <= TRUSTED:
         return -1.0
     way = _FINE * S.time_tolerance
-    for _doubling in range(_WAYS):
+    while way <= EXPLAINED * S.time_tolerance:
         evaluate_guards(S, w, k, S.t + step, S.y_new, step, 1)
         if guard_at(S, w, k, i).value < 0.0:
             return step
@@ -367,7 +357,8 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
     h, step = S.h, root
     # the guard is positive before the first and not after the second of these steps
     early, late = 0.0, 1e300
-    for _iteration in range(_CORRECTIONS):
+    # two or three do unless the guard is not smooth
+    for _halving in range(PARTS):
         S.h = step
         if not try_step(S, w, k, step) <= TRUSTED:
             return -1.0
@@ -408,7 +399,8 @@ def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
         contact = contact_at(S, w, k, c)
         if contact.mode == OPEN and c != contact_of(S, i) and contact.beyond <= 0.0:
             start = min(0.0, guard_at(S, w, k, normal_guard(c)).start)
-            if contact.gap < start - _FAR_BEHIND * S.gap_tolerance and contact.gap_rate < 0.0:
+            # what closes at one instant does to round-off
+            if contact.gap < start - NEAR * S.gap_tolerance and contact.gap_rate < 0.0:
                 return 1
     return 0
 
@@ -448,10 +440,6 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     fired = max(0, first)
     roots = 0
     while first >= 0 and roots < number_of_guards(S):
-        if closed == 1 and roots == _MOST_ROOTS:
-            return -1.0
-        if closed == 1 and roots > _FEW_ROOTS and guard_at(S, w, k, first).first < 0.0:
-            return -1.0
         roots += 1
         later = theta
         theta = _event_fraction(S, w, k, h, later, first, closed)
@@ -482,7 +470,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
         and is_gap(S, w, k, fired) == 0
         else 0
     )
-    if S.step_error <= _NEGLIGIBLE or jumps == 1:
+    if S.step_error <= NEGLIGIBLE or jumps == 1:
         state_within(S, w, k, h, theta, S.y_new)
         return step
     if S.guard_slope == -math.inf:

@@ -18,7 +18,7 @@ from nonsmooth.engine.contact.held_contacts import coupling
 from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.self_check import EXPLAINED, blame, energy_of_bodies, explained_gap, held_gap
+from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT, blame, energy_of_bodies, explained_gap, held_gap
 from nonsmooth.engine.memory.modes import (
     JOINTS_APART,
     MOTION_UNEXPLAINED,
@@ -39,8 +39,6 @@ from nonsmooth.engine.native.kernel import (
     kernel,
 )
 
-_NO_GAP = 1e-16
-"""A gap of so many metres is none."""
 _ROUND_OFF = 8.0 * 2.0**-52
 """The square of a length of one this near to one is one, but for round-off."""
 _DAMPING = 1e-8
@@ -49,10 +47,6 @@ would move a body by more than half the gap over the root of this.  A contact al
 _FARTHEST = 10.0
 """Corrections move bodies by no more than so many times what the tolerances explain of a gap."""
 _MOST_ITERATIONS = 5
-_CLOSED = 1e-3
-"""A residual of the joints below this part of the gap tolerance counts as none."""
-_APART = 1e4
-"""A residual that stays above this many gap tolerances cannot be closed."""
 
 
 @entry_point("f8(S, F, I, i8)")
@@ -120,7 +114,7 @@ def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
         gap = abs(held_gap(S, w, k, c)) if contact.normal_function == 0 else 0.0
         worst = max(worst, gap)
         share = max(share, gap / explained_gap(S, w, k, c))
-    if worst <= _NO_GAP or share > 1.0:
+    if worst <= NOUGHT * S.gap_tolerance or share > 1.0:
         return 0
     assemble_delassus(S, w, k)
     for a in range(m):
@@ -151,7 +145,7 @@ def _stop_alone(S: Scalars, w: Floats, k: Integers) -> float:
     own, gap, rate = coupling(S, w, k, c, 0, c, 0), held_gap(S, w, k, c), contact.rate[0]
     if own <= 0.0:
         return 0.0
-    if _NO_GAP < abs(gap) <= explained_gap(S, w, k, c):
+    if NOUGHT * S.gap_tolerance < abs(gap) <= explained_gap(S, w, k, c):
         push_response(S, w, k, c, 0, -gap / own, S.y_stage + S.n_q)
     impulse, prescribed = -rate / own, rate - row(S, w, k, c, 0, S.free_velocities)
     push_response(S, w, k, c, 0, impulse, S.y + S.n_q)
@@ -289,12 +283,12 @@ def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
         if iteration == 0 and worst > _explained_residual(S, w, k):
             break
         # far from the origin round-off alone is more than the tolerance, and no iteration helps
-        if worst <= _CLOSED * S.gap_tolerance or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
+        if worst <= NOUGHT * S.gap_tolerance or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
             break
         before = worst
         _displace(S, w, k)
-    if not worst <= _APART * S.gap_tolerance and S.failed == RUNNING:
-        blame(S, JOINTS_APART, -1, worst, _APART * S.gap_tolerance)
+    if not worst <= EXPLAINED * S.gap_tolerance and S.failed == RUNNING:
+        blame(S, JOINTS_APART, -1, worst, EXPLAINED * S.gap_tolerance)
     for number in range(S.n_articulations):
         _add_correction(S, w, k, number, articulation_at(S, w, k, number).rate, S.y + S.n_q)
 
@@ -305,7 +299,7 @@ def _explained_residual(S: Scalars, w: Floats, k: Integers) -> float:
     size = 0.0
     for i in range(S.n_q):
         size = max(size, w[S.y_scale + i] + abs(w[S.y + i]))
-    return float(max(_APART * S.gap_tolerance, EXPLAINED * S.rtol * size))
+    return float(max(EXPLAINED * S.gap_tolerance, EXPLAINED * S.rtol * size))
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")

@@ -12,6 +12,10 @@ from nonsmooth.engine.numerics.vectors import minus
 
 EXPLAINED = 1e3
 """What steps and events within their tolerances leave adds up to no more than so many of them."""
+NOUGHT = 1.0 / EXPLAINED
+"""Gaps, rates, times and residuals below this part of their tolerance are none: all of them together stay within it."""
+NEAR = 10.0
+"""Gaps and rates of so many tolerances are those of surfaces next to each other, as neighbours at rest are."""
 _ROUND_OFF = 1e-12
 """Part of an energy that sums over a run do not tell from none."""
 

@@ -52,11 +52,7 @@ _ROUGH = 1e-11
 """A root on the interpolant need not be better than this: it is corrected on the step itself."""
 _SMALL = 1e-3
 """But it must be small next to what the guard was before, which may be next to nothing, too."""
-_FAINT = 1e-4
-"""Start values below this part of the end value are no help to the secant."""
 _CORRECTIONS = 8
-_APART = 1e-7
-"""Fractions of a step that are nearer to each other tell no slope of a guard: round-off does."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -154,20 +150,13 @@ def _switch_fraction(S: Scalars, w: Floats, k: Integers, h: float, high: float, 
     if g_low <= 0.0:
         S.guard_slope = 0.0
         return 1e-3 * high
-    while g_low <= _FAINT * abs(g_high) and high > 1e-3:
-        # a guard that has just been left near zero says little: halve until it is seen to be positive
-        g = _guard_at(S, w, k, h, 0.5 * high, i)
-        if g > 0.0:
-            low, g_low = 0.5 * high, g
-            break
-        high, g_high = 0.5 * high, g
-    theta, largest = high, g_low
-    theta_before, g_before = high, g_high
+    theta_before, g_before, largest = high, g_high, g_low
     S.guard_slope = (g_high - g_low) / ((high - low) * h)
     for _iteration in range(60):
         theta = high - g_high * (high - low) / (g_high - g_low)
         g = _guard_at(S, w, k, h, theta, i)
-        if abs(theta - theta_before) > _APART:
+        # of what is nearer round-off would tell the slope
+        if abs(theta - theta_before) > SHORT:
             S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
         largest = max(largest, g)

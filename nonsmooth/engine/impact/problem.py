@@ -58,17 +58,15 @@ from nonsmooth.engine.numerics.vectors import length
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
 """How an impact ended; MOVED: it goes on, but has come to the rim of its window."""
 
-_MOST_STEPS = 20000
-"""An impact that asks for more goes on for ever: sharp edges of its laws let ever smaller bounces feed one another."""
-_LARGEST = 1e6
+MOST_STEPS = 20000
+"""An impact, or a window of one, that asks for more steps goes on for ever, as does one of more windows: its laws let
+ever smaller bounces feed one another."""
 _PATIENCE = 20
 """Steps that a slip may take next to rest without slowing down."""
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
 PROBE = 1e-2
 """Where no force has built up yet, forces are compared after this part of the shortest compression."""
-_SHORTEST = 1e-12
-"""A law that still has no finite value in a step of this part of the shortest compression has none."""
 _FIRST = 0.25
 """The first step of an impact is the tolerance to this power, in units of the shortest compression."""
 _SHARE = 0.7
@@ -76,15 +74,11 @@ _SHARE = 0.7
 _LAST = 2.0
 """down to this deformation, in units of that after the first step of a compression."""
 _AT_EVENT = 4.0 * NOISE
-"""A guard this near zero at the end of a step that was aimed at it has fired;"""
-_ROUND_OFF = 1e-16
-"""one that began as a small number only nearer, but for round-off."""
+"""A guard this near zero at the end of a step that was aimed at it has fired, one that began small only nearer."""
 _FAR = 4.0
 """A lone contact's first step, in units of the impulse that stops it: beyond all of its events."""
-_CROWDED = 20
-"""A window with this many times more contacts than act is drawn anew."""
-_NO_RETURN = 2e-16
-"""Efficiencies up to this count as none: a restitution of 1e-8 gives back rates that count as rest."""
+_NO_RETURN = 2.0**-52
+"""Efficiencies up to the spacing of doubles at one count as none: what is lost is then all that was stored."""
 
 
 @kernel("void(S, F, I, f8, i8)")
@@ -253,15 +247,12 @@ def _fade(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("i8(S, F, I)")
 def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if a contact at the rim of the window acts, so that its neighbours may be missing, or most are idle."""
-    acting = 0
+    """Return 1 if a contact at the rim of the window acts, so that its neighbours may be missing."""
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
-        if active.phase != IDLE:
-            acting += 1
-            if contact_at(S, w, k, active.slot).rim == 1:
-                return 1
-    return 1 if acting > 0 and _CROWDED * acting < S.n_active else 0
+        if active.phase != IDLE and contact_at(S, w, k, active.slot).rim == 1:
+            return 1
+    return 0
 
 
 @entry_point("i8(S, F, I, f8)")
@@ -298,7 +289,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
     S.aimed = -1
     prepare_guards(S, w, k)
     write_impact_slope(S, w, k, S.impact_slopes)
-    for _step in range(_MOST_STEPS):
+    for _step in range(MOST_STEPS):
         if interrupted(S, 8 * S.n_active) == 1:
             return ENDLESS
         if finished(S, w, k) == 1:
@@ -311,13 +302,14 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
         error = try_impact_step(S, w, k, h) if linear == 0 else 0.0
         S.impact_steps += 1
         if not error <= 1.0:
-            if not error < math.inf and h < _SHORTEST * shortest:
+            if not error < math.inf and h < NOISE * shortest:
+                # a law that still has no finite value has none
                 return INVALID
             h *= step_factor(error) if error < math.inf else 0.1
             continue
         located = _step_to_switch(S, w, k, h, linear)
         if not located <= TRUSTED:
-            if not located < math.inf and h < _SHORTEST * shortest:
+            if not located < math.inf and h < NOISE * shortest:
                 return INVALID
             h *= 0.25
             continue
@@ -326,10 +318,10 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
         grow_scales(S, w, k)
         _stop(S, w, k)
         if S.trigger < 0:
-            h = min(h * step_factor(error), _LARGEST * shortest)
+            h *= step_factor(error)
             _go_on(S, w, k, shortest)
             continue
-        h = min(_pass_switch(S, w, k, h, shortest, windowed), _LARGEST * shortest)
+        h = _pass_switch(S, w, k, h, shortest, windowed)
         if windowed == 1 and S.lone < 0 and _leaves(S, w, k) == 1:
             S.impact_h = h
             return MOVED
@@ -425,7 +417,7 @@ def _at_event(S: Scalars, w: Floats, k: Integers) -> float:
         return _AT_EVENT
     share = efficiency(S, w, k, a, 0.0)
     returned = lost * share / ((1.0 - share) * active.energy_scale)
-    return float(max(_ROUND_OFF, _AT_EVENT * min(1.0, returned)))
+    return float(_AT_EVENT * min(1.0, returned))
 
 
 @kernel("void(S, F, I)")

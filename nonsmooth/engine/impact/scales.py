@@ -20,8 +20,8 @@ from nonsmooth.engine.native.kernel import (
 
 REST = 1e-9
 """Slip velocities below this, relative to the impact speed, count as none; so do those within the tolerance."""
-_CIRCLING = 30.0
-"""A slip that circles round zero does so within the error of so many steps."""
+CIRCLING = 30.0
+"""A slip that circles round zero does so within the error of so many steps, and a wave leaves no more behind."""
 _GROWN = 2.0
 """Impulses that grow by less have the same scale."""
 _MET = 1e-6
@@ -45,7 +45,7 @@ def scale_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> float:
         S.speed_scale = max(S.speed_scale, speed)
         if speed > 0.0:
             brought = max(brought, speed * speed / diagonal_block(S, w, k, a).nn)
-    S.rest_speed = max(REST, _CIRCLING * S.impact_rtol) * S.speed_scale
+    S.rest_speed = max(REST, CIRCLING * S.impact_rtol) * S.speed_scale
     shortest = math.inf
     for a in range(m):
         active = active_at(S, w, k, a)
@@ -117,4 +117,4 @@ def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
     small = float(S.rest_speed)
     if mobility < own.nn:
         small *= math.sqrt(mobility / own.nn)
-    return float(max(small, _CIRCLING * S.impact_rtol * moved))
+    return float(max(small, CIRCLING * S.impact_rtol * moved))

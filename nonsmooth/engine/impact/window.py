@@ -14,6 +14,7 @@ from nonsmooth.engine.impact.end import account
 from nonsmooth.engine.impact.problem import (
     ENDLESS,
     INVALID,
+    MOST_STEPS,
     MOVED,
     PROBE,
     first_step,
@@ -21,7 +22,7 @@ from nonsmooth.engine.impact.problem import (
     start_impact,
 )
 from nonsmooth.engine.impact.rates import IDLE, NOISE
-from nonsmooth.engine.impact.scales import scale_impact
+from nonsmooth.engine.impact.scales import CIRCLING, scale_impact
 from nonsmooth.engine.memory.layout import TOTALS
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -39,9 +40,6 @@ LARGE = 16
 """Impacts with more contacts than this are looked at through a window."""
 _LAYERS = 4
 """How many neighbours deep a window reaches beyond the contacts that act."""
-_FAINT = 30.0
-"""Rates and deformations of the error of so many steps are not told from rest behind the wave."""
-_MOST_WINDOWS = 1000000
 
 
 @kernel("void(S, F, I)")
@@ -162,10 +160,10 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
     S.slow_steps = 0
     _gather_colliding(S, w, k)
     outcome = MOVED
-    for window in range(_MOST_WINDOWS):
+    for window in range(MOST_STEPS):
         _draw(S, w, k, fastest if window == 0 else 0.0)
-        # where all lie in the window no wave leaves it
-        S.faint = _FAINT * S.impact_rtol if S.n_active < S.n_colliding else 0.0
+        # behind the wave what is within the error is not told from rest; where all lie in the window none leaves it
+        S.faint = CIRCLING * S.impact_rtol if S.n_active < S.n_colliding else 0.0
         _load(S, w, k)
         S.lone = -1
         shortest = scale_impact(S, w, k, fastest)

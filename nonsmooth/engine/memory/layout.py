@@ -64,7 +64,7 @@ REVOLUTION = 16
 CATALOGUE_FLOATS = 19
 """How many they are."""
 PARTS = 48
-"""Halvings of a step in search of a gap that closes: as many as its fractions can be told apart."""
+"""Halvings of a step in search of a gap that closes, or of an event: as many as its fractions can be told apart."""
 PART_END = 7
 """Floats of an end of a part of a step."""
 ORIENTED = 7

@@ -16,11 +16,11 @@ _SHIFT = 1e-8
 """Added to the diagonal of the system, relative to its largest entry: clearly more than counts as zero there."""
 _FAINT = 1e-12
 """Added to that of H, relative to its largest entry: clearly less than any force that moves something has."""
-_ROUNDS = 20
 _REMOVALS = 4
 """The projector is known to a part of rounding over what was added, and takes off all but that part each time."""
 _SYMMETRIC = 1e-12
 _SETTLED = 1e-15
+"""A residual of this part of the right-hand side is round-off."""
 
 
 @kernel("f8(F, i8, i8, i8)")
@@ -133,7 +133,7 @@ def least_norm_in_band(S: Scalars, w: Floats, n: int) -> None:
     for i in range(n):
         w[total + i] = w[S.x + i] = 0.0
         size = max(size, abs(w[S.right + i]))
-    for _round in range(_ROUNDS):
+    while True:
         left = _write_residual(S, w, n, total, S.sigma + n)
         if not left <= before:
             for i in range(n):
