@@ -6,7 +6,7 @@ from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
-from nonsmooth.engine.events.averaging import average_island_of, holds_time_up
+from nonsmooth.engine.events.averaging import average_island_of, end_averaging, holds_time_up
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import (
     CODE_HEAD,
@@ -35,6 +35,7 @@ from nonsmooth.engine.flow.guard_numbers import (
 from nonsmooth.engine.flow.guards import arm_guards, keep_end, watch_features, write_guards
 from nonsmooth.engine.flow.leap import leap, measure_noise
 from nonsmooth.engine.flow.location import first_crossing, locate
+from nonsmooth.engine.flow.mean_motion import led_astray
 from nonsmooth.engine.flow.projection import (
     normalise_quaternions,
     project_closed,
@@ -217,6 +218,11 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     check_gaps(S, w, k)
     if S.failed != RUNNING:
         return int(S.failed)
+    which = led_astray(S, w, k) if S.mean_until < 1e300 else -1
+    if which >= 0:
+        end_averaging(S, w, k)
+        S.fresh = 0
+        return update_at_event(S, w, k, AVERAGING, which)
     _keep_start(S, w, k)
     which = _due_at_start(S, w, k)
     if which >= 0:

@@ -48,6 +48,7 @@ ARRAYS = Arrays(
         "mean_span": per(1, "n_slots"),
         "mean_way": per(1, "n_slots"),
         "mean_gap": per(1, "n_slots"),
+        "gap_meant": per(1, "n_slots"),
         "slack": per(1, "n_slots"),
         "right": per(3, "n_slots"),
         "x": per(3, "n_slots"),
