@@ -155,6 +155,7 @@ def take_mean_forces(S: Scalars, w: Floats, k: Integers, time: float) -> None:
     The ``active_forces`` become mean forces, too.
     """
     S.mean_until = min(S.mean_until, S.t + time)
+    S.strayed = 0.0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         v1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)

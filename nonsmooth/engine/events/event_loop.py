@@ -35,7 +35,6 @@ from nonsmooth.engine.flow.guard_numbers import (
 from nonsmooth.engine.flow.guards import arm_guards, keep_end, watch_features, write_guards
 from nonsmooth.engine.flow.leap import leap, measure_noise
 from nonsmooth.engine.flow.location import first_crossing, locate
-from nonsmooth.engine.flow.mean_motion import led_astray
 from nonsmooth.engine.flow.projection import (
     normalise_quaternions,
     project_closed,
@@ -218,11 +217,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     check_gaps(S, w, k)
     if S.failed != RUNNING:
         return int(S.failed)
-    which = led_astray(S, w, k) if S.mean_until < 1e300 else -1
-    if which >= 0:
+    if S.mean_until < 1e300 and S.strayed > 1.0:
         end_averaging(S, w, k)
         S.fresh = 0
-        return update_at_event(S, w, k, AVERAGING, which)
+        return update_at_event(S, w, k, AVERAGING, S.stray)
     _keep_start(S, w, k)
     which = _due_at_start(S, w, k)
     if which >= 0:

@@ -9,6 +9,7 @@ from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.events.stopping import share_before_stop
 from nonsmooth.engine.flow.clearance import first_of_flying, foresee, keep_falls
 from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.mean_motion import astray
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
     BY_AVERAGING,
@@ -42,6 +43,8 @@ _SHORTEST = 0.01
 _TURN = 0.5
 """What flies turns by no more within a step [rad] where that moves surfaces: the bounds of gaps ask that speeds within
 it are about those at its ends, which no control of an error sees to there."""
+_ASTRAY = 2.0
+"""A step leads gaps astray by no more than so many times what ends an averaging."""
 _ATTEMPTS = 200
 """Lengths that are tried of one step."""
 
@@ -160,6 +163,9 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             h *= 0.5
             wanted = 0.0
             S.limit = BY_SINGULARITY
+        elif error <= 1.0 and S.mean_until < 1e300 and astray(S, w, k) > _ASTRAY:
+            h *= 0.5
+            S.limit = BY_AVERAGING
         elif error <= 1.0 and _overran(S, w, k, h) == 1:
             h *= 0.5
             S.limit = BY_LIST

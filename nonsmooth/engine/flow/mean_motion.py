@@ -18,7 +18,8 @@ from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, body_at, contact_at, kernel
 
 _SHARE = 0.1
-"""Gaps leave the way that forces meant for them by no more than this part of what the tolerances of gaps explain."""
+"""Gaps leave the way that forces meant for them by no more than this part of what the tolerances explain, of a gap and
+of the work that it is to the force."""
 _AHEAD = 0.5
 """Of that, so much is foreseen at most: what is beyond the second order of time is not."""
 _SHORTER = 0.1
@@ -63,8 +64,8 @@ def _go_on(S: Scalars, w: Floats, k: Integers, time: float) -> None:
 
 @kernel("f8(S, F, I)")
 def _explained_work(S: Scalars, w: Floats, k: Integers) -> float:
-    """Return what a force that leads a gap astray may do unasked, by the tolerance of steps [J]."""
-    return float(EXPLAINED * S.rtol * (energy_of_bodies(S, w, k, 0) + scale_energy(S, w, k)))
+    """Return what a force that leads a gap astray may do unasked: that part of what steps explain of an energy [J]."""
+    return float(_SHARE * EXPLAINED * S.rtol * (energy_of_bodies(S, w, k, 0) + scale_energy(S, w, k)))
 
 
 @kernel("f8(S, F, I, i8, f8, f8, f8)")
@@ -120,16 +121,18 @@ def find_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
     take_mean_forces(S, w, k, time)
 
 
-@kernel("i8(S, F, I)")
-def led_astray(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return a contact that averaged forces have led astray where a step begins, or -1."""
+@kernel("f8(S, F, I)")
+def astray(S: Scalars, w: Floats, k: Integers) -> float:
+    """Return how far averaged forces lead a gap astray at most, as it stands, relative to what they may; keep which."""
     work = _explained_work(S, w, k)
+    S.strayed = 0.0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
-        if contact.averaged == OPEN or contact.normal_function != 0 or contact.past_end > 0.0:
+        if contact.averaged == OPEN or contact.normal_function != 0 or contact.beyond > 0.0:
             continue
         # what was left of it may close, and one that opens comes to rest
-        way = abs(contact.gap_end - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_way
-        if _astray(S, w, k, c, max(0.0, way), contact.mean_force[0], work) > 1.0:
-            return c
-    return -1
+        way = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_way
+        part = _astray(S, w, k, c, max(0.0, way), contact.mean_force[0], work)
+        if part > S.strayed:
+            S.strayed, S.stray = part, c
+    return float(S.strayed)

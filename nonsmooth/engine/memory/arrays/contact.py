@@ -19,6 +19,7 @@ ARRAYS = Arrays(
             "guess",
             "unsettled",
             "evaluations",
+            "stray",
         ),
         **real(
             "ahead",
@@ -26,6 +27,7 @@ ARRAYS = Arrays(
             "acceleration_scale",
             "small_acceleration",
             "small_force",
+            "strayed",
         ),
         # no forces are averaged
         "mean_until": math.inf,
