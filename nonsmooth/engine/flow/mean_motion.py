@@ -77,7 +77,7 @@ def _astray(S: Scalars, w: Floats, k: Integers, c: int, way: float, force: float
     allowed = _SHARE * tolerated_gap(S, w, k, c)
     if force * allowed > work:
         allowed = work / force
-    return abs(way) / max(S.gap_tolerance, allowed)
+    return float(abs(way) / max(S.gap_tolerance, allowed))
 
 
 @kernel("f8(S, F, I, f8)")
