@@ -96,7 +96,9 @@ def _departure(S: Scalars, w: Floats, k: Integers, time: float) -> float:
         contact = contact_at(S, w, k, active.slot)
         if contact.normal_function == 0 and active.normal_force > 0.0 and contact.beyond <= 0.0:
             way, force = contact.gap - active.gap_meant, active.normal_force / time
-            worst = max(worst, _astray(S, w, k, active.slot, way, force, work))
+            part = _astray(S, w, k, active.slot, way, force, work)
+            # where a gap has no number the forces do not hold
+            worst = max(worst, part) if part == part else math.inf
     evaluate_bodies(S, w, k, S.t, S.y)
     refresh_states(S, w, k, S.y)
     for a in range(S.n_active):
@@ -113,7 +115,7 @@ def find_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
     """
     time = find_mean_impulses(S, w, k, averaging_span(S, w, k, follows))
     astray = _departure(S, w, k, time)
-    while not astray <= _AHEAD and time > S.time_tolerance:
+    while astray > _AHEAD and time > S.time_tolerance:
         # the way of gaps astray grows with the third power of time where a Jacobian turns, with the second else
         part = max(_SHORTER, 0.8 * math.sqrt(_AHEAD / astray)) if astray < math.inf else _SHORTER
         time = find_mean_impulses(S, w, k, max(S.time_tolerance, part * time))
