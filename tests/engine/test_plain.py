@@ -27,7 +27,7 @@ NOT_ENTERED = {
     "impact/clock": {"_restore_phases"},
     "impact/end": {"cut_short", "faded"},
     "contact/mean_forces": {"may_be_longer"},
-    "events/averaging": {"average_island_of"},
+    "events/averaging": {"average_island_of", "end_averaging"},
     "events/stopping": {"_share"},
     "events/twins": {"take_over"},
     "flow/location": {"_advance", "_behind_jump", "_hides_another", "_sampled", "_soonest"},

@@ -112,6 +112,7 @@ def write_crossing(
     radius: float,
     distance: float,
     past: float,
+    sine: float,
     nx: float,
     ny: float,
     nz: float,
@@ -121,12 +122,15 @@ def write_crossing(
     overlap: float,
     size: float,
 ) -> None:
-    """Write all but the matrices of the frustum, by the distance of the cores; p is the frustum's, in the world."""
+    """Write all but the matrices of the frustum, by the distance of the cores; p is the frustum's, in the world.
+
+    Past its ends a crossing runs faster than the bodies, by the sine of its angle: so much less counts of its way.
+    """
     sweep = frustum[SWEEP]
     gap = distance - radius - sweep
     if past > 0.0:
         # what overlaps is no contact of this crossing, but a sign that another one was passed
-        gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.sqrt(gap * gap + past * past)
+        gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.hypot(gap, max(PARALLEL, sine) * past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)
     put(out, POINT_A, px + sweep * out[NORMAL], py + sweep * out[NORMAL + 1], pz + sweep * out[NORMAL + 2])

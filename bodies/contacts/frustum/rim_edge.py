@@ -183,7 +183,7 @@ def evaluate_rim_edge(
     if deep and _aside(b, frustum, n_faces, faces, cx + qx, cy + qy, cz + qz, wx, wy, wz):
         past = -gap
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, nx, ny, nz, qx, qy, qz, overlap, size)
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, nx, ny, nz, qx, qy, qz, overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, part, axes[2], axes[5], axes[8], ux, uy, uz, ex * nx + ey * ny, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])

@@ -60,34 +60,40 @@ def is_settled(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("f8(S, F, I, i8)")
-def _span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
+def averaging_span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
     """Return over what time the forces of the active contacts are averaged next [s]; as long as they can if it follows.
 
     That is what the last averaging, to the end of which they came, left of accuracy.
     """
     least = averaging_time(S, w, k)
-    span = _LONGEST * least if follows == 1 else least
+    if follows == 0:
+        return float(least)
+    span = _LONGEST * least
     for a in range(S.n_active):
         contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
         if contact.averaged != OPEN:
-            span = min(span, contact.mean_span)
-    return max(least, span)
+            span = min(span, contact.mean_span if contact.mean_span > 0.0 else least)
+    return float(span)
 
 
 @kernel("i8(S, F, I)")
 def may_be_longer(S: Scalars, w: Floats, k: Integers) -> int:
     """Return 1 if the next averaging of the active contacts may be longer than the last, but not as long as any."""
-    return 1 if _span(S, w, k, 1) < _LONGEST * averaging_time(S, w, k) else 0
+    return 1 if averaging_span(S, w, k, 1) < _LONGEST * averaging_time(S, w, k) else 0
 
 
 @kernel("void(S, F, I)")
 def measure_spans(S: Scalars, w: Floats, k: Integers) -> None:
-    """Write how long the next averaging may be: the rates of gaps that one leaves grow with its square."""
+    """Write how long the next averaging may be: the rates of gaps that one leaves grow with its square.
+
+    One that was shorter than a contact time for the way of gaps may be twice as long.
+    """
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.averaged != OPEN:
             left = max(abs(contact.rate[0]), 0.25 * S.velocity_tolerance)
-            contact.mean_span *= math.sqrt(S.velocity_tolerance / left)
+            accurate = contact.mean_span * math.sqrt(S.velocity_tolerance / left)
+            contact.mean_span = max(accurate, min(2.0 * contact.mean_span, contact.contact_time))
 
 
 @kernel("void(S, F, I, f8)")
@@ -119,18 +125,37 @@ def _solve(S: Scalars, w: Floats, k: Integers, time: float) -> int:
     return int(inelastic_impulses(S, w, k, time))
 
 
-@kernel("void(S, F, I, i8)")
-def find_mean_forces(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
-    """Write the mean forces of the active contacts, and what these do at the end of the averaging.
+@kernel("f8(S, F, I, f8)")
+def find_mean_impulses(S: Scalars, w: Floats, k: Integers, time: float) -> float:
+    """Write the impulses of the active contacts to ``active_forces``; return in what time: the ``time``, or a shorter.
 
-    Their rates and the accelerations without forces must be written.  The ``active_forces`` are those, too.  An
-    averaging that follows another one (1) may be longer.
+    Their rates and the accelerations without forces must be written.
     """
-    time = _span(S, w, k, follows)
     if _solve(S, w, k, time) == 0 and time > averaging_time(S, w, k):
         time = averaging_time(S, w, k)
         _solve(S, w, k, time)
+    return time
+
+
+@kernel("f8(S, F, I, i8, f8)")
+def gap_after(S: Scalars, w: Floats, k: Integers, a: int, time: float) -> float:
+    """Return the gap of an active contact after its impulses in a ``time``, as if no row of a Jacobian changed [m]."""
+    active = active_at(S, w, k, a)
+    contact = contact_at(S, w, k, active.slot)
+    rate = add_product(S, w, k, active.free[0], a, 0, S.active_forces)
+    # of these rates those that close the gap are part
+    closing = max(0.0, contact.gap)
+    return float(contact.gap - 0.5 * closing + 0.5 * time * (contact.rate[0] + rate))
+
+
+@kernel("void(S, F, I, f8)")
+def take_mean_forces(S: Scalars, w: Floats, k: Integers, time: float) -> None:
+    """Let the impulses of the active contacts be given in a ``time`` from now on; write what they do at its end.
+
+    The ``active_forces`` become mean forces, too.
+    """
     S.mean_until = min(S.mean_until, S.t + time)
+    S.strayed = 0.0
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         v1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.touching import touch
 from nonsmooth.engine.contact.mean_forces import (
     averaging_time,
-    find_mean_forces,
     is_averaged,
     is_settled,
     may_be_longer,
 )
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.flow.mean_motion import find_mean_forces
+from nonsmooth.engine.flow.mean_work import book_mean_forces
+from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -61,6 +64,18 @@ def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
     if is_settled(S, w, k) == 0:
         return 1
     return 1 if S.crowd > _BURST and may_be_longer(S, w, k) == 1 else 0
+
+
+@kernel("void(S, F, I)")
+def end_averaging(S: Scalars, w: Floats, k: Integers) -> None:
+    """Put the contacts whose forces are averaged on their constraints before the averaging is over.
+
+    What it pushed too much is taken back by that, and what its forces did on the way is booked.
+    """
+    touch(S, w, k)
+    book_mean_forces(S, w, k)
+    S.closing_loss += project_closed(S, w, k, 1, 1)
+    S.mean_until = 1e300
 
 
 @kernel("void(S, F, I, i8)")

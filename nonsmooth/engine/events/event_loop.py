@@ -9,7 +9,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
-from nonsmooth.engine.events.averaging import average_island_of, holds_time_up
+from nonsmooth.engine.events.averaging import average_island_of, end_averaging, holds_time_up
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import (
     CODE_HEAD,
@@ -204,6 +204,10 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     check_gaps(S, w, k)
     if S.failed != RUNNING:
         return int(S.failed)
+    if S.mean_until < 1e300 and S.strayed > 1.0:
+        end_averaging(S, w, k)
+        S.fresh = 0
+        return update_at_event(S, w, k, AVERAGING, S.stray)
     _keep_start(S, w, k)
     which = _due_at_start(S, w, k)
     if which >= 0:

@@ -11,6 +11,7 @@ from nonsmooth.engine.flow.clearance import ABOUT, first_of_flying, foresee, kee
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.location import NEGLIGIBLE
 from nonsmooth.engine.flow.self_check import NEAR
+from nonsmooth.engine.flow.mean_motion import astray
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
     BY_AVERAGING,
@@ -39,6 +40,8 @@ _SHORTEST = 0.01
 _TURN = 0.5
 """What flies turns by no more within a step [rad] where that moves surfaces: the bounds of gaps ask that speeds within
 it are about those at its ends, which no control of an error sees to there."""
+_ASTRAY = 2.0
+"""A step leads gaps astray by no more than so many times what ends an averaging."""
 
 
 @kernel("f8(S, F, I, i8)")
@@ -167,6 +170,9 @@ def accepted_step(S: Scalars, w: Floats, k: Integers) -> int:
             h *= 0.5
             wanted = 0.0
             S.limit = BY_SINGULARITY
+        elif error <= 1.0 and S.mean_until < 1e300 and astray(S, w, k) > _ASTRAY:
+            h *= 0.5
+            S.limit = BY_AVERAGING
         elif error <= 1.0 and _overran(S, w, k, h) == 1:
             h *= 0.5
             S.limit = BY_LIST

@@ -5,9 +5,10 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import push_compliant, refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
-from nonsmooth.engine.contact.mean_forces import find_mean_forces, is_averaged, measure_spans
+from nonsmooth.engine.contact.mean_forces import is_averaged, measure_spans
 from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.flow.mean_motion import find_mean_forces
 from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.memory.modes import OPEN

@@ -35,11 +35,10 @@ def held_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
 
 
 @kernel("f8(S, F, I, i8)")
-def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+def tolerated_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the gap that a closed contact may have, or an open one lack, by the tolerances [m].
 
-    Those are of gaps, of steps, relative to where the witness points are, and of event times; where forces are averaged
-    a gap may have gone the way on which it comes to rest.
+    Those are of gaps, of steps, relative to where the witness points are, and of event times.
     """
     contact = contact_at(S, w, k, c)
     farthest = 0.0
@@ -51,8 +50,15 @@ def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
             far += abs(point[i]) + abs(arm[i])
         farthest = max(farthest, far)
     late = S.time_tolerance * abs(contact.gap_rate_first)
+    return float(EXPLAINED * (S.gap_tolerance + S.rtol * farthest + late))
+
+
+@kernel("f8(S, F, I, i8)")
+def explained_gap(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+    """Return the same [m], and the way on which a gap comes to rest where forces are averaged."""
+    contact = contact_at(S, w, k, c)
     way = contact.mean_way if contact.averaged != OPEN else 0.0
-    return float(EXPLAINED * (S.gap_tolerance + S.rtol * farthest + late) + way)
+    return float(tolerated_gap(S, w, k, c) + way)
 
 
 @kernel("i8(S, F, I, i8)")
@@ -134,7 +140,7 @@ def close_account(S: Scalars, w: Floats, k: Integers) -> None:
 
 
 @kernel("f8(S, F, I)")
-def _scale_energy(S: Scalars, w: Floats, k: Integers) -> float:
+def scale_energy(S: Scalars, w: Floats, k: Integers) -> float:
     """Return the kinetic energy of velocities as large as their scales, the bodies being evaluated [J]."""
     total = 0.0
     for number in range(S.n_bodies):
@@ -154,6 +160,6 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
         evaluate_geometry(S, w, k, c)
         contact.gap_end, contact.overlap_end = contact.gap, contact.overlap
     book_mean_forces(S, w, k)
-    S.scale_energy = _scale_energy(S, w, k)
+    S.scale_energy = scale_energy(S, w, k)
     close_account(S, w, k)
     check_gaps(S, w, k)

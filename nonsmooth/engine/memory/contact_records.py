@@ -196,6 +196,7 @@ ACTIVE: Fields = {
         "freed",
         "given",
         "acceleration",
+        "gap_meant",
     ),
     "force": row("active_forces"),
     "normal_force": one("active_forces"),

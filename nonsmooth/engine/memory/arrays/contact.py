@@ -19,6 +19,7 @@ ARRAYS = Arrays(
             "guess",
             "unsettled",
             "evaluations",
+            "stray",
         ),
         **real(
             "ahead",
@@ -26,6 +27,7 @@ ARRAYS = Arrays(
             "acceleration_scale",
             "small_acceleration",
             "small_force",
+            "strayed",
         ),
         # no forces are averaged
         "mean_until": math.inf,
@@ -48,6 +50,7 @@ ARRAYS = Arrays(
         "mean_span": per(1, "n_slots"),
         "mean_way": per(1, "n_slots"),
         "mean_gap": per(1, "n_slots"),
+        "gap_meant": per(1, "n_slots"),
         "slack": per(1, "n_slots"),
         "right": per(3, "n_slots"),
         "x": per(3, "n_slots"),
