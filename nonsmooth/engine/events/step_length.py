@@ -10,8 +10,8 @@ from nonsmooth.engine.events.stopping import share_before_stop
 from nonsmooth.engine.flow.clearance import ABOUT, first_of_flying, foresee, keep_falls
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.location import NEGLIGIBLE
-from nonsmooth.engine.flow.self_check import NEAR
 from nonsmooth.engine.flow.mean_motion import astray
+from nonsmooth.engine.flow.self_check import NEAR
 from nonsmooth.engine.flow.step import relaxation, try_length
 from nonsmooth.engine.memory.limits import (
     BY_AVERAGING,
