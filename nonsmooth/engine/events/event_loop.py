@@ -23,7 +23,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
-from nonsmooth.engine.flow.clearance import UNKNOWN_FALL, bound_speeds
+from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
 from nonsmooth.engine.flow.ending import end_features
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
@@ -36,7 +36,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     is_friction_guard,
     normal_guard,
 )
-from nonsmooth.engine.flow.guards import arm_guards, keep_end, watch_features, write_guards
+from nonsmooth.engine.flow.guards import arm_guards, keep_end, keep_start, watch_features, write_guards
 from nonsmooth.engine.flow.leap import leap, measure_noise
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (
@@ -208,7 +208,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
         end_averaging(S, w, k)
         S.fresh = 0
         return update_at_event(S, w, k, AVERAGING, S.stray)
-    _keep_start(S, w, k)
+    keep_start(S, w, k)
     which = _due_at_start(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
@@ -255,17 +255,6 @@ def _evaluate_start(S: Scalars, w: Floats, k: Integers) -> None:
     write_guards(S, w, k, S.t, S.y, 1)
     keep_end(S, w, k)
     bound_speeds(S, w, k)
-
-
-@kernel("void(S, F, I)")
-def _keep_start(S: Scalars, w: Floats, k: Integers) -> None:
-    """Take what is known of the gaps at the end of the step before as what they start from."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        contact.gap_first, contact.gap_rate_first = contact.gap_end, contact.gap_rate_end
-        contact.past_first, contact.speed_first = contact.past_end, contact.speed_end
-        contact.fall_first = contact.fall_end if S.fresh == 1 else UNKNOWN_FALL
-        contact.arm_first = contact.arm_end
 
 
 @kernel("i8(S, F, I)")

@@ -18,7 +18,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.flight import body_within, fly
 from nonsmooth.engine.flow.flow import slip_guard
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
-from nonsmooth.engine.flow.guards import grown, has_fired
+from nonsmooth.engine.flow.guards import UNKNOWN_FALL, grown, has_fired
 from nonsmooth.engine.flow.self_check import NEAR, NOUGHT
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
@@ -39,8 +39,6 @@ from nonsmooth.engine.numerics.vectors import Vector, cross, distance, dot, minu
 
 _CURVED = 4.0
 """By so much a curved surface or an edge may turn the normal faster than its body turns."""
-UNKNOWN_FALL = -1.0, 0.0, 0.0
-"""How fast the rate of a gap can fall where that has not been looked at."""
 WAY = 0.02
 """Part of the size of the smaller body that features may move unseen where they do not face each other."""
 _CLOSINGS = 8

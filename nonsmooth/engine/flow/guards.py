@@ -45,6 +45,8 @@ from nonsmooth.engine.native.kernel import (
     own_guard_at,
 )
 
+UNKNOWN_FALL = -1.0, 0.0, 0.0
+"""How fast the rate of a gap can fall where that has not been looked at."""
 _WRONG_SLIP = -0.05
 """A slip that is not armed fires below so many velocity tolerances all the same, a gap where nothing explains it."""
 LATE = 2.0
@@ -213,6 +215,17 @@ def keep_end(S: Scalars, w: Floats, k: Integers) -> None:
     for i in range(number_of_guards(S)):
         guard = guard_at(S, w, k, i)
         guard.end = guard.value
+
+
+@kernel("void(S, F, I)")
+def keep_start(S: Scalars, w: Floats, k: Integers) -> None:
+    """Take what is known of the gaps at the end of the step before as what they start from."""
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        contact.gap_first, contact.gap_rate_first = contact.gap_end, contact.gap_rate_end
+        contact.past_first, contact.speed_first = contact.past_end, contact.speed_end
+        contact.fall_first = contact.fall_end if S.fresh == 1 else UNKNOWN_FALL
+        contact.arm_first = contact.arm_end
 
 
 @kernel("void(S, F, I, i8)")
