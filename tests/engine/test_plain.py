@@ -32,7 +32,7 @@ NOT_ENTERED = {
     "events/twins": {"take_over"},
     "flow/location": {"_advance", "_behind_jump", "_hides_another", "_sampled", "_soonest"},
     "flow/self_check": {"_presses", "blame"},
-    "events/event_update": {"_force_gone", "_share_a_bound"},
+    "events/event_update": {"_force_gone", "_is_over", "_share_a_bound"},
     "contact/enumeration": {"_sweep_slips"},
 }
 """By module, what no case enters: ways out of rare difficulties and of faults, run compiled by other tests."""

@@ -43,7 +43,7 @@ from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.flow.self_check import open_account
 from nonsmooth.engine.impact.instant import jam_slips, map_impact
-from nonsmooth.engine.impact.problem import ENDLESS, FINISHED, energetic_impact
+from nonsmooth.engine.impact.problem import ENDLESS, INVALID, energetic_impact
 from nonsmooth.engine.impact.window import LARGE, windowed_impact
 from nonsmooth.engine.memory.modes import (
     AVERAGING,
@@ -79,6 +79,8 @@ from nonsmooth.engine.native.kernel import (
 from nonsmooth.engine.native.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
+_NEXT_TO_NOTHING = 1e-3
+"""An approach below this part of the fastest approach or slip before an impact counts as none where that has no end."""
 
 
 @kernel("i8(S, F, I)")
@@ -151,6 +153,20 @@ def collide(S: Scalars, w: Floats, k: Integers, cause: int, which: int, seed: fl
     return RUNNING
 
 
+@kernel("i8(S, F, I)")
+def _is_over(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if next to nothing approaches behind the impact of the active contacts, which has been cut short.
+
+    Contacts that slip may feed each other's bounces for as long as they do, however small these are.
+    """
+    before = behind = 0.0
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        before = max(before, abs(active.rate_before[0]), abs(active.rate_before[1]), abs(active.rate_before[2]))
+        behind = max(behind, -active.gap_rate)
+    return 1 if behind <= _NEXT_TO_NOTHING * before else 0
+
+
 @kernel("i8(S, F, I, i8, f8)")
 def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float) -> int:
     """Run the impact law on the active contacts and give the bodies its impulses; return the status."""
@@ -177,8 +193,10 @@ def _collide_island(S: Scalars, w: Floats, k: Integers, cause: int, seed: float)
         map_impact(S, w, k)
     else:
         outcome = windowed_impact(S, w, k) if large else energetic_impact(S, w, k, seed)
-        if outcome != FINISHED:
-            return IMPACT_ENDLESS if outcome == ENDLESS else NOT_FINITE
+        if outcome == INVALID:
+            return NOT_FINITE
+        if outcome == ENDLESS and (large or S.stopped == 1 or _is_over(S, w, k) == 0):
+            return IMPACT_ENDLESS
     for i in range(3 * m):
         if not abs(w[S.impulse + i]) < 1e300:
             return NOT_FINITE

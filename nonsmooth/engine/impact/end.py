@@ -11,6 +11,9 @@ from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
 from nonsmooth.engine.numerics.linear import SINGULAR
 
+_LOCKED = 0.1
+"""Forces of which no more than this part is left unbalanced are those of a wedge, not of bodies that part."""
+
 
 @kernel("void(S, F, I, i8)")
 def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
@@ -82,7 +85,8 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
             size, left = max(size, total_size), max(left, abs(total))
     if left < max(SINGULAR, S.impact_rtol) * size:
         return 1
-    return 1 if left * left * stored < size * size * lightest * S.slow_speed * S.slow_speed else 0
+    little = left * left * stored < size * size * lightest * S.slow_speed * S.slow_speed
+    return 1 if little and left < _LOCKED * size else 0
 
 
 @kernel("i8(S, F, I)")
