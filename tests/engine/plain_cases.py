@@ -57,6 +57,7 @@ from tests.bodies.meshes.parts import hills
 from tests.engine.test_inelastic import impact, wedged
 from tests.laws.test_stiff_slips import rod
 from tests.physics.test_own_guards import Level
+from tests.physics.test_wedged_impacts import resting_wedge
 
 Numbers: TypeAlias = dict[str, Any]
 
@@ -262,6 +263,12 @@ def _flat() -> Numbers:
     return _numbers(system, 2e-3)
 
 
+def _resting_wedge() -> Numbers:
+    """Let a contact close beside others that rest, whose slips leave their bounds slowly."""
+    result = ns.solve_impact(*resting_wedge(2367))
+    return {"velocity": result.velocity, "impulse": result.normal_impulse, "lost": result.friction_loss}
+
+
 def _groove() -> Numbers:
     """Let a ball sink into a groove, slower than bounces are, and slip along it."""
     half = math.pi / 8.0
@@ -423,6 +430,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "creeping": _creeping,
     **{f"next to the bound, {n}": lambda n=n: _next_to_the_bound(n) for n in (1, 4)},  # type: ignore[misc]
     "over an edge": _over_an_edge,
+    "resting wedge": _resting_wedge,
     "wedged impacts": lambda: {str(seed): impact(*wedged(seed))[1] for seed in range(60)},
     "slow border": lambda: _border(12.0, 3e-9),
     **{

@@ -135,3 +135,49 @@ def test_a_cylinder_on_a_ball_joint_strikes() -> None:
     solution = ns.simulate(system, 0.3)
     assert solution.counters.impacts > 0
     assert abs(solution.energy.residual) < 1e-8
+
+
+def resting_wedge(seed: int) -> tuple[Any, ...]:
+    """M, W, N, u and laws of balls that touch walls and one another and slip; one contact closes, the others rest."""
+    random = np.random.default_rng(seed)
+    n = int(random.integers(2, 6))
+    m = int(random.integers(n, 2 * n + 1))
+    jacobian = np.zeros((6 * n, m, 3))
+    for contact in range(m):
+        first, second = random.choice(n, 2, replace=False)
+        wall = random.random() < 0.6
+        axes = np.linalg.qr(random.normal(size=(3, 3)))[0]
+        for r, axis in enumerate(axes):
+            turn = np.cross(axes[0], axis)
+            jacobian[6 * first : 6 * first + 6, contact, r] = [*axis, *-turn]
+            if not wall:
+                jacobian[6 * second : 6 * second + 6, contact, r] = [*-axis, *-turn]
+    mobility = np.tile([1.0, 1.0, 1.0, 2.5, 2.5, 2.5], n) * np.repeat(random.choice([1.0, 7.0], n), 6)
+    normal, u, hit = jacobian[:, :, 0], random.normal(size=6 * n), int(random.integers(m))
+    resting = np.delete(normal, hit, axis=1)
+    if m > 1:
+        u -= resting @ np.linalg.lstsq(resting.T @ resting, resting.T @ u, rcond=1e-10)[0]
+    u = u if normal[:, hit] @ u < 0.0 else -u
+    u = 1e-3 * (u + 1e-9 * random.normal(size=6 * n))
+    impact = [EnergeticImpact(float(e)) for e in random.choice([0.5, 0.7, 0.9], m)]
+    return (
+        np.diag(1.0 / mobility),
+        normal,
+        jacobian[:, :, 1:],
+        u,
+        impact,
+        [Coulomb(float(mu)) for mu in random.choice([0.15, 0.5, 0.8], m)],
+    )
+
+
+@pytest.mark.parametrize("seed", [267, 626, 669, 1199])
+def test_slips_that_leave_their_bounds_slowly_take_long_steps(seed: int) -> None:
+    """Their directions are stiff; steps that follow them ask for twenty thousand and more."""
+    mass, normal, tangential, u, *laws = resting_wedge(seed)
+    result = ns.solve_impact(mass, normal, tangential, u, *laws)
+    before, after = 0.5 * u @ mass @ u, 0.5 * result.velocity @ mass @ result.velocity
+    lost = np.sum(result.restitution_loss) + np.sum(result.friction_loss)
+    assert result.steps < 5000
+    assert np.min(normal.T @ result.velocity) > -1e-10
+    assert np.all(result.friction_loss >= -1e-12 * before)
+    assert before - after == pytest.approx(lost, abs=1e-8 * before)
