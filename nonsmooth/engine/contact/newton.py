@@ -63,22 +63,12 @@ def write_natural_map(S: Scalars, w: Floats, k: Integers) -> float:
     return square
 
 
-@kernel("i8(S, F, I, i8)")
-def _stays_open(S: Scalars, w: Floats, k: Integers, a: int) -> int:
-    """Return 1 if the active contact ``a`` has no force and gets none in this step: nothing asks for its column."""
-    active = active_at(S, w, k, a)
-    forces = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
-    return 1 if forces == 0.0 and active.normal_acceleration >= 0.0 else 0
-
-
 @kernel("void(S, F, I, i8, i8, f8)")
 def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, slope: float) -> None:
     """Add a row of G, that is of contact ``a``, over a slope to the same row of ``matrix``."""
     active = active_at(S, w, k, a)
     line = band_row(S.matrix, 3 * a + r, 3 * S.n_active, S.half_band)
     for block in range(active.first_block, active.end_block):
-        if _stays_open(S, w, k, k[S.block_column + block]) == 1:
-            continue
         for s in range(3):
             w[line + 3 * k[S.block_column + block] + s] += w[S.delassus + DELASSUS * block + 3 * r + s] / slope
 
@@ -91,8 +81,6 @@ def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, 
     n = 3 * S.n_active
     first, second = band_row(S.matrix, 3 * a + 1, n, S.half_band), band_row(S.matrix, 3 * a + 2, n, S.half_band)
     for block in range(active.first_block, active.end_block):
-        if _stays_open(S, w, k, k[S.block_column + block]) == 1:
-            continue
         for s in range(3):
             g, j = at(w, S.delassus + DELASSUS * block + s), 3 * k[S.block_column + block] + s
             z1, z2 = -g[3] / slope, -g[6] / slope

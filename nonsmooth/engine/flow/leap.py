@@ -24,7 +24,9 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at,
 from nonsmooth.engine.numerics.vectors import dot, length, minus
 
 _PART = 0.01
-"""Way of a contact point in one stretch, in units of the smaller body."""
+"""Way of a contact point in one stretch, in units of the smaller body;"""
+_MOST = 100
+"""so many stretches at most."""
 _FASTER = 3.0
 """A point that runs is so many times as fast as the bodies at least."""
 
@@ -39,7 +41,7 @@ def _stretches(S: Scalars, w: Floats, k: Integers) -> int:
         way_b = minus(contact.point_b, contact.start_b)
         contact.way_a, contact.way_b = way_a, way_b
         longest = max(longest, dot(way_a, way_a) / contact.size**2, dot(way_b, way_b) / contact.size**2)
-    return 1 + int(longest**0.5 / _PART)
+    return min(_MOST, 1 + int(longest**0.5 / _PART))
 
 
 @kernel("void(S, F, I, f8)")

@@ -44,6 +44,10 @@ _FAINT = 1e-9
 """A start value below this part of the end value says nothing of the sign within the step."""
 NEGLIGIBLE = 0.01
 """A step whose error is below this part of the tolerance is interpolated within it."""
+_MOST_ROOTS = 30
+"""So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
+_FEW_ROOTS = 4
+"""After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
 _SAMPLES = 16
 """Parts of a step, at least, at whose ends it is asked whether features face each other,"""
 _FARTHEST = 0.25
@@ -440,6 +444,10 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
     fired = max(0, first)
     roots = 0
     while first >= 0 and roots < number_of_guards(S):
+        if closed == 1 and roots == _MOST_ROOTS:
+            return -1.0
+        if closed == 1 and roots > _FEW_ROOTS and guard_at(S, w, k, first).first < 0.0:
+            return -1.0
         roots += 1
         later = theta
         theta = _event_fraction(S, w, k, h, later, first, closed)

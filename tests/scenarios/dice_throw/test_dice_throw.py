@@ -65,6 +65,15 @@ def test_sharp_dice_slide_off_each_other(throw: float, t_end: float) -> None:
     assert all(one.fulfilled for one in dice.acceptance(solution))
 
 
+@pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
+def test_guards_that_crowd_in_a_step_are_not_looked_for_one_by_one() -> None:
+    """Looked at after every step throw 68 meets one in which hundreds fire, each before the one found last."""
+    dice = DiceThrow(throw=68.0, rounding=1e-3, t_end=0.2)
+    solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval, until=lambda _run: False)
+    assert solution.t_end == dice.t_end
+    assert solution.counters.gap_looks < 10_000
+
+
 def test_figures() -> None:
     pytest.importorskip("matplotlib")
     dice = DiceThrow(number=1.0, t_end=0.5)
