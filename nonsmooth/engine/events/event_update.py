@@ -81,6 +81,13 @@ from nonsmooth.engine.native.watch import interrupted
 _ATTEMPTS = MOST_EVENTS - 4
 _NEXT_TO_NOTHING = 1e-3
 """An approach below this part of the fastest approach or slip before an impact counts as none where that has no end."""
+_PAINLEVE_ATTEMPTS = 5
+_PROJECTIONS = 2
+"""So often an instant is settled anew after a projection that may have turned a slip."""
+_SLOW = 100.0
+"""A slip of up to so many velocity tolerances may be turned."""
+_FACINGS = 20
+"""So often friction may be found to oppose the other way."""
 
 
 @kernel("i8(S, F, I)")
@@ -341,11 +348,24 @@ def _impact_without_collision(S: Scalars, w: Floats, k: Integers) -> int:
     return int(collide(S, w, k, PAINLEVE, which, seed))
 
 
+@kernel("i8(S, F, I)")
+def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if one of several closed contacts slips so slowly that projecting the others may turn its slip."""
+    closed = creeping = 0
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        if contact.mode != OPEN and contact.normal_function == 0:
+            closed += 1
+            if S.velocity_tolerance < slip_speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
+                creeping += 1
+    return 1 if closed > 1 and creeping > 0 else 0
+
+
 @entry_point("i8(S, F, I, i8, i8)")
 def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = S.truncated = 0
-    resting = stopped = facings = 0
+    resting = projected = stopped = 0
     ends = 1 if cause == AVERAGING and which < 0 else 0
     if S.mean_until < 1e300:
         touch(S, w, k)
@@ -376,13 +396,11 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
                 return status
             approaching, stopped = _approaches(S, w, k), 0
             continue
-        if S.recorded == 0:
+        if S.recorded == 0 and projected == 0:
             remember(S, w, k)
         _expect(S, w, k, cause, which)
         solved = _solve_islands(S, w, k, ends)
-        # friction of each contact may be found to oppose the other way
-        if solved == 2 and facings <= S.n_contacts:
-            facings += 1
+        if solved == 2 and _attempt < _FACINGS:
             approaching = touch(S, w, k)
             continue
         if S.stopped == 1:
@@ -394,8 +412,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
                     return NOT_FINITE
             resting += 1
             status = NO_CONTACT_SOLUTION
-            # each brings a slip to rest
-            if resting <= 1 + S.n_active:
+            if resting <= _PAINLEVE_ATTEMPTS:
                 status = _impact_without_collision(S, w, k)
             if status == NO_CONTACT_SOLUTION and average_active(S, w, k) == 1:
                 # those that are averaged already begin anew with it
@@ -408,10 +425,15 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
             continue
         _adopt(S, w, k)
         if close_contacts(S, w, k) == 0:
-            _finish(S, w, k, cause, which, ends)
-            return RUNNING
-        # those whose averaging has begun with it go on with it
-        ends = 0
+            if _creeps(S, w, k) == 0 or projected == _PROJECTIONS:
+                _finish(S, w, k, cause, which, ends)
+                return RUNNING
+            # what brings others to rest may turn so slow a slip, and modes follow from its direction
+            projected += 1
+            S.closing_loss += project_closed(S, w, k, 1, 0)
+        else:
+            # those whose averaging has begun with it go on with it
+            ends = 0
         approaching = touch(S, w, k)
     return UPDATE_ENDLESS
 
