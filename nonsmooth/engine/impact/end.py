@@ -57,23 +57,22 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
     to no energy count as none, and those too slow to bounce; they would not change either.  Nor would what a small part
     of the forces gives back, the square of it in parts of what is stored.
     """
-    brought = stored = 0.0
-    lightest = math.inf
+    brought = 0.0
     for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        brought = max(brought, active.energy_scale)
-        if active.phase != IDLE:
-            stored += impact_state(w, S.impact_y, a).energy
-        lightest = min(lightest, 0.5 / diagonal_block(S, w, k, a).nn)
+        brought = max(brought, active_at(S, w, k, a).energy_scale)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
         still = max(REST * math.sqrt(brought * diagonal_block(S, w, k, a).nn), S.slow_speed)
         if loaded and abs(active.gap_rate) > still:
             return 0
-    size = left = 0.0
+    size = left = stored = 0.0
+    lightest = math.inf
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
+        if active.phase != IDLE:
+            stored += impact_state(w, S.impact_y, a).energy
+        lightest = min(lightest, 0.5 / diagonal_block(S, w, k, a).nn)
         for r in range(3):
             total = total_size = 0.0
             for block in range(active.first_block, active.end_block):
@@ -99,6 +98,7 @@ def end_trapped(S: Scalars, w: Floats, k: Integers) -> int:
         if active.phase == COMPRESSION or active.phase == EXPANSION:
             account(S, w, k, a)
             active.phase = IDLE
+            active.tangent_held = 0
             empty(S, w, a)
             S.phases += 1
     return 1

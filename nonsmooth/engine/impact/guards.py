@@ -20,6 +20,7 @@ from nonsmooth.engine.impact.rates import (
     STRIDE,
     efficiency,
     evaluate_impact_forces,
+    write_rates,
 )
 from nonsmooth.engine.impact.step import try_impact_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
@@ -70,8 +71,10 @@ def write_impact_guards(S: Scalars, w: Floats, k: Integers, y: int) -> None:
         active = active_at(S, w, k, a)
         state = impact_state(w, y, a)
         contact = contact_at(S, w, k, active.slot)
-        rate = active.gap_rate / S.speed_scale
         phase = active.phase
+        if phase == IDLE:
+            write_rates(S, w, k, a, y)
+        rate = active.gap_rate / S.speed_scale
         force_scale = 1.0 if a == S.lone else active.force_scale
         active.energy_guard = 1.0
         if phase == COMPRESSION:

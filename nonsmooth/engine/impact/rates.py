@@ -25,7 +25,6 @@ from nonsmooth.engine.native.kernel import (
     impact_state,
     kernel,
 )
-from nonsmooth.engine.numerics.vectors import Vector
 
 IDLE, COMPRESSION, EXPANSION, HELD = 0, 1, 2, 3
 """Phase of a contact in an impact; HELD: closed without restitution, a unilateral constraint."""
@@ -61,9 +60,9 @@ def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float
     return call_scalar(contact.efficiency_function, rate, at(w, contact.efficiency_parameters))
 
 
-@kernel("v3(S, F, I, i8, i8)")
-def _rates(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> Vector:
-    """Return z = z_0 + G P of the active contact ``a`` at the impact state ``y``."""
+@kernel("void(S, F, I, i8, i8)")
+def write_rates(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
+    """Write z = z_0 + G P of the active contact ``a``, its gap rate and slip velocity, at the impact state ``y``."""
     active = active_at(S, w, k, a)
     z0, (z1, z2) = active.gap_rate_before, active.slip_before
     for block in range(active.first_block, active.end_block):
@@ -73,32 +72,35 @@ def _rates(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> Vector:
         z0 += g[0] * p0 + g[1] * p1 + g[2] * p2
         z1 += g[3] * p0 + g[4] * p1 + g[5] * p2
         z2 += g[6] * p0 + g[7] * p1 + g[8] * p2
-    return z0, z1, z2
+    active.gap_rate, active.slip = z0, (z1, z2)
 
 
 @kernel("void(S, F, I, i8)")
 def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
-    """Write z = z_0 + G P: gap rates and slip velocities at the impact state ``y``."""
+    """Write the rates of all active contacts at the impact state ``y``."""
     for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        z0, z1, z2 = _rates(S, w, k, a, y)
-        active.gap_rate, active.slip = z0, (z1, z2)
+        write_rates(S, w, k, a, y)
 
 
 @kernel("i8(S, F, I, i8, i8)")
 def _act(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> int:
-    """Write rates and force of the active contact ``a`` at the impact state ``y``; return 1 if it is held in part."""
+    """Write rates and force of the active contact ``a`` at the impact state ``y``; return 1 if it is held in part.
+
+    An idle one has no force; its rates are for its guard alone, and written with that.
+    """
     active = active_at(S, w, k, a)
-    z0, z1, z2 = _rates(S, w, k, a, y)
-    active.gap_rate, active.slip = z0, (z1, z2)
     phase, loaded = active.phase, 0.0
+    if phase == IDLE:
+        active.normal_held, active.normal_force, active.friction = 0, 0.0, (0.0, 0.0)
+        return 0
+    write_rates(S, w, k, a, y)
     if phase == COMPRESSION or phase == EXPANSION:
         loaded = normal_force(S, w, k, a, impact_state(w, y, a).deformation)
     active.normal_force = loaded
     active.normal_held = 1 if phase == HELD else 0
     if active.tangent_held == 1:
         return 1
-    follow_slip(S, w, k, a, (z1, z2), active.rest_slip)
+    follow_slip(S, w, k, a, active.slip, active.rest_slip)
     friction_of_slip(S, w, k, a)
     return int(active.normal_held)
 

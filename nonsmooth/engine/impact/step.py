@@ -83,6 +83,8 @@ def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
     worst = 0.0
     for a in range(S.n_active):
         active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a).entries
+        if active.phase == IDLE:
+            continue
         error, energy = impact_state(w, errors, a), reached_energy(S, w, k, a)
         p0, p1, p2 = error.impulse[0], error.impulse[1], error.impulse[2]
         moved = own[0] * p0 * p0 + own[1] * p0 * p1 + own[2] * p0 * p2
