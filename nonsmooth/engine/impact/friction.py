@@ -111,9 +111,10 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         active = active_at(S, w, k, a)
         speed = length(active.slip)
         active.mu_static = friction_coefficient(S, w, k, active.slot, 0.0)
+        active.mu = slip_coefficient(S, w, k, active.slot, speed)
         slow = (speed <= active.rest_slip and _gets_away(S, w, k, a) == 0) or active.tangent_held == 1
-        # without friction nothing can stop a slip, however slow
-        active.at_rest = 1 if slow and (active.mu_static > 0.0 or speed == 0.0) else 0
+        # without friction nothing holds a contact, and nothing can stop a slip, however slow
+        active.at_rest = 1 if slow and (active.mu_static > 0.0 or (speed == 0.0 and active.mu > 0.0)) else 0
         open_question = max(open_question, active.at_rest)
     if open_question == 1:
         _stop_slips(S, w, k)
@@ -124,7 +125,8 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         contact = contact_at(S, w, k, c)
         v1, v2 = active.slip
         speed = length(active.slip)
-        if speed == 0.0:
+        active.mu = slip_coefficient(S, w, k, c, speed)
+        if speed == 0.0 and max(active.mu, active.mu_static) > 0.0:
             # stopping the slips of others has stopped this one, too
             active.at_rest = 1
         active.normal_held = 1 if active.phase == HELD else 0
@@ -134,11 +136,9 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         if active.phase == COMPRESSION or active.phase == EXPANSION:
             x = x if x > 0.0 else -probe * active.gap_rate
             active.normal_force = normal_force(S, w, k, a, x)
-        if active.at_rest == 0:
+        active.direction = contact.direction
+        if active.at_rest == 0 and speed > 0.0:
             active.direction = v1 / speed, v2 / speed
-        else:
-            active.direction = contact.direction
-        active.mu = slip_coefficient(S, w, k, c, speed)
         friction_of_slip(S, w, k, a)
     if open_question == 1:
         for i in range(3 * S.n_active):
