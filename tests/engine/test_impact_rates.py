@@ -9,6 +9,7 @@ import pytest
 
 import nonsmooth as ns
 from laws import Coulomb, EnergeticImpact, Frictionless
+from nonsmooth.engine.contact.problem import follow_slip
 from nonsmooth.engine.impact import rates
 from nonsmooth.engine.impact.rates import IDLE
 from nonsmooth.engine.native.kernel import PLAIN, active_at
@@ -35,7 +36,12 @@ def test_contacts_without_friction_are_not_held(monkeypatch: pytest.MonkeyPatch)
     """No forces are solved for in a row without friction, though nothing slips in it; with friction they are."""
     calls: list[int] = []
     hold = rates._hold
-    monkeypatch.setattr(rates, "_hold", lambda *arguments: (calls.append(1), hold(*arguments)))
+
+    def note(*arguments: Any) -> None:
+        calls.append(1)
+        hold(*arguments)
+
+    monkeypatch.setattr(rates, "_hold", note)
     smooth = _strike(Frictionless())
     assert not calls
     rough = _strike(Coulomb(0.3))
@@ -46,11 +52,10 @@ def test_contacts_without_friction_are_not_held(monkeypatch: pytest.MonkeyPatch)
 def test_idle_contacts_have_no_friction_to_follow(monkeypatch: pytest.MonkeyPatch) -> None:
     """The slip of a contact that is idle is not followed."""
     phases: list[int] = []
-    follow = rates.follow_slip
 
     def note(S: Any, w: Any, k: Any, a: int, *arguments: Any) -> None:
         phases.append(active_at(S, w, k, a).phase)
-        follow(S, w, k, a, *arguments)
+        follow_slip(S, w, k, a, *arguments)
 
     monkeypatch.setattr(rates, "follow_slip", note)
     _strike(Frictionless())
