@@ -27,8 +27,11 @@ class Run:
 
 
 RUNS: dict[str, tuple[Any, Run]] = {
+    "bodies.anisotropy._UPRIGHT": (0.0, Run("axis along the normal", 50)),
     "bodies.listing._ACCELERATION": (200.0, Run("slow border", 24)),
     "bodies.listing._SPENT": (0.0, Run("hills", 73)),
+    "events.event_update._ATTEMPTS": (1, Run("no force, impact", 15)),
+    "events.event_update._PAINLEVE_ATTEMPTS": (0, Run("no force, impact", 15)),
     "events.stopping._ALMOST": (0.0, Run("creeping", 65)),
     "events.stopping._BEYOND": (0.0, Run("creeping", 65)),
     "events.stopping._SHARES": ((1e-9, 1e-3), Run("creeping", 65)),
@@ -36,6 +39,7 @@ RUNS: dict[str, tuple[Any, Run]] = {
     "flow.clearance.WAY": (0.0, Run("border", 40)),
     "flow.clearance.ABOUT": (0.0, Run("shaken", 12)),
     "flow.clearance._COARSE": (0.0, Run("over an edge", 150)),
+    "flow.leap._FASTER": (1e9, Run("flat", 100)),
     "flow.guards.LATE": (0.0, Run("slow border", 24)),
     "contact.problem._INCIPIENT": (0.0, Run("shaken", 12)),
     "flow.location._FARTHEST": (3e-3, Run("border", 40)),

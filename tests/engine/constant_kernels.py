@@ -1,0 +1,337 @@
+"""Single kernels that need a constant of the engine, on guards that are made up; they run as plain Python only."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import SimpleNamespace
+from typing import Any
+from unittest.mock import patch
+
+from nonsmooth.engine.contact import null_space_forces
+from nonsmooth.engine.events import event_update, step_length
+from nonsmooth.engine.flow import leap, location, mean_motion
+from nonsmooth.engine.impact import guards
+from nonsmooth.engine.memory.modes import OPEN
+
+_UNREAD: Any = None
+"""A heap that a kernel by itself does not read."""
+_MOST_LOOKS = 1000
+"""Looks at a guard after which a search counts as endless."""
+
+
+def _counted(value: Callable[[float], float]) -> tuple[Callable[[float], float], list[float]]:
+    """Return a function that keeps where it was evaluated, and that list."""
+    looks: list[float] = []
+
+    def evaluate(theta: float) -> float:
+        looks.append(theta)
+        assert len(looks) <= _MOST_LOOKS
+        return value(theta)
+
+    return evaluate, looks
+
+
+@contextmanager
+def _one_guard(value: Callable[[float], float], first: float, last: float) -> Iterator[Any]:
+    """Let a step of the flow have one guard, no gap, of these values in it, at its start and at its end."""
+    evaluate, looks = _counted(value)
+    record = SimpleNamespace(value=last, first=first, end=last, middle=value(0.5), deflated=0, looks=looks)
+    with patch.multiple(
+        location,
+        guard_at=lambda *_: record,
+        kinematic=lambda *_: 0,
+        is_gap=lambda *_: 0,
+        guards_within=lambda *_: None,
+        _guard_at=lambda S, w, k, h, theta, i, forces: evaluate(theta),
+    ):
+        yield record
+
+
+def _root(value: Callable[[float], float], first: float, h: float = 1e-3) -> tuple[float, float, int]:
+    """Return where the guard vanishes within a step of ``h``, with what slope, and how often it was looked at."""
+    S = SimpleNamespace(time_tolerance=1e-12, guard_slope=0.0)
+    with _one_guard(value, first, value(1.0)) as record:
+        theta = location._vanishing(S, _UNREAD, _UNREAD, h, 1.0, 0, 1)
+        return theta, S.guard_slope, len(record.looks)
+
+
+def starts_by_chance() -> None:
+    """Find where a guard falls that is negative but for round-off at the start, and armed behind it."""
+    theta, _, _ = _root(lambda theta: (theta - 0.3) * (0.6 - theta), 1e-14)
+    assert abs(theta - 0.6) < 1e-8
+
+
+def never_positive() -> None:
+    """Find by few looks that a guard is negative from the start on."""
+    theta, _, looks = _root(lambda theta: -1.0 - theta, -1.0)
+    assert theta < 1e-3
+    assert looks < 20
+
+
+def jumps() -> None:
+    """Find where a guard jumps to far below zero, and tell that from a slope."""
+    theta, slope, _ = _root(lambda theta: 1.0 if theta < 0.3 else -200.0, 1.0, 1e-6)
+    assert abs(theta - 0.3) < 1e-8
+    assert slope == -math.inf
+
+
+def dips_between_samples() -> None:
+    """Find that a force is negative whose dip the parabola through three samples does not reach."""
+
+    def dip(theta: float) -> float:
+        return 1.0 - 1.3 * math.exp(-(((theta - 0.37) / 0.2) ** 2))
+
+    with _one_guard(dip, dip(0.0), dip(1.0)):
+        theta = location._lowest(SimpleNamespace(), _UNREAD, _UNREAD, 1e-3, 0)
+    assert theta > 0.0
+    assert dip(theta) < 0.0
+
+
+def _first_sample(closing: float, bend: float, faces: tuple[float, float], speed: float = 0.0) -> float:
+    """Return the first sample at which a gap has closed whose features face each other in a part of the step only."""
+    S = SimpleNamespace(n_contacts=1, n_astray=1, astray=0, gap_looks=0)
+    contact = SimpleNamespace(mode=OPEN, size=1.0, gap=1.0, speed_first=speed, speed_end=speed)
+
+    def stand(S: Any, w: Any, k: Any, h: float, theta: float, forces: int) -> None:
+        left = closing - theta
+        contact.gap, contact.gap_rate = left + bend * left * abs(left), -1.0 - 2.0 * bend * abs(left)
+        contact.beyond = 0.0 if faces[0] < theta < faces[1] else 1.0
+        assert S.gap_looks < 20 * _MOST_LOOKS
+
+    def fired(*_: Any) -> int:
+        return 0 if contact.beyond <= 0.0 and contact.gap < 0.0 else -1
+
+    with patch.multiple(
+        location,
+        contact_at=lambda *_: contact,
+        guards_within=stand,
+        first_fired=fired,
+        arm_further=lambda *_: None,
+        _asks_forces=lambda *_: 0,
+    ):
+        return float(location._sampled(S, _UNREAD, [0], 1.0, 1.0))
+
+
+def faces_for_an_instant() -> None:
+    """Look at features when they close that face each other between two samples only."""
+    assert 0.33 <= _first_sample(0.33, 10.0, (0.3, 0.35)) < 0.331
+
+
+def passes_fast() -> None:
+    """Take no more samples than the step resolves, however fast features pass."""
+    assert _first_sample(2.0, 0.0, (2.0, 3.0), 1e9) == 0.0
+
+
+def _crowd(first: float) -> int:
+    """Return how many roots are looked for of guards that fire one before the other without end."""
+    roots: list[float] = []
+
+    def root(S: Any, w: Any, k: Any, h: float, high: float, i: int, forces: int) -> float:
+        roots.append(high)
+        return 0.99 * high
+
+    S = SimpleNamespace(stage_time=0.0, n_contacts=1000, n_astray=0, n_doubtful=0, guard_slope=-1.0)
+    with patch.multiple(
+        location,
+        _asks_forces=lambda *_: 1,
+        first_fired=lambda *_: len(roots) % 1000,
+        first_own_guard=lambda *_: 0,
+        number_of_guards=lambda *_: 1000,
+        guard_at=lambda *_: SimpleNamespace(first=first),
+        contact_of=lambda *_: 0,
+        _event_fraction=root,
+    ):
+        assert location.locate(S, _UNREAD, _UNREAD, 1e-3, 1.0) < 0.0
+    return len(roots)
+
+
+def crowds() -> None:
+    """Give a thousand forces up that fire one before the other before all of them are looked for."""
+    assert _crowd(1.0) <= 100
+
+
+def crowds_that_were_wrong() -> None:
+    """Give those up even sooner that were negative from the start."""
+    assert _crowd(-1.0) <= 10
+
+
+def _switch(value: Callable[[float], float]) -> tuple[float, int]:
+    """Return where a guard of an impact vanishes within a step, and how often it was looked at."""
+    evaluate, looks = _counted(value)
+    with patch.object(guards, "_guard_at", lambda S, w, k, h, theta, i: evaluate(theta)):
+        S = SimpleNamespace(impact_guard_first=0, guard_slope=0.0)
+        theta = guards._switch_fraction(S, [value(0.0)], _UNREAD, 1.0, 1.0, value(1.0), 0)
+    return theta, len(looks)
+
+
+def _falls(theta: float) -> float:
+    return math.exp(-theta) - 0.7
+
+
+def switches() -> None:
+    """Find by few looks where a guard is zero, as near as the correction on the step needs it."""
+    theta, looks = _switch(_falls)
+    assert abs(theta + math.log(0.7)) < 1e-9
+    assert looks <= 6
+
+
+def switches_from_next_to_nothing() -> None:
+    """Do the same for one that began as small as round-off."""
+    theta, _ = _switch(lambda theta: 1e-12 * _falls(theta))
+    assert abs(theta + math.log(0.7)) < 1e-3
+
+
+def fires_unarmed() -> None:
+    """Let no guard end a phase that a switch left below zero by round-off, but one that is far below."""
+    S = SimpleNamespace(n_active=1, impact_guard=0, armed=0)
+    assert guards.fired_guard(S, [-1e-11, 1.0, 1.0], [0, 1, 1], -1) == -1
+    assert guards.fired_guard(S, [-1e-4, 1.0, 1.0], [0, 1, 1], -1) == 0
+
+
+def switches_on_the_step() -> None:
+    """Switch where the guard vanishes on the step itself, though the interpolant is off by a hundredth."""
+    root, w = 0.37, [0.0, 1.0, 1.0, 1.0]
+    S = SimpleNamespace(n_active=1, impact_guard=1, impact_guard_first=0, armed=0, impact_steps=0)
+    S.impact_y = S.impact_new = S.impact_slopes = S.impact_stage = 0
+
+    def on_the_step(S: Any, w: Any, k: Any, step: float) -> float:
+        w[1] = (root - step) * (1.0 + step)
+        return 0.0
+
+    def off(S: Any, w: Any, k: Any, h: float, high: float, value: float, i: int) -> float:
+        S.guard_slope = -1.37
+        return root + 1e-2
+
+    with patch.multiple(
+        guards,
+        try_impact_step=on_the_step,
+        write_impact_guards=lambda *_: None,
+        evaluate_impact_guards=lambda *_: None,
+        fired_guard=lambda S, w, k, but: 0 if but < 0 else -1,
+        _switch_fraction=off,
+        STRIDE=0,
+    ):
+        w[0] = 1.0
+        guards.locate_switch(S, w, [1, 1, 1], 1.0)
+    assert abs(w[1]) < 1e-6
+
+
+def ends_a_cascade() -> None:
+    """Take what approaches behind an impact that was cut short for nothing where it is, by its energy."""
+
+    def is_over(left: float) -> int:
+        active = SimpleNamespace(rate_before=(-1.0, 0.3, 0.0), gap_rate=-left)
+        with patch.object(event_update, "active_at", lambda *_: active):
+            return int(event_update._is_over(SimpleNamespace(n_active=1), _UNREAD, _UNREAD))
+
+    assert is_over(1e-4) == 1
+    assert is_over(0.1) == 0
+
+
+def _longest_averaging(astray: Callable[[float], float], longest: float) -> float:
+    """Return over what time forces are averaged that lead gaps astray so far in a time."""
+    taken: list[float] = []
+    with patch.multiple(
+        mean_motion,
+        averaging_span=lambda *_: longest,
+        find_mean_impulses=lambda S, w, k, time: time,
+        _departure=lambda S, w, k, time: astray(time),
+        take_mean_forces=lambda S, w, k, time: taken.append(time),
+    ):
+        mean_motion.find_mean_forces(SimpleNamespace(time_tolerance=1e-12), _UNREAD, _UNREAD, 0)
+    return taken[0]
+
+
+def averages_as_long_as_forces_hold() -> None:
+    """Let forces hold though gaps go half as far again astray as is foreseen, and cut by little what is unforeseen."""
+    time = _longest_averaging(lambda time: (time / 1e-5) ** 3, 1e-5)
+    assert 1.5 * (time / 1e-5) ** 3 <= 1.0
+    time = _longest_averaging(lambda time: (time / 1e-5) ** 3 if time < 2e-5 else math.inf, 1e-3)
+    assert time > 3e-6
+
+
+def leads_no_gap_to_where_nothing_explains_it() -> None:
+    """Take a step back whose mean forces lead a gap so far that a look at it would end the run."""
+    S = SimpleNamespace(n_contacts=1, gap_tolerance=1e-12)
+    contact = SimpleNamespace(averaged=1, normal_function=0, beyond=0.0, mean_gap=0.0, mean_way=0.0)
+    contact.mean_force, contact.gap = (1.0, 0.0, 0.0), 1e-9
+    with patch.multiple(
+        mean_motion, contact_at=lambda *_: contact, tolerated_gap=lambda *_: 1e-9, _explained_work=lambda *_: 1.0
+    ):
+        assert mean_motion.astray(S, _UNREAD, _UNREAD) > step_length._ASTRAY
+
+
+def _spread(distance: float) -> int:
+    """Return how often forces are looked for that are farther from their bounds, of which there are none."""
+    S, looks = SimpleNamespace(n_active=1, n_unknown=1, active=0, x=0, active_forces_first=1), []
+    S.deficient = 1
+    contact = SimpleNamespace(slack=0.0, null_space_force=[0.0, 0.0, 0.0])
+
+    def distribute(*_: Any) -> int:
+        looks.append(1)
+        assert len(looks) < _MOST_LOOKS
+        return 0
+
+    with patch.multiple(
+        null_space_forces,
+        active_at=lambda *_: SimpleNamespace(slot=0),
+        contact_at=lambda *_: contact,
+        set_force=lambda *_: None,
+        _least_distance=lambda *_: distance,
+        _keep_null_space_force=lambda *_: None,
+        distribute=distribute,
+    ):
+        null_space_forces.choose_null_space_force(S, [1.0, 0.0], _UNREAD)
+    return len(looks)
+
+
+def spreads_forces() -> None:
+    """Spread forces that are next to a bound, and end that where there are no others."""
+    assert 0 < _spread(1e-9) < 40
+
+
+def _stretches(way: float) -> int:
+    """Return in how many stretches a contact point runs so far, in units of its body."""
+    contact = SimpleNamespace(point_a=(way, 0.0, 0.0), start_a=(0.0, 0.0, 0.0), size=1.0)
+    contact.point_b = contact.start_b = contact.start_a
+    with patch.object(leap, "contact_at", lambda *_: contact):
+        return int(leap._stretches(SimpleNamespace(n_grouped=1, grouped=0), _UNREAD, [0]))
+
+
+def runs_across_a_body() -> None:
+    """Let a contact point run across half a body in stretches that are short next to it, as its lever turns."""
+    assert _stretches(0.5) >= 20
+
+
+def runs_far() -> None:
+    """Ask for no more work where one seems to run a million times as far."""
+    assert _stretches(1e6) <= 1000
+
+
+KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
+    "flow.location._FAINT": (0.0, starts_by_chance),
+    "flow.location._SHORTEST": (0.0, never_positive),
+    "flow.location._JUMP": (1e9, jumps),
+    "flow.location._NEARER": (1e30, jumps),
+    "flow.location._NEAR": (0.0, dips_between_samples),
+    "flow.location._LOOKS": (0, faces_for_an_instant),
+    "flow.location._BEHIND": (0.0, faces_for_an_instant),
+    "flow.location._MOST_ROOTS": (10**6, crowds),
+    "flow.location._FEW_ROOTS": (10**6, crowds_that_were_wrong),
+    "impact.guards._ROUGH": (1.0, switches),
+    "impact.guards._SMALL": (1e9, switches_from_next_to_nothing),
+    "impact.guards._WRONG": (0.0, fires_unarmed),
+    "impact.guards._CORRECTIONS": (1, switches_on_the_step),
+    "events.event_update._NEXT_TO_NOTHING": (0.0, ends_a_cascade),
+    "flow.mean_motion._AHEAD": (1e9, averages_as_long_as_forces_hold),
+    "flow.mean_motion._SHORTER": (1e-9, averages_as_long_as_forces_hold),
+    "flow.mean_motion._SHARE": (1e9, leads_no_gap_to_where_nothing_explains_it),
+    "events.step_length._ASTRAY": (1e9, leads_no_gap_to_where_nothing_explains_it),
+    "contact.null_space_forces._AMPLE": (0.0, spreads_forces),
+    "contact.null_space_forces._LEAST": (0.0, spreads_forces),
+    "flow.leap._PART": (1.0, runs_across_a_body),
+    "flow.leap._MOST": (10**9, runs_far),
+}
+"""By constant: another value, and what holds with the present one only."""

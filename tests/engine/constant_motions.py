@@ -1,0 +1,194 @@
+"""Motions and impacts of closed form, or of a known account, that need a constant of the engine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+import nonsmooth as ns
+from bodies import Ball, BoxBody, FreeBody, Sphere
+from laws import Coulomb, EnergeticImpact, Frictionless, Stribeck
+from nonsmooth.engine.native.kernel import call_entry
+from nonsmooth.impact import _memory
+from nonsmooth.interfaces import Shape
+from nonsmooth.model.delassus import write_delassus
+from tests.engine.test_clearance import LAWS, R, drop
+from tests.engine.test_stall import CROWDED, _rattling
+from tests.engine.test_step_length import AHEAD, FLYING, INTEGRATED, RADIUS, SPEED, _pass_by
+from tests.physics.test_own_guards import Level
+from tests.physics.test_wedged_impacts import _jointed, _on_a_line
+
+G = 9.81
+
+
+@final
+@dataclass(frozen=True)
+class Top(FreeBody):
+    """A symmetric top of 1 kg, with a ball on its axis that touches things."""
+
+    moments: tuple[float, float, float] = (0.01, 0.01, 0.02)
+    arm: float = 0.1
+    radius: float = 0.03
+
+    @property
+    def total_mass(self) -> float:
+        """1 kg."""
+        return 1.0
+
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """As given."""
+        return self.moments
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """The ball."""
+        return (Sphere(self.radius, z=self.arm),)
+
+
+def _first_impact(solution: ns.Solution) -> float:
+    return float(solution.events.time[1]) if len(solution.events) > 1 else math.inf
+
+
+def passes_a_level() -> None:
+    """Throw a ball past a level next to the top of its way; it is back below it as the step ends."""
+    ball, speed, below = Ball(R), 0.05 * G, 1e-3
+    system = ns.System([ball], gravity=G)
+    system.place(ball, velocity=(0.0, 0.0, speed))
+    system.guard(Level(0.5 * speed**2 / G - below, -1.0))
+    passed = _first_impact(ns.simulate(system, 0.1, sample_interval=0.1))
+    assert abs(passed - (0.05 - math.sqrt(2.0 * below / G))) < 1e-11
+
+
+def touches_a_ball_on_its_way_down() -> None:
+    """Let a ball that falls onto a plate touch another one before, by two thousandths of a millimetre."""
+    height, overlap, speed, z = 0.0663117, 1.652e-6, 0.0681, 0.0382595
+    way = height - z - math.sqrt(4.0 * R * R - (2.0 * R - overlap) ** 2)
+    solution = ns.simulate(drop(height, overlap, speed, z, True), 0.2, sample_interval=0.2)
+    assert abs(_first_impact(solution) - 2.0 * way / (speed + math.sqrt(speed**2 + 2.0 * G * way))) < 1e-10
+
+
+def precesses_into_a_ball() -> None:
+    """Let the axis of a top come near that about which it turned at the start, where a ball is.
+
+    The other ball is next to the centre of its body, and what turns that moves its surface hardly.
+    """
+    top, other, period = Top(), Top((0.01, 0.01, 0.01), 1e-3), 0.1
+    system = ns.System([top, other], gravity=0.0)
+    system.contact(top, other, **LAWS)
+    lean = math.radians(60.0)
+    tilt = math.atan(0.5 * math.tan(lean))
+    rate = 2.0 * math.pi / period
+    system.place(top, angular_velocity=(rate * math.sin(tilt), 0.0, 0.5 * rate * math.cos(tilt)))
+    system.place(other, position=(0.1 * math.sin(lean), 0.0, 0.1 * math.cos(lean) - other.arm))
+    near = math.cos(2.0 * math.asin(top.radius / top.arm))
+    turned = (math.cos(tilt) * math.cos(lean - tilt) - near) / (math.sin(tilt) * math.sin(lean - tilt))
+    solution = ns.simulate(system, period, sample_interval=period)
+    assert abs(_first_impact(solution) - math.acos(turned) / rate) < 1e-10
+
+
+def flies_up_to_a_closing() -> None:
+    """End the step where two balls touch that all but pass each other; nothing is looked for in it."""
+    solution = _pass_by(FLYING, 0.95 * 2.0 * RADIUS)
+    exact = (AHEAD - 2.0 * RADIUS * math.sqrt(1.0 - 0.95**2)) / SPEED
+    assert abs(_first_impact(solution) - exact) < 1e-12
+    assert solution.counters.gap_looks == 0
+
+
+def steps_up_to_a_closing() -> None:
+    """End the first step there, too, of one that is integrated and meets the other in the middle."""
+    assert _pass_by(INTEGRATED, 0.0).counters.gap_looks == 0
+
+
+def keeps_its_length() -> None:
+    """Hold the quaternion of a tumbling box to unit length."""
+    box = BoxBody(0.01, 0.02, 0.03)
+    system = ns.System([box], gravity=0.0)
+    system.place(box, angular_velocity=(30.0, 20.0, 10.0))
+    assert abs(np.linalg.norm(ns.simulate(system, 0.1).q_end[3:]) - 1.0) < 1e-15
+
+
+def _rattles(every: float, events: int) -> str:
+    """Return how a run ends in which a ball strikes each of two plates every so many seconds, so many times."""
+    try:
+        return ns.simulate(_rattling(every), every * events).status
+    except ns.RunFailed as failed:
+        return "stalls" if "stalls" in str(failed) else str(failed)
+
+
+def stalls() -> None:
+    """Give a ball up that strikes so often that time hardly passes."""
+    assert _rattles(0.5 * CROWDED, 150) == "stalls"
+
+
+def does_not_stall() -> None:
+    """Go on with one that strikes half as often as that."""
+    assert _rattles(2.0 * CROWDED, 150) == "done"
+
+
+def rebounds_on_a_line() -> None:
+    """Let a point rebound on a line that leans from the normal: friction takes its part of the energy both ways."""
+    mass, normal, tangential, u = _on_a_line(1.0)
+    part = 0.95
+    result = ns.solve_impact(
+        mass, normal, tangential, u, [EnergeticImpact(0.5)], [Coulomb(part / math.tan(1.0))], tolerance=1e-10
+    )
+    after = 0.5 * abs(float(u[0])) * math.sqrt((1.0 - part) / (1.0 + part))
+    assert abs(float(result.velocity[0]) - after) < 1e-9
+    assert not result.truncated
+
+
+def _wrong(*problem: Any) -> float:
+    """Return the part of the energy that is in no account after an impact, or of the approach that is left."""
+    mass, normal, _, u, *_ = problem
+    result = ns.solve_impact(*problem)
+    before, after = (0.5 * float(v @ mass @ v) for v in (u, result.velocity))
+    lost = float(np.sum(result.restitution_loss + result.friction_loss))
+    approach = -np.min(normal.T @ result.velocity) / np.max(np.abs(normal.T @ u))
+    return max(abs(before - after - lost) / before, float(approach))
+
+
+def keeps_account_of_a_light_contact() -> None:
+    """Book all energy of two contacts of one body on a line, of which one moves along its normal hardly."""
+    line = np.array([[4.5e-3, -0.079, -0.70], [-1.17, 0.25, -0.80]])
+    laws = [EnergeticImpact(0.0176)] * 2, [Coulomb(0.0924)] * 2
+    assert _wrong(np.eye(1), line[None, :, 0], line[None, :, 1:], np.array([2.7]), *laws) < 1e-9
+
+
+def keeps_account_of_a_slip_that_stops() -> None:
+    """Book the energy of a slip that comes to rest in an impact."""
+    assert _wrong(*_jointed(32), [EnergeticImpact(0.878)], [Stribeck(0.497, 1.0, 0.297)]) < 1e-9
+
+
+def rebounds_slowly() -> None:
+    """Give back what a contact stored whose forces move its body, however slow it is next to what bounces."""
+    memory = _memory([EnergeticImpact(1.0)], [Frictionless()], 1e-10)
+    write_delassus(memory, np.eye(3))
+    memory.array("impact_z0", 3)[:] = [-1.0, 0.0, 0.0]
+    memory.scalars["slow_speed"] = 10.0
+    assert call_entry("energetic_impact", memory, 0.0) == 1
+    assert abs(memory.array("impulse", 3)[0] - 2.0) < 1e-9
+
+
+MOTIONS: dict[str, tuple[Any, Callable[[], None]]] = {
+    "flow.location._MIDDLE": (0.999, passes_a_level),
+    "flow.guards.UNKNOWN_FALL": ((0.0, 0.0, 0.0), touches_a_ball_on_its_way_down),
+    "events.step_length._TURN": (1e9, precesses_into_a_ball),
+    "events.step_length._SHORTEST": (1.0, steps_up_to_a_closing),
+    "flow.clearance._CLOSINGS": (2, flies_up_to_a_closing),
+    "flow.projection._ROUND_OFF": (1e-3, keeps_its_length),
+    "events.stall._EVENTS": (10**6, stalls),
+    "events.stall._TIME": (1.0, does_not_stall),
+    "impact.end._LOCKED": (2.0, rebounds_slowly),
+    "impact.friction._IDLE": (0.5, rebounds_on_a_line),
+    "impact.problem._LONG": (0, rebounds_on_a_line),
+    "impact.problem._NO_RETURN": (0.9, rebounds_on_a_line),
+    "impact.guards.TOGETHER": (1e-2, keeps_account_of_a_light_contact),
+    "impact.scales.CIRCLING": (1e6, keeps_account_of_a_light_contact),
+    "impact.scales.REST": (1e-2, keeps_account_of_a_slip_that_stops),
+}
+"""By constant: another value, and what holds with the present one only."""
