@@ -9,11 +9,17 @@ from types import SimpleNamespace
 from typing import Any
 from unittest.mock import patch
 
-from nonsmooth.engine.contact import null_space_forces
+import numpy as np
+
+import nonsmooth as ns
+from laws import Coulomb
+from nonsmooth.engine.contact import cone, implicit_slip, null_space_forces, problem
 from nonsmooth.engine.events import event_update, step_length
 from nonsmooth.engine.flow import leap, location, mean_motion
 from nonsmooth.engine.impact import guards
 from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.solvers import ENUMERATION, LEMKE
+from tests.engine.plain_cases import CASES
 
 _UNREAD: Any = None
 """A heap that a kernel by itself does not read."""
@@ -310,6 +316,28 @@ def runs_far() -> None:
     assert _stretches(1e6) <= 1000
 
 
+def rubs_on_the_bound() -> None:
+    """Find the friction of a contact that moves along one line only, and is exactly at its bound."""
+    assert cone._cut_to_disc(1.0, 0.0, 0.0, 1.0, 0.0, 1.0) == (-1.0, 0.0)
+
+
+def _solves_by(solver: int) -> None:
+    """Solve a small problem that no other solver is let solve."""
+    real, friction = problem.find_modes, [Coulomb(0.3)] * 2
+    columns = np.eye(6).reshape(6, 2, 3)
+    force = np.array([-1.0, 0.1, 0.0, -1.0, 0.0, 0.5])
+    with patch.object(problem, "find_modes", lambda S, w, k, number: real(S, w, k, number) if number == solver else 0):
+        found = ns.solve_contact(np.eye(6), columns[:, :, 0], columns[:, :, 1:], force, friction)
+    np.testing.assert_allclose(found.acceleration, [0.0, 0.0, 0.0, 0.0, 0.0, 0.2], rtol=0.0, atol=1e-12)
+
+
+def follows_a_lone_slip() -> None:
+    """Follow a slip that is alone by Newton steps of its direction; few stages ask for a search."""
+    with patch.object(implicit_slip, "oppose_slips", side_effect=implicit_slip.oppose_slips) as searches:
+        CASES["creeping"]()
+    assert searches.call_count < 400
+
+
 KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
     "flow.location._FAINT": (0.0, starts_by_chance),
     "flow.location._SHORTEST": (0.0, never_positive),
@@ -333,5 +361,9 @@ KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
     "contact.null_space_forces._LEAST": (0.0, spreads_forces),
     "flow.leap._PART": (1.0, runs_across_a_body),
     "flow.leap._MOST": (10**9, runs_far),
+    "contact.cone._FLAT": (0.0, rubs_on_the_bound),
+    "contact.implicit_slip._TURNS": (1, follows_a_lone_slip),
+    "memory.solvers.ENUMERATED_AT_LAST": (0, lambda: _solves_by(ENUMERATION)),
+    "memory.solvers.MOST_PIVOTED": (0, lambda: _solves_by(LEMKE)),
 }
 """By constant: another value, and what holds with the present one only."""

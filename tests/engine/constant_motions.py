@@ -17,6 +17,8 @@ from nonsmooth.impact import _memory
 from nonsmooth.interfaces import Shape
 from nonsmooth.model.delassus import write_delassus
 from tests.engine.test_clearance import LAWS, R, drop
+from tests.engine.test_courses import test_what_happens_elsewhere_changes_no_bit as roll_beside
+from tests.engine.test_spins import test_a_spin_that_keeps_its_direction_is_integrated_along_the_body as keep_direction
 from tests.engine.test_stall import CROWDED, _rattling
 from tests.engine.test_step_length import AHEAD, FLYING, INTEGRATED, RADIUS, SPEED, _pass_by
 from tests.physics.test_own_guards import Level
@@ -176,11 +178,15 @@ def rebounds_slowly() -> None:
 
 MOTIONS: dict[str, tuple[Any, Callable[[], None]]] = {
     "flow.location._MIDDLE": (0.999, passes_a_level),
+    "flow.courses._ATTEMPTS": (0, lambda: roll_beside(0.2)),
+    "flow.courses._KEPT": (2.0, lambda: roll_beside(0.2)),
+    "flow.spins._KEPT": (2.0, keep_direction),
     "flow.guards.UNKNOWN_FALL": ((0.0, 0.0, 0.0), touches_a_ball_on_its_way_down),
     "events.step_length._TURN": (1e9, precesses_into_a_ball),
     "events.step_length._SHORTEST": (1.0, steps_up_to_a_closing),
     "flow.clearance._CLOSINGS": (2, flies_up_to_a_closing),
     "flow.projection._ROUND_OFF": (1e-3, keeps_its_length),
+    "flow.self_check.NOUGHT": (0.0, flies_up_to_a_closing),
     "events.stall._EVENTS": (10**6, stalls),
     "events.stall._TIME": (1.0, does_not_stall),
     "impact.end._LOCKED": (2.0, rebounds_slowly),

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+import nonsmooth as ns
 from nonsmooth.engine.events import event_loop as event_loop  # all that steps is loaded with it
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import solver_number
@@ -101,7 +102,6 @@ class Case:
 
 CASES: dict[str, tuple[Any, Case | Run | Callable[[], None]]] = {
     "contact.cone._SETTLED": (1e-6, Case("feet", 12, 101, "gauss_seidel", 90)),
-    "contact.cone._FLAT": (1e-3, Case("feet", 12, 121, "gauss_seidel", 90)),
     "contact.distribution._STEPS": (3, Case("row", 12, 101, "auto", 10)),
     "contact.distribution._FLOOR": (0.0, Case("feet", 3, 100, "auto", 4)),
     "contact.distribution._FLOOR_IN_BAND": (1.0, Case("row", 12, 101, "newton", 10)),
@@ -165,5 +165,5 @@ def test_and_is_not_without_it(constant: str, monkeypatch: pytest.MonkeyPatch) -
     for other in [m for n, m in sys.modules.items() if n.startswith("nonsmooth.engine.")]:
         if vars(other).get(name) is right:
             monkeypatch.setattr(other, name, value)
-    with pytest.raises((AssertionError, ZeroDivisionError)):
+    with pytest.raises((AssertionError, ZeroDivisionError, ns.RunFailed)):
         _assert_solved(constant)
