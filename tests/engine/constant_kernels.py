@@ -13,11 +13,12 @@ import numpy as np
 
 import nonsmooth as ns
 from laws import Coulomb
-from nonsmooth.engine.contact import cone, implicit_slip, null_space_forces, problem
-from nonsmooth.engine.events import event_update, step_length
-from nonsmooth.engine.flow import leap, location, mean_motion
+from nonsmooth.engine.contact import cone, implicit_slip, null_space_forces, problem, search
+from nonsmooth.engine.events import event_update, step_length, stopping, twins
+from nonsmooth.engine.flow import ending, leap, location, mean_motion
+from nonsmooth.engine.flow import guards as flow_guards
 from nonsmooth.engine.impact import guards
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.memory.solvers import ENUMERATION, LEMKE
 from tests.engine.plain_cases import CASES
 
@@ -323,7 +324,7 @@ def rubs_on_the_bound() -> None:
 
 def _solves_by(solver: int) -> None:
     """Solve a small problem that no other solver is let solve."""
-    real, friction = problem.find_modes, [Coulomb(0.3)] * 2
+    real, friction = search.find_modes, [Coulomb(0.3)] * 2
     columns = np.eye(6).reshape(6, 2, 3)
     force = np.array([-1.0, 0.1, 0.0, -1.0, 0.0, 0.5])
     with patch.object(problem, "find_modes", lambda S, w, k, number: real(S, w, k, number) if number == solver else 0):
@@ -336,6 +337,84 @@ def follows_a_lone_slip() -> None:
     with patch.object(implicit_slip, "oppose_slips", side_effect=implicit_slip.oppose_slips) as searches:
         CASES["creeping"]()
     assert searches.call_count < 400
+
+
+def _fires(value: float, friction: int) -> int:
+    """Return 1 if a guard of a sliding contact fires that is not armed: its force (0) or its slip (1)."""
+    S = SimpleNamespace(velocity_tolerance=1e-8, gap_tolerance=1e-12)
+    contact = SimpleNamespace(mode=SLIDE, normal_function=0, holds=0, small_force_of=1e-9, beyond=0.0)
+    guard = SimpleNamespace(value=value, armed=0, deflated=0)
+    with patch.multiple(
+        flow_guards,
+        guard_at=lambda *_: guard,
+        contact_at=lambda *_: contact,
+        contact_of=lambda *_: 0,
+        is_friction_guard=lambda *_: friction,
+    ):
+        return int(flow_guards.has_fired(S, _UNREAD, _UNREAD, friction))
+
+
+def slips_back_unarmed() -> None:
+    """Let a slip fire that goes back as fast as what counts as motion, but not one by round-off."""
+    assert _fires(-1e-12, 1) == 0
+    assert _fires(-1e-8, 1) == 1
+
+
+def pulls_unarmed() -> None:
+    """Let a force fire that pulls by more than the contact problem took for zero, but not by what it did."""
+    assert _fires(-1e-9, 0) == 0
+    assert _fires(-1e-8, 0) == 1
+
+
+def _are_twins(apart: float) -> int:
+    """Return 1 if contacts of the same bodies are one whose normals differ by so much."""
+    one, other = (
+        SimpleNamespace(
+            frame_a=0, frame_b=1, normal_function=0, size=1.0, point_b=(0.0, 0.0, 0.0), normal=(x, 0.0, 1.0)
+        )
+        for x in (0.0, apart)
+    )
+    with patch.object(twins, "contact_at", lambda S, w, k, c: other if c else one):
+        return int(twins._is_twin(_UNREAD, _UNREAD, _UNREAD, 0, 1))
+
+
+def stands_for_its_twin() -> None:
+    """Take contacts for one whose normals differ by what moves next to no energy, and no others."""
+    assert _are_twins(1e-7) == 1
+    assert _are_twins(1e-2) == 0
+
+
+def ends_ahead() -> None:
+    """Find the end of the features of a contact five least times ahead, to which steps did not get."""
+    S = SimpleNamespace(time_tolerance=1e-12, gap_tolerance=1e-12, t=0.0, y=0, y_new=1, slopes=2, n_y=1)
+    S.n_grouped, S.grouped, contact = 1, 0, SimpleNamespace(beyond=-1.0)
+
+    def evaluate(S: Any, w: Any, k: Any, t: float, y: int) -> None:
+        contact.beyond = 1.0 if t >= 5e-12 else -1.0
+
+    with patch.multiple(
+        ending, contact_at=lambda *_: contact, evaluate_bodies=evaluate, evaluate_geometry=lambda *_: None
+    ):
+        assert ending.end_features(S, [0.0, 0.0, 0.0], [0]) == 0
+
+
+def stops_unforeseen() -> None:
+    """Cut a step soon to a thousandth of it where a slip stops in it of which nothing tells when."""
+    S = SimpleNamespace(time_tolerance=1e-12, slopes=0, n_q=0, relaxation=1e9, velocity_tolerance=1e-8)
+    contact = SimpleNamespace(slip_end=(1e-6, 0.0), bias=(0.0, 1.0, 0.0))
+    h, cuts = 1.0, 0
+    with patch.multiple(stopping, contact_at=lambda *_: contact, row=lambda *_: 0.0):
+        while h > 1e-3:
+            h *= stopping._share(S, _UNREAD, _UNREAD, 0, h)
+            cuts += 1
+    assert 3 <= cuts <= 10
+
+
+def opens_alike() -> None:
+    """Open two contacts together that pull alike but for round-off, as they are each other's image."""
+    pulling = [SimpleNamespace(mode_tried=SLIDE, normal_force=-1.0 - 1e-12 * i) for i in range(2)]
+    with patch.object(search, "active_at", lambda S, w, k, a: pulling[a]):
+        assert search._open_pulling(SimpleNamespace(n_active=2, small_force=1e-9), _UNREAD, _UNREAD) == 2
 
 
 KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
@@ -365,5 +444,11 @@ KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
     "contact.implicit_slip._TURNS": (1, follows_a_lone_slip),
     "memory.solvers.ENUMERATED_AT_LAST": (0, lambda: _solves_by(ENUMERATION)),
     "memory.solvers.MOST_PIVOTED": (0, lambda: _solves_by(LEMKE)),
+    "contact.search._SAME": (0.0, opens_alike),
+    "events.stopping._BLIND": (0.999, stops_unforeseen),
+    "events.twins._SAME": (0.0, stands_for_its_twin),
+    "flow.ending._DOUBLINGS": (0, ends_ahead),
+    "flow.flow.WRONG_FORCE": (0.0, pulls_unarmed),
+    "flow.guards._WRONG_SLIP": (0.0, slips_back_unarmed),
 }
 """By constant: another value, and what holds with the present one only."""
