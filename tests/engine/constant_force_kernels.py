@@ -74,7 +74,10 @@ def lets_slips_stop() -> None:
 def _passes(force: float) -> int:
     """Return 1 if a force of a contact that shares its load with one of unit force passes its bound."""
     contacts = [SimpleNamespace(redundant=1, holds=0, force=(f, 0.0, 0.0)) for f in (1.0, force)]
-    record = {"contact_at": lambda S, w, k, c: contacts[c], "hold_guard": lambda S, w, k, c: contacts[c].force[0]}
+    record: dict[str, Any] = {
+        "contact_at": lambda S, w, k, c: contacts[c],
+        "hold_guard": lambda S, w, k, c: contacts[c].force[0],
+    }
     with patch.multiple(follow, **record):
         return int(follow._past_bounds(SimpleNamespace(n_grouped=2, grouped=0), _UNREAD, [0, 1]))
 

@@ -16,6 +16,7 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.impact import _memory
 from nonsmooth.interfaces import Shape
 from nonsmooth.model.delassus import write_delassus
+from tests.engine.plain_cases import _creeping
 from tests.engine.test_clearance import LAWS, R, drop
 from tests.engine.test_courses import FAR, HEIGHT, _beside
 from tests.engine.test_spins import test_a_spin_that_keeps_its_direction_is_integrated_along_the_body as keep_direction
@@ -132,6 +133,13 @@ def is_thrown_back() -> None:
     assert abs(ns.simulate(system, 0.05, sample_interval=0.05).u_end[2] - 5.0) < 1e-6
 
 
+def creeps_in_long_steps() -> None:
+    """Follow a slip that turns as it slows down, and is stiff, by a few implicit steps."""
+    numbers = _creeping(1e-3)
+    assert abs(numbers["wrong"][0]) < 1e-7
+    assert numbers["cost"][0] <= 10
+
+
 def hangs_by_a_rope() -> None:
     """Hold the middle of a ball that swings on a joint to its distance, however far it has swung."""
     ball, base = Ball(R), Plate()
@@ -219,6 +227,8 @@ MOTIONS: dict[str, tuple[Any, Callable[[], None]]] = {
     "flow.self_check.NOUGHT": (1.0, flies_up_to_a_closing),
     "events.stall._EVENTS": (10**6, stalls),
     "events.stall._TIME": (1.0, does_not_stall),
+    "memory.implicit_tableau.ITERATIONS": (1, creeps_in_long_steps),
+    "memory.implicit_tableau.SETTLED": (0.0, creeps_in_long_steps),
     "impact.end._LOCKED": (2.0, rebounds_slowly),
     "impact.friction._IDLE": (0.5, rebounds_on_a_line),
     "impact.problem._LONG": (0, rebounds_on_a_line),
