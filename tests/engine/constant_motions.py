@@ -227,6 +227,7 @@ MOTIONS: dict[str, tuple[Any, Callable[[], None]]] = {
     "flow.self_check.NOUGHT": (1.0, flies_up_to_a_closing),
     "events.stall._EVENTS": (10**6, stalls),
     "events.stall._TIME": (1.0, does_not_stall),
+    "flow.step.STIFF": (1e300, creeps_in_long_steps),
     "memory.implicit_tableau.ITERATIONS": (1, creeps_in_long_steps),
     "memory.implicit_tableau.SETTLED": (0.0, creeps_in_long_steps),
     "impact.end._LOCKED": (2.0, rebounds_slowly),

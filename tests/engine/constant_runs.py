@@ -52,7 +52,6 @@ RUNS: dict[str, tuple[Any, Run]] = {
     "flow.self_check._ROUND_OFF": (0.0, Run("squeezed", 3)),
     "flow.step._SHARE": (0.0, Run("shaken", 12)),
     "flow.step._SLOWEST": (0.0, Run("shaken", 12)),
-    "flow.step.STIFF": (0.0, Run("groove", 20)),
     "impact.problem._FAR": (0.01, Run("bouncing", 48)),
     "impact.problem._FIRST": (25.0, Run("skew", 220)),
     "impact.problem._LAST": (0.0, Run("skew", 220)),
