@@ -348,14 +348,14 @@ def _doubled_chain(n: int, solver: str) -> Numbers:
     return {"modes": result.modes, "acceleration": result.acceleration, "normal": result.normal_force}
 
 
-def _creeping() -> Numbers:
+def _creeping(t_end: float = 0.02) -> Numbers:
     """Drag a ball by a force that turns and falls below the bound of friction, until its slip stops."""
     ground, ball = Plate(), Ball(0.01, density=1000.0)
     system = ns.System([ground, ball])
     system.contact(ground, ball, **_rigid(friction=Coulomb(0.3)))
     system.place(ball, position=(0.0, 0.0, 0.01), velocity=(5e-4, 0.0, 0.0))
     system.load(FunctionLoad(_dragging, {"bound": 3.5 * 0.3 * 9.81 * ball.total_mass}), ground, ball)
-    return _numbers(system, 0.02, tolerance=1e-8)
+    return _numbers(system, t_end, tolerance=1e-8)
 
 
 def _dragging(t: float, a: Any, b: Any, out: Any, bound: float) -> None:

@@ -10,6 +10,7 @@ from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, 
 from nonsmooth.engine.numerics.vectors import length
 
 _STEPS = 60
+"""Newton steps in the null space: each passes from one piece of a distance to the cones to another."""
 _FLOOR = 1e-6
 """Added to the Hessian, whose largest eigenvalue is 1: the shortest move that does is made, not one of round-off."""
 _FLOOR_IN_BAND = 1e-3

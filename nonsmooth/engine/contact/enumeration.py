@@ -13,7 +13,9 @@ from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import length
 
 _SWEEPS = 100
+"""Sweeps that point slips which start, from where Newton's method goes on."""
 _ENDLESS = 1e30
+"""Static coefficient of what is held whatever the friction: no ratio of forces is as large."""
 
 
 @kernel("i8(S, F, I, i8)")

@@ -6,6 +6,7 @@ from nonsmooth.engine.contact.cone import gauss_seidel
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel
 
 STAGES = 3
+"""After each of which modes are guessed and verified: what settles slowly may tell them long before."""
 SWEEPS = 20
 """Of the first stage; ten times more in each that follows."""
 

@@ -23,7 +23,7 @@ from nonsmooth.engine.numerics.vectors import length
 _FAINT = 1e-13
 """What is held by this part of the largest force more than the bound of friction stays: it is round-off."""
 _ARRIVED = 1e-10
-"""Forces that are not unique may be so much out of their cones."""
+"""Forces that are not unique may be so much out of their cones, relative to the largest."""
 _TURNS = 8
 """Newton steps of the direction of a slip that is alone; from a step before three or four do."""
 

@@ -22,8 +22,11 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at,
 from nonsmooth.engine.native.watch import interrupted
 
 STAGES = 12
+"""In each of which corners are turned to where the last one found the friction; a few do where that settles at all."""
 CORNERS = 4
+"""Of the polygon in place of Coulomb's disc, one of them along the friction: the others only bound what turns away."""
 _ZERO = 1e-11
+"""Entries of the scaled tableau, and differences of ratios in it, below this are round-off."""
 
 
 @kernel("f8(S, F, I, i8, i8, i8)")

@@ -21,12 +21,17 @@ from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
 from nonsmooth.engine.numerics.vectors import length
 
 STAGES = 4
+"""Starts from ever better forces: where steps lead nowhere, sweeps do in time."""
 _SWEEPS = 10
+"""Before the first stage; ten times more before each that follows."""
 _STEPS = 30
+"""Newton steps of one stage: they are quadratic or lead nowhere."""
 _HALVINGS = 8
+"""Of one step, down to which the natural map must decrease."""
 _FLOOR = 1e-8
 """Added to the diagonal, whose entries are near 1: forces that are not unique must not stop the elimination."""
 _SETTLED = 1e-11
+"""Length of the natural map, relative to that of the forces, at which they are left to be made exact."""
 
 
 @kernel("v2(S, F, I, i8)")

@@ -30,6 +30,7 @@ _AMPLE = 1e-2
 _LEAST = 1e-11
 """A distance below this part of the largest force is none."""
 _ARRIVED = 1e-12
+"""Forces may be so much out of their cones, relative to the largest, where they count as within."""
 _SLACK = 2.0 * NO_FORCE
 """Then a bound that is passed by this part of the largest force holds, as it does to the contact problem."""
 

@@ -17,10 +17,13 @@ from nonsmooth.engine.numerics.null_band import solve_shifted
 from nonsmooth.engine.numerics.vectors import length
 
 _STEPS = 25
+"""Newton steps of the directions: from a guess far off some go to within a turn, and then they are quadratic."""
 _TURN = 0.7
 """Largest turn of a direction in one step [rad]."""
 EXACT = 1e-14
+"""Acceleration across its slip, relative to the largest, that is round-off."""
 _NEAR = 1e-8
+"""The same where Newton's steps gain no more: next to redundant contacts round-off is larger."""
 
 
 @kernel("f8(S, F, I, i8, i8)")

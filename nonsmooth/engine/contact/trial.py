@@ -15,6 +15,7 @@ NO_FORCE = 1e-9
 _SOLVED = 1e-5
 """Part of what counts as zero in an island that round-off of its largest forces leaves in all of them."""
 _ARRIVED = 0.1
+"""Forces may be out of their cones by this part of what counts as zero among them, where they are distributed."""
 EQUAL = 1e3
 """Accelerations that tell modes, and those on which more contacts than can hold independently may disagree, may be so
 many times what counts as zero."""

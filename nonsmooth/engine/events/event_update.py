@@ -79,15 +79,17 @@ from nonsmooth.engine.native.kernel import (
 from nonsmooth.engine.native.watch import interrupted
 
 _ATTEMPTS = MOST_EVENTS - 4
+"""To settle an instant: each may record an event, and a few come before and after."""
 _NEXT_TO_NOTHING = 1e-3
 """An approach below this part of the fastest approach or slip before an impact counts as none where that has no end."""
 _PAINLEVE_ATTEMPTS = 5
+"""Impacts without collision at one instant; after one there are forces, unless it leads to another jam."""
 _PROJECTIONS = 2
 """So often an instant is settled anew after a projection that may have turned a slip."""
 _SLOW = 100.0
 """A slip of up to so many velocity tolerances may be turned."""
 _FACINGS = 20
-"""So often friction may be found to oppose the other way."""
+"""So often in one instant friction may be found to oppose the other way: contacts that turn each other need not end."""
 
 
 @kernel("i8(S, F, I)")

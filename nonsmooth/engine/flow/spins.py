@@ -17,6 +17,7 @@ from nonsmooth.engine.numerics.runge_kutta import dense_part, stage_part, weigh_
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot
 
 _TO_SPACE, _TO_BODY = 1.0, -1.0
+"""Sign of the scalar part of the quaternion that turns a vector there."""
 _KEPT = 1e-9
 """Sine of the angle between a spin and its rate, along the body, up to which it keeps its direction: that of motion in
 a plane is round-off, 1e-16, and a step in which a spin turns by so much of its change is as long in either axes."""

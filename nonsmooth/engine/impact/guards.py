@@ -46,14 +46,15 @@ RATE_GUARD, ENERGY_GUARD, FRICTION_GUARD = 0, 1, 2
 GUARDS = 3
 """so many."""
 TOGETHER = 1e-13
-"""Guards within this of zero fire together."""
+"""Guards, which are of order 1, fire together within this of zero: round-off does not tell which one is first."""
 _WRONG = -1e-7
-"""A guard that is not armed fires below this all the same."""
+"""A guard, of order 1, that is not armed fires below this all the same: more than a switch leaves by its error."""
 _ROUGH = 1e-11
-"""A root on the interpolant need not be better than this: it is corrected on the step itself."""
+"""A guard, of order 1, need not be nearer zero on the interpolant: it is corrected on the step itself."""
 _SMALL = 1e-3
 """But it must be small next to what the guard was before, which may be next to nothing, too."""
 _CORRECTIONS = 8
+"""Of a step to a switch, by Newton's method with the slope on the interpolant; two or three do."""
 
 
 @kernel("void(S, F, I, i8)")

@@ -23,9 +23,9 @@ REST = 1e-9
 CIRCLING = 30.0
 """A slip that circles round zero does so within the error of so many steps, and a wave leaves no more behind."""
 _GROWN = 2.0
-"""Impulses that grow by less have the same scale."""
+"""Impulses that grow by less than this factor have the same scale: what counts as none need not follow each step."""
 _MET = 1e-6
-"""So close, relative to it, the deformation that takes up an energy need be known: it is a scale."""
+"""So close, relative to the energy, need the deformation be known that takes it up: it is a scale."""
 
 
 @kernel("f8(S, F, I, f8)")

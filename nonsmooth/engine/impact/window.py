@@ -37,9 +37,9 @@ from nonsmooth.engine.native.kernel import (
 )
 
 LARGE = 16
-"""Impacts with more contacts than this are looked at through a window."""
+"""Impacts with more contacts than this are looked at through a window: below, a window would hold most of them."""
 _LAYERS = 4
-"""How many neighbours deep a window reaches beyond the contacts that act."""
+"""How many neighbours deep a window reaches beyond the contacts that act: the less often a wave comes to its rim."""
 
 
 @kernel("void(S, F, I)")

@@ -19,6 +19,7 @@ _FAINT = 1e-12
 _REMOVALS = 4
 """The projector is known to a part of rounding over what was added, and takes off all but that part each time."""
 _SYMMETRIC = 1e-12
+"""Entries that differ by no more than this part of the largest of the diagonal are the same but for round-off."""
 _SETTLED = 1e-15
 """A residual of this part of the right-hand side is round-off."""
 

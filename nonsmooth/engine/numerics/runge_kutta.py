@@ -8,7 +8,9 @@ from nonsmooth.engine.native.kernel import Floats, Scalars, kernel
 from nonsmooth.engine.numerics.vectors import Vector
 
 SAFETY, SHRINK, GROW = 0.92, 0.2, 8.0
+"""Part taken of the step that would just meet the tolerance, and the least and most by which steps differ at once."""
 _EXPONENT = -0.2
+"""The error of a step of fourth order grows with the fifth power of its length."""
 _TINY = (SAFETY / GROW) ** 5
 """Below this error the step grows by the most it may."""
 
