@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -107,6 +108,33 @@ class Ending(JumpingGap):
         return ending
 
 
+def handing(a: Floats, b: Floats, out: Floats, depth: float, radius: float, x: float, onto: float) -> None:
+    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
+    past = onto * (x - b[0])
+    if past > 0.0:
+        past += depth
+        out[0] = math.hypot(out[0] if onto > 0.0 else max(out[0], 0.0), past)
+    out[PAST_END] = past
+
+
+@dataclass(frozen=True)
+class Handing(JumpingGap):
+    """A ball over a plane that ends at ``x``, or begins there (``onto`` 1): behind, what stands for a gap is positive.
+
+    It is as long as the way past the end, to which ``depth`` is added.
+    """
+
+    x: float = 0.05
+    onto: float = -1.0
+
+    def parameters(self) -> dict[str, Any]:
+        return {**super().parameters(), "x": self.x, "onto": self.onto}
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        return handing
+
+
 def _over(gap: JumpingGap, z: float, gravity: float, laws: Mapping[str, Any] = LAWS) -> ns.System:
     plate, ball = Plate(Rest()), Ball(RADIUS, 7800.0)
     system = ns.System([plate, ball], gravity)
@@ -174,6 +202,21 @@ def test_the_end_of_a_contact_that_jumps_is_an_event() -> None:
     assert solution.status == "done"
     assert solution.events.causes()[-1] == "end of a feature"
     assert solution.events.time[-1] == pytest.approx(0.05, abs=2e-11)
+
+
+@pytest.mark.parametrize("jump", [0.0, 1e-6, 1.0])
+@pytest.mark.parametrize("place", [0.01, 0.02, 0.03, 0.04, 0.05, 0.06])
+def test_springs_hand_over_to_the_next_feature_though_the_first_seems_to_lift_off(place: float, jump: float) -> None:
+    """Its gap jumps from an overlap to a number above zero, on one side or the other of its end by round-off."""
+    system = _over(Handing(jump, x=place), RADIUS, 9.81, SPRING)
+    following = Handing(0.0, x=0.999 * place, onto=1.0)
+    system._contacts.append(dataclasses.replace(system.contacts[0], kinematics=following))
+    solution = ns.simulate(system, 1.1 * place)
+    assert solution.status == "done"
+    causes = solution.events.causes()
+    assert "end of a feature" in causes
+    assert solution.events.time[causes.index("end of a feature")] == pytest.approx(place, abs=2e-11)
+    assert len(causes) < 40
 
 
 @pytest.mark.parametrize("angle", [1e-3, 1e-5, 1e-7, 1e-9])

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, ConstantVelocity, DrivenBody, Plate, Rest, Sphere
+from bodies import Ball, BallJoint, ConstantVelocity, Distance, DrivenBody, Plate, Rest, Sphere
 from laws import Coulomb, EnergeticImpact, LinearCompliant, NewtonImpact, PlasticImpact, Unilateral
-from nonsmooth.interfaces import ImpactLaw, NormalLaw
+from nonsmooth.interfaces import ImpactLaw, Joint, NormalLaw
 
 RADIUS = 0.01
 IMPACTS: list[ImpactLaw] = [EnergeticImpact(0.5), NewtonImpact(0.5), PlasticImpact()]
@@ -45,3 +45,19 @@ def test_springs_have_an_answer() -> None:
 def test_what_slips_out_is_not_squeezed() -> None:
     """The line between the points leans by more than either friction holds: the ball is pushed aside, and goes on."""
     assert ns.simulate(_system(Unilateral(), PlasticImpact(), 0.1, 0.02), 0.35).status == "done"
+
+
+@pytest.mark.parametrize("impact", IMPACTS, ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize(
+    "joint", [BallJoint((0.0, 0.0, 0.0), (0.0, 0.0, 0.03)), Distance(length=0.05)], ids=["ball", "rod"]
+)
+def test_a_pendulum_that_a_plate_lifts_towards_its_joint_is_squeezed(impact: ImpactLaw, joint: Joint) -> None:
+    """Friction holds the line from the contact to the joint, which bears whatever comes: one contact is enough."""
+    held = DrivenBody(Rest(position=(0.004, 0.0, 0.06 if isinstance(joint, Distance) else 0.04)), (Sphere(0.002),))
+    plate, ball = Plate(ConstantVelocity((0.0, 0.0, 0.1), position=(0.0, 0.0, -0.01))), Ball(RADIUS)
+    system = ns.System([plate, held, ball])
+    system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(0.5), impact=impact)
+    system.joint(joint, held, ball)
+    system.place(ball, position=(0.004, 0.0, RADIUS))
+    with pytest.raises(ns.RunFailed, match=r"'ball' is squeezed.*plate - ball.*joint.*compliant"):
+        ns.simulate(system, 0.3)

@@ -151,13 +151,14 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
 def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach.
 
-    Forces that are averaged end nothing.
+    Forces that are averaged end nothing, nor does what stands for a gap past the end of features, which is an event of
+    its own: bodies may still overlap there.
     """
     contact = contact_at(S, w, k, c)
+    if contact.averaged != OPEN or (contact.normal_function != 0 and contact.beyond > 0.0):
+        return 1.0
     if contact.normal_function != 0:
         return float(contact.reach - contact.gap)
-    if contact.averaged != OPEN:
-        return 1.0
     return float(contact.force[0])
 
 
