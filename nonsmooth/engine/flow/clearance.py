@@ -80,30 +80,35 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     """Write how fast the gaps of the open contacts can change where the bodies stand, to ``speed_end``.
 
     Seen from one body the other's surface moves along a normal no faster than its origin, and its lever by turning.
-    The fastest turning of one that flies counts for the length of the step.
+    Where one of them flies, the fastest turning, also that of the body from which it is seen, counts for the length of
+    the step: a top that precesses looks at its end as at its start, whatever it came by.
     """
     last_a = last_b = -1
-    speed, spin, whole = 0.0, (0.0, 0.0, 0.0), 0.0
+    speed, spin, whole, own = 0.0, (0.0, 0.0, 0.0), 0.0, 0.0
     S.fastest_turn = 0.0
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         if contact.mode != OPEN:
             continue
-        a, b, lever = contact.frame_a, contact.frame_b, contact.lever_b
-        if lever > contact.lever_a:
-            a, b, lever = b, a, contact.lever_a
+        a, b, lever, larger = contact.frame_a, contact.frame_b, contact.lever_b, contact.lever_a
+        if lever > larger:
+            a, b, lever, larger = b, a, larger, lever
         # the contacts of two bodies follow one another
         if a != last_a or b != last_b:
-            speed, spin = _speed_seen(w, a, b), minus(frame_at(w, b).spin, frame_at(w, a).spin)
-            whole = math.sqrt(dot(spin, spin))
+            seen_from = frame_at(w, a).spin
+            speed, spin = _speed_seen(w, a, b), minus(frame_at(w, b).spin, seen_from)
+            whole, own = math.sqrt(dot(spin, spin)), math.sqrt(dot(seen_from, seen_from))
             last_a, last_b = a, b
         contact.speed_end = speed
+        flies = body_at(S, w, k, contact.body_a).flies + body_at(S, w, k, contact.body_b).flies > 0
+        if flies and larger > 0.0:
+            S.fastest_turn = max(S.fastest_turn, own)
         if lever > 0.0:
             turning = whole
             if dot(contact.revolution, contact.revolution) > 0.0:
                 across = _across(spin, _axis(S, w, k, c))
                 turning = math.sqrt(dot(across, across))
-            if body_at(S, w, k, contact.body_a).flies + body_at(S, w, k, contact.body_b).flies > 0:
+            if flies:
                 S.fastest_turn = max(S.fastest_turn, turning)
             contact.speed_end = speed + turning * lever
             contact.arm_end = _arm(S, w, k, c)
