@@ -143,9 +143,8 @@ class _EntryLibrary(_RolledLibrary):
         super().add_ir_module(module)
 
     def _optimize_final_module(self) -> None:
-        functions = {function.name: function for function in self._final_module.functions}
-        for name, function in functions.items():
-            if f"cfunc.{name}" in functions:
+        for function in self._final_module.functions:
+            if not function.is_declaration and not function.name.startswith("cfunc."):
                 function.linkage = "internal"
         super()._optimize_final_module()
 
