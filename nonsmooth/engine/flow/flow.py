@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.anisotropy import facing_force
-from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies, evaluate_free_bodies
+from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies, evaluate_free_bodies, evaluate_integrated_bodies
 from nonsmooth.engine.bodies.compliance import (
     evaluate_compliant_force,
     refresh_states,
@@ -48,7 +48,11 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
     """
     keeps = 1
     S.singular = -1
-    evaluate_free_bodies(S, w, k, t, y, every)
+    if every == 0 and S.n_loads + S.n_joints == 0:
+        # no call: most right-hand sides are of these
+        evaluate_integrated_bodies(S, w, k, t, y)
+    else:
+        evaluate_free_bodies(S, w, k, t, y, every)
     free_acceleration(S, w, k, every)
     if S.n_grouped == 0:
         return keeps
