@@ -89,11 +89,14 @@ class TypeOnce(NopythonTypeInference):
 
 
 class _RolledLibrary(JITCodeLibrary):
-    """Code whose loops stay as they stand: unrolled, such short ones take longer to compile, and to run."""
+    """Code whose loops stay as they stand: unrolled, such short ones take longer to compile, and to run.
+
+    Nor are several vectors of a loop taken at once: of a dozen numbers most would be left over.
+    """
 
     def _builder(self) -> Any:
         options = create_pipeline_tuning_options(speed_level=3)
-        options.loop_vectorization, options.loop_unrolling = True, False
+        options.loop_vectorization, options.loop_unrolling, options.loop_interleaving = True, False, False
         return create_pass_builder(self._codegen._tm, options)
 
     def _optimize_functions(self, module: Any) -> None:
