@@ -103,12 +103,26 @@ def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int)
             evaluate_body(S, w, k, t, y, number)
 
 
+@kernel("void(S, F, I, f8, i8)")
+def evaluate_integrated_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+    """Let the bodies that are integrated write their output blocks, where there are neither loads nor joints."""
+    interrupted(S, S.n_contacts + S.n_bodies)
+    S.free_velocities = y + S.n_q
+    S.driven_power = 0.0
+    S.load_power = 0.0
+    for i in range(S.n_integrated):
+        evaluate_body(S, w, k, t, y, k[S.integrated + i])
+
+
 @entry_point("void(S, F, I, f8, i8, i8)")
 def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int, every: int) -> None:
     """Let the bodies that have coordinates write their output blocks, then loads and joints act on them.
 
     That is every one of them (1), or those that are integrated.
     """
+    if every == 0 and S.n_loads + S.n_joints == 0:
+        evaluate_integrated_bodies(S, w, k, t, y)
+        return
     interrupted(S, S.n_contacts + S.n_bodies)
     S.free_velocities = y + S.n_q
     S.driven_power = 0.0

@@ -92,6 +92,17 @@ def _entry(w: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> fl
     return linear + moment[0] * w[o] + moment[1] * w[o + n_u] + moment[2] * w[o + 2 * n_u]
 
 
+@kernel("v3(F, i8, i8, v3, v3)")
+def side_entries(w: Floats, frame: int, first: int, axis: Vector, moment: Vector) -> Vector:
+    """Return three entries, from the ``first`` on, of the row of a body of six velocities."""
+    column = frame + FRAME + first
+    return (
+        _entry(w, column, 6, axis, moment),
+        _entry(w, column + 1, 6, axis, moment),
+        _entry(w, column + 2, 6, axis, moment),
+    )
+
+
 @kernel("void(F, i8, v3, v3, i8, i8)")
 def side_row(w: Floats, frame: int, point: Vector, axis: Vector, n_u: int, out: int) -> None:
     """Write the row of one body: (axis, rho x axis) . frame Jacobian."""

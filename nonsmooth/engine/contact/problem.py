@@ -36,7 +36,7 @@ from nonsmooth.engine.native.kernel import (
     kernel,
 )
 from nonsmooth.engine.numerics.linear import multiply
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import Pair, length
 
 _INCIPIENT = 1e-300
 """The least speed of what slips: at speed 0 laws give the static limit."""
@@ -55,24 +55,28 @@ def slip_coefficient(S: Scalars, w: Floats, k: Integers, c: int, speed: float) -
     return friction_coefficient(S, w, k, c, max(speed, _INCIPIENT))
 
 
-@kernel("void(S, F, I, i8, v2, f8)")
-def follow_slip(S: Scalars, w: Floats, k: Integers, a: int, slip: tuple[float, float], still: float) -> None:
-    """Write slip direction and coefficient of the active contact ``a``, continued smoothly through a reversal.
+@kernel("v2(S, F, I, i8, v2, f8)")
+def slip_direction(S: Scalars, w: Floats, k: Integers, c: int, slip: Pair, still: float) -> Pair:
+    """Return the direction of a slip of contact ``c``, continued smoothly through a reversal.
 
-    Within an implicit step of an impact, which stops slips itself, the direction is that of the slip.
-    Where its ``slip`` is no faster than ``still`` it has no direction of its own: that at the start of the step holds.
+    Within an implicit step of an impact, which stops slips itself, it is that of the slip.  A slip no faster than
+    ``still`` has no direction of its own: that at the start of the step holds.
     """
-    active = active_at(S, w, k, a)
-    c = active.slot
-    contact = contact_at(S, w, k, c)
-    d1, d2 = contact.direction
+    d1, d2 = contact_at(S, w, k, c).direction
     v1, v2 = slip
     speed = length(slip)
     if speed > still:
         inverse = (1.0 if S.turning == 1 or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
         d1, d2 = inverse * v1, inverse * v2
-    active.direction = d1, d2
-    active.mu = slip_coefficient(S, w, k, c, speed)
+    return d1, d2
+
+
+@kernel("void(S, F, I, i8, v2, f8)")
+def follow_slip(S: Scalars, w: Floats, k: Integers, a: int, slip: Pair, still: float) -> None:
+    """Write the direction of a slip (:func:`slip_direction`) and its coefficient of the active contact ``a``."""
+    active = active_at(S, w, k, a)
+    active.direction = slip_direction(S, w, k, active.slot, slip, still)
+    active.mu = slip_coefficient(S, w, k, active.slot, length(slip))
 
 
 @kernel("void(S, F, I, i8)")

@@ -64,6 +64,15 @@ def _visit(S: Scalars, w: Floats, k: Integers, fill: int) -> None:
 
 
 @kernel()
+def _link_alone(S: Scalars, w: Floats, k: Integers) -> None:
+    """Write the structure of an island of one contact: a block of its own."""
+    active = active_at(S, w, k, 0)
+    active.diagonal_block = active.first_block
+    active.end_block = active.first_block + 1
+    k[S.block_column + active.first_block] = 0
+
+
+@kernel()
 def link_active(S: Scalars, w: Floats, k: Integers) -> None:
     """Write the structure of the active contacts to the place that starts at ``first_grouped``.
 
@@ -72,12 +81,18 @@ def link_active(S: Scalars, w: Floats, k: Integers) -> None:
     start = S.block_start + S.first_grouped
     if S.first_grouped == 0:
         k[start] = 0
+    most = min(S.n_slots * S.n_slots, MOST_BLOCKS)
+    if S.n_active == 1:
+        _link_alone(S, w, k)
+        if k[start + 1] > most:
+            S.crowded = 1
+        return
     _hang(S, w, k)
     _visit(S, w, k, 0)
     total = k[start]
     for a in range(S.n_active):
         total += active_at(S, w, k, a).block_count
-    if total > min(S.n_slots * S.n_slots, MOST_BLOCKS):
+    if total > most:
         S.crowded = 1
     for a in range(S.n_active):
         active = active_at(S, w, k, a)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.anisotropy import facing_force
-from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies, evaluate_free_bodies
+from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies, evaluate_free_bodies, evaluate_integrated_bodies
 from nonsmooth.engine.bodies.compliance import (
     evaluate_compliant_force,
     refresh_states,
@@ -14,6 +14,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry,
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.contact.held_contacts import hold_contacts, write_rows
 from nonsmooth.engine.contact.implicit_slip import hold_at_end
+from nonsmooth.engine.contact.lone_slip import hold_lone_slip, lone_slip
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient, slip_coefficient
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.flow.flight import accelerate_in_flight
@@ -47,13 +48,20 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
     """
     keeps = 1
     S.singular = -1
-    evaluate_free_bodies(S, w, k, t, y, every)
+    if every == 0 and S.n_loads + S.n_joints == 0:
+        # no call: most right-hand sides are of these
+        evaluate_integrated_bodies(S, w, k, t, y)
+    else:
+        evaluate_free_bodies(S, w, k, t, y, every)
     free_acceleration(S, w, k, every)
     if S.n_grouped == 0:
         return keeps
     evaluate_driven_bodies(S, w, k, t, y)
     refresh_states(S, w, k, y)
     for group in range(S.n_groups):
+        c = lone_slip(S, w, k, group)
+        if c >= 0 and hold_lone_slip(S, w, k, c) == 1:
+            continue
         activate_group(S, w, k, group)
         implicit = S.ahead > 0.0 and _slides(S, w, k) == 1
         for a in range(S.n_active):

@@ -24,6 +24,7 @@ from nonsmooth.engine.numerics.runge_kutta import (
     weigh_slopes,
     write_implicit_interpolant,
 )
+from nonsmooth.engine.numerics.vectors import length
 
 STIFF = 2.0
 """Relaxations within a step that an explicit one bears."""
@@ -92,8 +93,7 @@ def relaxation(S: Scalars, w: Floats, k: Integers) -> float:
         if contact.normal_function != 0:
             return 0.0
         if contact.mode == SLIDE and contact.averaged == OPEN:
-            friction = math.hypot(contact.force[1], contact.force[2])
-            speed = math.hypot(contact.slip_end[0], contact.slip_end[1])
+            friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_end)
             fastest = max(fastest, contact.mobility * friction / max(speed, _SLOWEST * S.velocity_tolerance))
     return fastest
 

@@ -89,11 +89,14 @@ class TypeOnce(NopythonTypeInference):
 
 
 class _RolledLibrary(JITCodeLibrary):
-    """Code whose loops stay as they stand: unrolled, such short ones take longer to compile, and to run."""
+    """Code whose loops stay as they stand: unrolled, such short ones take longer to compile, and to run.
+
+    Nor are several vectors of a loop taken at once: of a dozen numbers most would be left over.
+    """
 
     def _builder(self) -> Any:
         options = create_pipeline_tuning_options(speed_level=3)
-        options.loop_vectorization, options.loop_unrolling = True, False
+        options.loop_vectorization, options.loop_unrolling, options.loop_interleaving = True, False, False
         return create_pass_builder(self._codegen._tm, options)
 
     def _optimize_functions(self, module: Any) -> None:
@@ -143,9 +146,8 @@ class _EntryLibrary(_RolledLibrary):
         super().add_ir_module(module)
 
     def _optimize_final_module(self) -> None:
-        functions = {function.name: function for function in self._final_module.functions}
-        for name, function in functions.items():
-            if f"cfunc.{name}" in functions:
+        for function in self._final_module.functions:
+            if not function.is_declaration and not function.name.startswith("cfunc."):
                 function.linkage = "internal"
         super()._optimize_final_module()
 
