@@ -98,14 +98,17 @@ def measure_spans(S: Scalars, w: Floats, k: Integers) -> None:
 
 @kernel("void(S, F, I, f8)")
 def _keep_span(S: Scalars, w: Floats, k: Integers, span: float) -> None:
-    """Keep the span of this averaging if all active contacts end it as they ended the last, else half of it."""
-    part = 1.0
+    """Keep the span of this averaging if all active contacts end it as they ended the last, else half of it.
+
+    A contact time is not halved: what happens within it is not told apart.
+    """
+    kept = span
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         if contact_at(S, w, k, active.slot).averaged != active.mode_tried:
-            part = 0.5
+            kept = max(0.5 * span, min(span, averaging_time(S, w, k)))
     for a in range(S.n_active):
-        contact_at(S, w, k, active_at(S, w, k, a).slot).mean_span = part * span
+        contact_at(S, w, k, active_at(S, w, k, a).slot).mean_span = kept
 
 
 @kernel("i8(S, F, I, f8)")

@@ -9,7 +9,7 @@ from nonsmooth.engine.bodies.compliance import (
     rubs_unasked,
 )
 from nonsmooth.engine.bodies.courses import is_on_course
-from nonsmooth.engine.bodies.touching import slip_speed, touch
+from nonsmooth.engine.bodies.touching import join_near, slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, set_up, solve_contact
 from nonsmooth.engine.contact.trial import slope_of_slip, small_force
@@ -387,13 +387,16 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         if approaching == 1 and hand_over(S, w, k) == 1:
             approaching = touch(S, w, k)
             continue
+        fastest = _fastest_approach(S, w, k)
+        if approaching == 1:
+            join_near(S, w, k, -contact_at(S, w, k, fastest).rate[0])
         if approaching == 1 and stopped == 0 and stop_slow(S, w, k) > 0:
             stopped, approaching = 1, touch(S, w, k)
             continue
         if approaching == 1 and stopped == 1:
             approaching = average_slow(S, w, k)
         if approaching == 1:
-            status = collide(S, w, k, IMPACT, _fastest_approach(S, w, k), 0.0)
+            status = collide(S, w, k, IMPACT, fastest, 0.0)
             if status != RUNNING:
                 return status
             approaching, stopped = _approaches(S, w, k), 0
