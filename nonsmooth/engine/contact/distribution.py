@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.contact.unknowns import force_of, set_force
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel, unknown_at
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
+from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate, product, subtract_part
 from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, project_on_null
 from nonsmooth.engine.numerics.vectors import length
 
@@ -114,41 +114,32 @@ def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: in
             w[h2 + 1] += c1 * c2 / s - round_ * c1 * c2
 
 
-@kernel("void(F, i8, i8, i8, i8)")
-def _multiply(w: Floats, left: int, right: int, out: int, n: int) -> None:
-    for i in range(n):
-        for j in range(n):
-            w[out + i * n + j] = 0.0
-        for c in range(n):
-            factor = w[left + i * n + c]
-            if factor != 0.0:
-                for j in range(n):
-                    w[out + i * n + j] += factor * w[right + c * n + j]
-
-
 @kernel("i8(S, F, I, i8, f8)")
 def _step(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> int:
-    """Write Newton's step in the null space, whose projector stands in full, to ``x``; return 0 if there is none."""
+    """Write Newton's step along the basis of the null space to ``x``; return 0 if there is none."""
+    free, basis = n - S.held_rank, S.basis + S.held_rank * n
     for i in range(n * n):
-        w[S.basis + i] = 0.0
-    _add_curve(S, w, k, n, S.basis, n, 1.0, inset)
-    _multiply(w, S.basis, S.null, S.matrix, n)
-    _multiply(w, S.null, S.matrix, S.basis, n)
-    for i in range(n):
-        w[S.x + i] = 0.0
-        for j in range(n):
-            w[S.x + i] -= w[S.null + i * n + j] * w[S.right + j]
-            w[S.matrix + i * n + j] = w[S.basis + i * n + j]
-        w[S.matrix + i * n + i] += _FLOOR
-    if eliminate(w, S.matrix, n, n, S.x, SINGULAR) == 0:
+        w[S.matrix + i] = 0.0
+    _add_curve(S, w, k, n, S.matrix, n, 1.0, inset)
+    for c in range(free):
+        row = basis + c * n
+        for i in range(n):
+            active, total = active_at(S, w, k, unknown_at(S, w, k, i).contact), 0.0
+            for j in range(active.first_unknown, active.end_unknown):
+                total += w[S.matrix + i * n + j] * w[row + j]
+            w[S.sigma + i] = total
+        for d in range(free):
+            w[S.reduced + c * free + d] = product(w, 0.0, S.sigma, basis + d * n, n)
+        w[S.reduced + c * free + c] += _FLOOR
+        w[S.x + c] = -product(w, 0.0, row, S.right, n)
+    if eliminate(w, S.reduced, free, free, S.x, SINGULAR) == 0:
         return 0
-    # the elimination leaks out of the null space by round-off over the floor
-    for i in range(n):
-        w[S.matrix + i] = w[S.x + i]
+    for c in range(free):
+        w[S.sigma + c] = w[S.x + c]
     for i in range(n):
         w[S.x + i] = 0.0
-        for j in range(n):
-            w[S.x + i] += w[S.null + i * n + j] * w[S.matrix + j]
+    for c in range(free):
+        subtract_part(w, S.x, -w[S.sigma + c], basis + c * n, n)
     return 1
 
 

@@ -17,6 +17,7 @@ from nonsmooth.engine.numerics.linear import (
     SINGULAR,
     band_row,
     band_width,
+    complete,
     eliminate,
     minimum_norm,
     rank_of_semidefinite,
@@ -153,14 +154,18 @@ def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
 
 @kernel("void(S, F, i8, i8)")
 def _least_norm(S: Scalars, w: Floats, n: int, most: int) -> None:
-    """Solve the singular system, stored in full, for least norm; keep the projector on its null space."""
+    """Solve the singular system, stored in full, for least norm.
+
+    A basis of its null space is kept in the last rows of ``basis``, and the projector on it in ``null``.
+    """
     transpose(w, S.reduced, n, S.matrix)
-    rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, most)
+    S.held_rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, most)
+    complete(w, S.basis, n, S.held_rank)
     for i in range(n):
         for j in range(n):
-            w[S.null + i * n + j] = 1.0 if i == j else 0.0
-        for c in range(rank):
-            subtract_part(w, S.null + i * n, w[S.basis + c * n + i], S.basis + c * n, n)
+            w[S.null + i * n + j] = 0.0
+        for c in range(S.held_rank, n):
+            subtract_part(w, S.null + i * n, -w[S.basis + c * n + i], S.basis + c * n, n)
 
 
 @kernel("i8(S, F, i8, f8)")

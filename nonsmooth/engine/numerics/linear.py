@@ -154,6 +154,29 @@ def subtract_part(w: Floats, out: int, part: float, a: int, n: int) -> None:
         w[out + i] -= part * w[a + i]
 
 
+@kernel("void(F, i8, i8, i8)")
+def complete(w: Floats, v: int, n: int, rank: int) -> None:
+    """Complete the ``rank`` orthonormal rows of ``n`` numbers at ``v`` to a basis of all vectors."""
+    for done in range(rank, n):
+        best, most = 0, -math.inf
+        for i in range(n):
+            left = 1.0
+            for c in range(done):
+                left -= w[v + c * n + i] ** 2
+            if left > most:
+                best, most = i, left
+        row = v + done * n
+        for i in range(n):
+            w[row + i] = 1.0 if i == best else 0.0
+        # twice is enough
+        for _time in range(2):
+            for c in range(done):
+                subtract_part(w, row, product(w, 0.0, v + c * n, row, n), v + c * n, n)
+        norm = math.sqrt(product(w, 0.0, row, row, n))
+        for i in range(n):
+            w[row + i] /= norm
+
+
 @kernel("i8(F, i8, i8, i8, i8, i8, i8)")
 def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
     """Write A = Q R with the largest remaining column first; return the rank, ``most`` at most.

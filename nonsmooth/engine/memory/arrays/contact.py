@@ -11,6 +11,7 @@ ARRAYS = Arrays(
         **whole(
             "n_unknown",
             "deficient",
+            "held_rank",
             "null_banded",
             "n_pivoted",
             "solver",
