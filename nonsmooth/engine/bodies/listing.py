@@ -22,9 +22,11 @@ from nonsmooth.engine.memory.layout import (
     CONTACT_TIME,
     DIRECTION,
     LEVERS,
+    MEAN_ASKED,
     MEAN_FORCE,
     MEAN_GAP,
     MEAN_SPAN,
+    MEAN_WAIT,
     MEAN_WAY,
     MOBILITY,
     REACH,
@@ -78,6 +80,7 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
     contact.direction = floats[DIRECTION], floats[DIRECTION + 1]
     contact.mobility, contact.small_force_of = floats[MOBILITY], floats[SMALL_FORCE]
     contact.mean_span, contact.mean_way, contact.mean_gap = floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP]
+    contact.mean_asked, contact.mean_wait = floats[MEAN_ASKED], floats[MEAN_WAIT]
     for r in range(3):
         contact.mean_force[r] = floats[MEAN_FORCE + r]
     contact.facing = 1
@@ -110,6 +113,7 @@ def _leave(S: Scalars, w: Floats, k: Integers) -> None:
         floats[CLOSING_RATE] = contact.closing_rate
         floats[MOBILITY], floats[SMALL_FORCE] = contact.mobility, contact.small_force_of
         floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP] = contact.mean_span, contact.mean_way, contact.mean_gap
+        floats[MEAN_ASKED], floats[MEAN_WAIT] = contact.mean_asked, contact.mean_wait
         for r in range(3):
             floats[MEAN_FORCE + r] = contact.mean_force[r]
     S.n_contacts = 0

@@ -76,12 +76,6 @@ def averaging_span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
     return float(span)
 
 
-@kernel("i8(S, F, I)")
-def may_be_longer(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return 1 if the next averaging of the active contacts may be longer than the last, but not as long as any."""
-    return 1 if averaging_span(S, w, k, 1) < _LONGEST * averaging_time(S, w, k) else 0
-
-
 @kernel("void(S, F, I)")
 def measure_spans(S: Scalars, w: Floats, k: Integers) -> None:
     """Write how long the next averaging may be: the rates of gaps that one leaves grow with its square.

@@ -7,7 +7,6 @@ from nonsmooth.engine.contact.mean_forces import (
     averaging_time,
     is_averaged,
     is_settled,
-    may_be_longer,
 )
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.mean_motion import find_mean_forces
@@ -25,12 +24,16 @@ _BURST = 20000.0
 def average_active(S: Scalars, w: Floats, k: Integers) -> int:
     """Let the forces of the active contacts be averaged from now on; return 0 where they cannot be, or are.
 
-    A contact by itself has a solution of its own.
+    A contact by itself has a solution of its own.  Where forces of the instant led nowhere when they were asked for
+    last, or not for as long as they had not been asked for, they are asked for again after twice that.
     """
-    if S.n_active == 1 or averaging_time(S, w, k) == 0.0 or is_averaged(S, w, k) == 1:
+    time = averaging_time(S, w, k)
+    if S.n_active == 1 or time == 0.0 or is_averaged(S, w, k) == 1:
         return 0
     for a in range(S.n_active):
         contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        again = S.t - contact.mean_asked <= max(time, contact.mean_wait)
+        contact.mean_wait = max(time, 2.0 * contact.mean_wait) if again else 0.0
         contact.averaged = SLIDE
         contact.mean_span = 0.0
         for r in range(3):
@@ -50,10 +53,7 @@ def average_island_of(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 @kernel("i8(S, F, I, i8)")
 def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
-    """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1).
-
-    Where slow slips have held time up they do until they may be averaged for long, lest it is tried ever again.
-    """
+    """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1)."""
     if is_averaged(S, w, k) == 0:
         return 0
     if ends == 0:
@@ -63,7 +63,11 @@ def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
         return 0
     if is_settled(S, w, k) == 0:
         return 1
-    return 1 if S.crowd > _BURST and may_be_longer(S, w, k) == 1 else 0
+    for a in range(S.n_active):
+        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+        if S.t < contact.mean_asked + contact.mean_wait:
+            return 1
+    return 0
 
 
 @kernel("void(S, F, I)")

@@ -305,8 +305,10 @@ def _solve_islands(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
             continue
         for a in range(S.n_active):
             active = active_at(S, w, k, a)
-            contact_at(S, w, k, active.slot).averaged = OPEN
-            active.mode_tried = contact_at(S, w, k, active.slot).mode_agreed
+            contact = contact_at(S, w, k, active.slot)
+            if contact.averaged != OPEN:
+                contact.mean_asked = S.t
+            contact.averaged, active.mode_tried = OPEN, contact.mode_agreed
         set_up(S, w, k)
         if solve_contact(S, w, k) == 0:
             return 0

@@ -87,6 +87,8 @@ CONTACT: Fields = {
         "mean_span",
         "mean_way",
         "mean_gap",
+        "mean_asked",
+        "mean_wait",
         "force",
         "null_space_force",
         "slack",

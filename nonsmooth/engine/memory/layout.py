@@ -56,12 +56,13 @@ CATALOGUE = (
 """Integers of a declared contact; in a slot each of them is an array of its own."""
 CONTACT_TIME, DIRECTION, REACH, CLOSING_RATE, LEVERS, SIZE = 0, 1, 3, 4, 5, 7
 """Where these floats of a declared contact stand: slip direction, levers of both bodies, size of the smaller one."""
-MOBILITY, SMALL_FORCE, MEAN_FORCE, MEAN_SPAN, MEAN_WAY, MEAN_GAP = 8, 9, 10, 13, 14, 15
+MOBILITY, SMALL_FORCE, MEAN_FORCE, MEAN_SPAN, MEAN_WAY, MEAN_GAP, MEAN_ASKED, MEAN_WAIT = 8, 9, 10, 13, 14, 15, 16, 17
 """And those that its last event left of it: how fast it slips under a unit of friction, what counts as no force, and
-of averaged forces what they are, how long they are, on what way the gap comes to rest, and where it began."""
-REVOLUTION = 16
+of averaged forces what they are, how long they are, on what way the gap comes to rest, where it began, when those of
+the instant were asked for last, and after how long they are again."""
+REVOLUTION = 18
 """Axis of the shape with the smaller lever, in its frame, about which it may spin."""
-CATALOGUE_FLOATS = 19
+CATALOGUE_FLOATS = 21
 """How many they are."""
 PARTS = 48
 """Halvings of a step in search of a gap that closes, or of an event: as many as its fractions can be told apart."""

@@ -51,6 +51,8 @@ ARRAYS = Arrays(
         "mean_span": per(1, "n_slots"),
         "mean_way": per(1, "n_slots"),
         "mean_gap": per(1, "n_slots"),
+        "mean_asked": per(1, "n_slots"),
+        "mean_wait": per(1, "n_slots"),
         "gap_meant": per(1, "n_slots"),
         "slack": per(1, "n_slots"),
         "right": per(3, "n_slots"),
