@@ -27,7 +27,6 @@ from nonsmooth.engine.memory.modes import IMPACT_ENDLESS, NO_CONTACT_SOLUTION, N
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import Body, FrictionLaw
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.system.contact import Contact
 
 _STATUSES = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, NOT_FINITE, STALLED, UPDATE_ENDLESS)
 _CLOSED = 1e4
@@ -51,8 +50,8 @@ class _Hold(NamedTuple):
         That of the driven body there [m/s].
     normal : array
         Unit vector into the free body, shape [3], or of a joint all axes along which it bears, shape [n, 3].
-    cosine : float
-        That of the angle of friction; 0 of a joint.
+    friction : FrictionLaw or None
+        That of the contact; a joint has none.
     """
 
     name: str
@@ -60,12 +59,12 @@ class _Hold(NamedTuple):
     point: np.ndarray
     velocity: np.ndarray
     normal: np.ndarray
-    cosine: float
+    friction: FrictionLaw | None
 
     def bears(self, line: np.ndarray) -> bool:
         """Return whether a force along a unit vector, into the free body, is borne."""
-        if self.normal.ndim == 1:
-            return bool(line @ self.normal >= self.cosine)
+        if self.friction is not None:
+            return bool(line @ self.normal >= math.cos(math.atan(coefficient_of(self.friction)(0.0))))
         left = line - self.normal.T @ np.linalg.lstsq(self.normal.T, line, rcond=None)[0]
         return float(np.linalg.norm(left)) <= _ALONG
 
@@ -127,7 +126,7 @@ def _driven(model: LaidOut, slot: int) -> list[_Hold]:
     place = int(memory.array("frame_a" if second else "frame_b", n)[slot])
     velocity = _velocity(model, place, block[other : other + 3])
     normal = (1.0 if second else -1.0) * block[NORMAL : NORMAL + 3]
-    return [_Hold(str(contact), body, block[own : own + 3].copy(), velocity, normal, _cosine(contact))]
+    return [_Hold(str(contact), body, block[own : own + 3].copy(), velocity, normal, contact.friction)]
 
 
 def _jointed(model: LaidOut) -> Iterator[_Hold]:
@@ -144,10 +143,4 @@ def _jointed(model: LaidOut) -> Iterator[_Hold]:
         own, other = (POINT_B, POINT_A) if second else (POINT_A, POINT_B)
         place = int(memory.array("joint_frame_a" if second else "joint_frame_b", n)[number])
         velocity = _velocity(model, place, rows[0, other : other + 3])
-        yield _Hold(str(joint), body, rows[0, own : own + 3].copy(), velocity, rows[:, AXIS : AXIS + 3], 0.0)
-
-
-def _cosine(contact: Contact) -> float:
-    """Return the cosine of the angle of friction."""
-    assert isinstance(contact.friction, FrictionLaw)
-    return math.cos(math.atan(coefficient_of(contact.friction)(0.0)))
+        yield _Hold(str(joint), body, rows[0, own : own + 3].copy(), velocity, rows[:, AXIS : AXIS + 3], None)

@@ -55,18 +55,6 @@ def _touch(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     return 1 if rate < -S.velocity_tolerance else 0
 
 
-@kernel("void(S, F, I, f8)")
-def join_near(S: Scalars, w: Floats, k: Integers, speed: float) -> None:
-    """Let contacts touch that a collision at a ``speed`` [m/s] would close before it is over."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        apart = contact.touching == 0 and contact.normal_function == 0 and contact.beyond <= 0.0
-        if apart and is_on_course(S, w, k, c) == 0 and contact.gap <= contact.contact_time * speed:
-            contact.touching = 1
-            evaluate_jacobian(S, w, k, c)
-            evaluate_bias(S, w, k, c, 3)
-
-
 @kernel("void(S, F, I, i8)")
 def _touch_compliant(S: Scalars, w: Floats, k: Integers, c: int) -> None:
     """Find whether the compliant contact ``c`` touches, and evaluate it; it does not collide."""

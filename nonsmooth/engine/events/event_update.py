@@ -9,7 +9,7 @@ from nonsmooth.engine.bodies.compliance import (
     rubs_unasked,
 )
 from nonsmooth.engine.bodies.courses import is_on_course
-from nonsmooth.engine.bodies.touching import join_near, slip_speed, touch
+from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, set_up, solve_contact
 from nonsmooth.engine.contact.trial import slope_of_slip, small_force
@@ -36,6 +36,7 @@ from nonsmooth.engine.events.record import (
     record_event,
     remember,
 )
+from nonsmooth.engine.events.simultaneous import join_near
 from nonsmooth.engine.events.twins import has_replaced
 from nonsmooth.engine.flow.averaged import reach_end
 from nonsmooth.engine.flow.guard_numbers import normal_guard

@@ -395,7 +395,7 @@ def _pass_switch(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, 
     _switch(S, w, k, PROBE * shortest, S.trigger)
     if S.n_active > 1 and change_clock(S, w, k) == 1:
         following = shortest if S.lone < 0 else _FAR * active_at(S, w, k, S.lone).impulse_scale
-    if S.n_active > 1 and faded(S, w, k) == 1:
+    if S.phases > _LONG * (S.n_colliding if windowed == 1 else S.n_active) and faded(S, w, k) == 1:
         cut_short(S, w, k)
     end_trapped(S, w, k)
     if windowed == 1:
