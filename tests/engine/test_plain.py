@@ -26,7 +26,6 @@ NOT_ENTERED = {
     "events/event_loop": {"_up_to_end", "_cause_at_start"},
     "impact/clock": {"_restore_phases"},
     "impact/end": {"cut_short", "faded"},
-    "contact/mean_forces": {"may_be_longer"},
     "events/averaging": {"average_island_of", "end_averaging"},
     "events/stopping": {"_share"},
     "events/twins": {"take_over"},
