@@ -129,7 +129,7 @@ class _Countdown:
 @pytest.mark.skipif(PLAIN, reason="a compiled engine retries a step where a plain one does")
 def test_what_was_raised_once_is_told_though_it_never_comes_again() -> None:
     """In the first impact, after the timing of the warning: the exception itself was kept."""
-    law = dummies.Friction(_Countdown(103))
+    law = dummies.Friction(_Countdown(104))
     message, _ = _failure(lambda: dummies.bouncing_with(law))
     assert "raises OSError('table gone')" in message
     assert re.search(r"test_failing_laws\.py, line \d+, raises", message)

@@ -38,7 +38,6 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 
 _MIDDLE = 0.5
-"""Part of the step at which forces and own guards are looked at besides its ends: as far from both as can be."""
 _NEAR = 0.2
 """A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
 _FAINT = 1e-9
@@ -280,25 +279,29 @@ def _event_fraction(S: Scalars, w: Floats, k: Integers, h: float, high: float, i
 def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
     """Return the same; of the guards ``i`` is evaluated there, those that are no gaps together with it.
 
-    Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.  Next to a jump to a huge value
-    neither leaves the other end: where steps do not halve what is left it is halved.
+    Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.
     """
     fine = _FINE * S.time_tolerance
     low, g_low = 0.0, guard_at(S, w, k, i).first
     g_high = guard_at(S, w, k, i).value
     S.guard_slope = 0.0
-    guard = guard_at(S, w, k, i)
-    while g_low <= _FAINT * abs(g_high) and (guard.first <= 0.0 or guard.deflated == 1):
+    while g_low <= _FAINT * abs(g_high):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(S, w, k, h, low, i, forces)
         if low < _SHORTEST * high:
-            return low
+            if g_low > 0.0 or not guard_at(S, w, k, i).first > 0.0 or guard_at(S, w, k, i).deflated == 1:
+                return low
+            # it vanishes next to the start, where it was still positive
+            high, g_high = low, g_low
+            low, g_low = 0.0, guard_at(S, w, k, i).first
+            break
     left = g_first = abs(g_low)
     theta = high - g_high * (high - low) / (g_high - g_low)
     theta_before, g_before = high, g_high
     slow = 0
     for _iteration in range(100):
+        # next to a huge value the secant does not leave the other end
         if not low < theta <= high or slow > _SLOW:
             theta = 0.5 * (low + high)
         g = _guard_at(S, w, k, h, theta, i, forces)
@@ -309,10 +312,8 @@ def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int
             S.guard_slope = contact_at(S, w, k, contact_of(S, i)).gap_rate
             if guard_at(S, w, k, i).deflated == 1:
                 S.guard_slope = (S.guard_slope - g) / (theta * h)
-        near = abs(g) <= -fine * S.guard_slope
-        if near and is_gap(S, w, k, i) == 0:
-            # the slope across a jump says nothing: before one a guard falls as it did, or not
-            near = abs(g) <= _NEARER * g_first and (g <= 0.0 or g * (theta - low) * h <= fine * (left - g))
+        # the slope across a jump says nothing of a value that is as it was at the start
+        near = abs(g) <= -fine * S.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(S, w, k, i) == 1)
         if g == 0.0 or (high - low) * h <= fine or near:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
             if left <= _JUMP * g_first or span * h > S.time_tolerance or is_gap(S, w, k, i) == 1:
