@@ -285,12 +285,13 @@ def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int
     low, g_low = 0.0, guard_at(S, w, k, i).first
     g_high = guard_at(S, w, k, i).value
     S.guard_slope = 0.0
-    while g_low <= _FAINT * abs(g_high):
+    rises = guard_at(S, w, k, i).first <= 0.0 or guard_at(S, w, k, i).deflated == 1
+    while g_low <= _FAINT * abs(g_high) and (rises or is_gap(S, w, k, i) == 1):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(S, w, k, h, low, i, forces)
         if low < _SHORTEST * high:
-            if g_low > 0.0 or not guard_at(S, w, k, i).first > 0.0 or guard_at(S, w, k, i).deflated == 1:
+            if g_low > 0.0 or rises:
                 return low
             # it vanishes next to the start, where it was still positive
             high, g_high = low, g_low
