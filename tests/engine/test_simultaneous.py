@@ -19,6 +19,8 @@ from nonsmooth.engine.events import averaging
 from nonsmooth.engine.memory.modes import IMPACT, OPEN
 
 RADIUS, SPEED, TOLERANCE = 0.01, 0.1, 1e-12
+_UNREAD: Any = None
+"""A heap that a kernel by itself does not read."""
 
 
 def _struck(gap: float, duration: float = 2e-5) -> tuple[int, NDArray[np.float64]]:
@@ -67,14 +69,14 @@ def test_forces_that_lead_nowhere_are_asked_for_ever_more_rarely() -> None:
         is_settled=lambda *_: 1,
     ):
         while S.t < nowhere:
-            if averaging.keeps_averaging(S, None, None, 1) == 0:
+            if averaging.keeps_averaging(S, _UNREAD, _UNREAD, 1) == 0:
                 looks.append(S.t)
                 contact.mean_asked, contact.averaged = S.t, OPEN
-                assert averaging.average_active(S, None, None) == 1
+                assert averaging.average_active(S, _UNREAD, _UNREAD) == 1
             S.t += time
         assert 3 < len(looks) <= 2 + np.log2(nowhere / time)
         # forces of the instant that went on for longer than they had been waited for are asked for at once
         contact.mean_asked, contact.averaged = S.t, OPEN
         S.t += 2.0 * contact.mean_wait
-        assert averaging.average_active(S, None, None) == 1
-        assert averaging.keeps_averaging(S, None, None, 1) == 0
+        assert averaging.average_active(S, _UNREAD, _UNREAD) == 1
+        assert averaging.keeps_averaging(S, _UNREAD, _UNREAD, 1) == 0
