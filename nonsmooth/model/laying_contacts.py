@@ -20,6 +20,7 @@ from nonsmooth.engine.memory.layout import (
     CONTACT_TIME,
     DIRECTION,
     LEVERS,
+    MEAN_ASKED,
     REACH,
     REVOLUTION,
     SIZE,
@@ -151,11 +152,12 @@ def _lay_sides(rows: np.ndarray, table: ContactTable, places: Places) -> int:
 
 
 def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Lay what the catalogue holds of the laws of each contact in floats."""
+    """Lay what the catalogue holds of each contact in floats, of its laws and of forces that nobody has asked for."""
     floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * len(contacts)).reshape(len(contacts), CATALOGUE_FLOATS)
     for numbers in kinds:
         normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
         floats[numbers, CONTACT_TIME] = 0.0 if impact is None else impact.contact_time
+        floats[numbers, MEAN_ASKED] = -math.inf
         floats[numbers, REACH] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
 
 

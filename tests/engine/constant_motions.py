@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
 import nonsmooth as ns
-from bodies import Ball, BallJoint, BoxBody, DrivenBody, FreeBody, Plate, Rest, Sphere
+from bodies import Ball, BallJoint, BoxBody, DrivenBody, Plate, Rest, Sphere
 from laws import Coulomb, EnergeticImpact, Frictionless, LinearCompliant, Stribeck
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.impact import _memory
-from nonsmooth.interfaces import Shape
 from nonsmooth.model.delassus import write_delassus
 from tests.engine.plain_cases import _creeping
 from tests.engine.test_clearance import LAWS, R, drop
@@ -22,35 +20,11 @@ from tests.engine.test_courses import FAR, HEIGHT, _beside
 from tests.engine.test_spins import test_a_spin_that_keeps_its_direction_is_integrated_along_the_body as keep_direction
 from tests.engine.test_stall import CROWDED, _rattling
 from tests.engine.test_step_length import AHEAD, FLYING, INTEGRATED, RADIUS, SPEED, _pass_by
+from tests.engine.tops import Top
 from tests.physics.test_own_guards import Level
 from tests.physics.test_wedged_impacts import _jointed, _on_a_line
 
 G = 9.81
-
-
-@final
-@dataclass(frozen=True)
-class Top(FreeBody):
-    """A symmetric top of 1 kg, with a ball on its axis that touches things."""
-
-    moments: tuple[float, float, float] = (0.01, 0.01, 0.02)
-    arm: float = 0.1
-    radius: float = 0.03
-
-    @property
-    def total_mass(self) -> float:
-        """1 kg."""
-        return 1.0
-
-    @property
-    def inertia(self) -> tuple[float, float, float]:
-        """As given."""
-        return self.moments
-
-    @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """The ball."""
-        return (Sphere(self.radius, z=self.arm),)
 
 
 def _first_impact(solution: ns.Solution) -> float:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,38 +12,15 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Ball, BallJoint, BoxBody, CylinderBody, DiscBody, Dumbbell, FreeBody, Harmonic, Plate, Sphere
+from bodies import Ball, BallJoint, BoxBody, CylinderBody, DiscBody, Dumbbell, FreeBody, Harmonic, Plate
 from bodies.inertia import tensor_of
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
-from nonsmooth.interfaces import Shape
+from tests.engine.tops import Top
 
 GRAVITY = 9.0
 LAWS: dict[str, Any] = {"normal": Unilateral(), "friction": Coulomb(0.3), "impact": EnergeticImpact(0.7)}
 TURNED = (math.cos(0.4), 0.6 * math.sin(0.4), 0.0, 0.8 * math.sin(0.4))
-
-
-@final
-@dataclass(frozen=True)
-class Top(FreeBody):
-    """A body of 1 kg with any moments of inertia."""
-
-    moments: tuple[float, float, float] = (0.02, 0.01, 0.02)
-
-    @property
-    def total_mass(self) -> float:
-        """1 kg."""
-        return 1.0
-
-    @property
-    def inertia(self) -> tuple[float, float, float]:
-        """As given."""
-        return self.moments
-
-    @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """One sphere, to have a size."""
-        return (Sphere(0.1),)
 
 
 def _matrix(quaternion: Any) -> Any:

@@ -27,7 +27,7 @@ NOT_ENTERED = {
     "impact/clock": {"_restore_phases"},
     "impact/end": {"cut_short", "faded"},
     "events/averaging": {"average_island_of", "end_averaging"},
-    "events/simultaneous": {"_are_told_apart"},
+    "events/simultaneous": {"_touches_already"},
     "events/stopping": {"_share"},
     "events/twins": {"take_over"},
     "flow/location": {"_advance", "_behind_jump", "_hides_another", "_sampled", "_soonest"},

@@ -8,8 +8,8 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball
-from tests.engine.constant_motions import Top
 from tests.engine.test_clearance import LAWS
+from tests.engine.tops import Top
 
 
 def test_a_top_that_precesses_into_a_ball_is_not_missed() -> None:

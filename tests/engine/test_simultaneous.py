@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 from types import SimpleNamespace
 from typing import Any
@@ -57,8 +58,8 @@ def test_a_gap_that_takes_longer_closes_behind_it(gap: float, duration: float) -
 def test_forces_that_lead_nowhere_are_asked_for_ever_more_rarely() -> None:
     """Of a second of averaging by steps of the contact time few begin with a look for other forces."""
     time, nowhere = 1e-3, 1.0
-    S: Any = SimpleNamespace(n_active=2, t=0.0)
-    contact = SimpleNamespace(averaged=OPEN, mean_asked=-1.0, mean_wait=0.0, mean_span=0.0, mean_force=[0.0] * 3)
+    S: Any = SimpleNamespace(n_active=2, t=-nowhere)
+    contact = SimpleNamespace(averaged=OPEN, mean_asked=-math.inf, mean_wait=0.0, mean_span=0.0, mean_force=[0.0] * 3)
     looks = []
     with patch.multiple(
         averaging,
@@ -68,7 +69,9 @@ def test_forces_that_lead_nowhere_are_asked_for_ever_more_rarely() -> None:
         is_averaged=lambda *_: int(contact.averaged != OPEN),
         is_settled=lambda *_: 1,
     ):
-        while S.t < nowhere:
+        assert averaging.average_active(S, _UNREAD, _UNREAD) == 1
+        assert contact.mean_wait == 0.0
+        while S.t < 0.0:
             if averaging.keeps_averaging(S, _UNREAD, _UNREAD, 1) == 0:
                 looks.append(S.t)
                 contact.mean_asked, contact.averaged = S.t, OPEN

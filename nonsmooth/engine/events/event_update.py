@@ -371,6 +371,7 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
     """Carry the system through an instant that contact ``which`` makes one by ``cause``; return the status."""
     S.recorded = S.truncated = 0
     resting = projected = stopped = 0
+    fastest = -1
     ends = 1 if cause == AVERAGING and which < 0 else 0
     if S.mean_until < 1e300:
         touch(S, w, k)
@@ -390,8 +391,8 @@ def update_at_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int) 
         if approaching == 1 and hand_over(S, w, k) == 1:
             approaching = touch(S, w, k)
             continue
-        fastest = _fastest_approach(S, w, k)
         if approaching == 1:
+            fastest = _fastest_approach(S, w, k)
             join_near(S, w, k, -contact_at(S, w, k, fastest).rate[0])
         if approaching == 1 and stopped == 0 and stop_slow(S, w, k) > 0:
             stopped, approaching = 1, touch(S, w, k)

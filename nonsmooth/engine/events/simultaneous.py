@@ -9,8 +9,8 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at
 
 
 @kernel("i8(S, F, I, i8)")
-def _are_told_apart(S: Scalars, w: Floats, k: Integers, c: int) -> int:
-    """Return 1 if a contact of the same two frames as contact ``c`` touches: its other features follow one another."""
+def _touches_already(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if a contact of the same two frames as contact ``c`` touches: their features follow one another."""
     contact = contact_at(S, w, k, c)
     for other in range(S.n_contacts):
         another = contact_at(S, w, k, other)
@@ -29,7 +29,7 @@ def join_near(S: Scalars, w: Floats, k: Integers, speed: float) -> None:
         contact = contact_at(S, w, k, c)
         apart = contact.touching == 0 and contact.normal_function == 0 and contact.beyond <= 0.0
         near = min(contact.contact_time * speed, EXPLAINED * S.gap_tolerance)
-        if apart and contact.gap <= near and is_on_course(S, w, k, c) == 0 and _are_told_apart(S, w, k, c) == 0:
+        if apart and contact.gap <= near and is_on_course(S, w, k, c) == 0 and _touches_already(S, w, k, c) == 0:
             contact.touching = 1
             evaluate_jacobian(S, w, k, c)
             evaluate_bias(S, w, k, c, 3)
