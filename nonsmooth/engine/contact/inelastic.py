@@ -14,7 +14,7 @@ from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_TRUE = 0.5
+_TRUE = 20.0
 """Contacts give way no more where that makes rates wrong by no more than this part of what counts as none."""
 _RATIO = 0.01
 """Contacts give way by this part of what they did before,"""
@@ -68,16 +68,34 @@ def _step_or_stay(S: Scalars, w: Floats, k: Integers) -> int:
     return 0
 
 
+@kernel("i8(S, F, I, f8)")
+def _next_to_rigid(S: Scalars, w: Floats, k: Integers, part: float) -> int:
+    """Return 1 if contacts that give way by a ``part`` make no rates wrong by more than counts."""
+    return 1 if part * _fastest(S, w, k) <= _TRUE * S.velocity_tolerance else 0
+
+
+@kernel("i8(S, F, I)")
+def _soften_at_hand(S: Scalars, w: Floats, k: Integers) -> int:
+    """Go from the impulses at hand to those of contacts that give way as little as counts; return 1 if that leads there."""
+    fastest = _fastest(S, w, k)
+    if fastest == 0.0:
+        return 0
+    part = min(1.0, 0.5 * _TRUE * S.velocity_tolerance / fastest)
+    _soften(S, w, k, part)
+    settled = step_by_newton(S, w, k) == 1 and _next_to_rigid(S, w, k, part) == 1
+    _soften(S, w, k, 0.0)
+    return 1 if settled else 0
+
+
 @kernel("i8(S, F, I)")
 def _follow(S: Scalars, w: Floats, k: Integers) -> int:
-    """Follow the impulses from contacts that give way to those that do not; return 1 if that leads there."""
-    _keep_rigid(S, w, k)
+    """Follow the impulses from contacts that give way to those that do next to nothing; return 1 if that leads there."""
     found, ratio = 1.0, _RATIO
     _soften(S, w, k, found)
     sweep(S, w, k, SWEEPS)
     if step_by_newton(S, w, k) == 0:
         ratio = 1.0
-    while ratio <= _STUCK and found * _fastest(S, w, k) > _TRUE * S.velocity_tolerance:
+    while ratio <= _STUCK and _next_to_rigid(S, w, k, found) == 0:
         _keep(S, w, k)
         _soften(S, w, k, ratio * found)
         if _step_or_stay(S, w, k) == 1:
@@ -85,12 +103,7 @@ def _follow(S: Scalars, w: Floats, k: Integers) -> int:
         else:
             ratio **= 0.5
     _soften(S, w, k, 0.0)
-    if found * _fastest(S, w, k) > _TRUE * S.velocity_tolerance:
-        return 0
-    # so near, contacts that do not give way at all have an answer as a rule
-    _keep(S, w, k)
-    _step_or_stay(S, w, k)
-    return 1
+    return _next_to_rigid(S, w, k, found)
 
 
 @entry_point("i8(S, F, I, f8)")
@@ -111,6 +124,9 @@ def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int
             active.free[r] = moment * active.free[r] + (0.0 if given else contact.rate[r])
     sweep(S, w, k, SWEEPS)
     if step_by_newton(S, w, k) == 1:
+        return 1
+    _keep_rigid(S, w, k)
+    if _soften_at_hand(S, w, k) == 1:
         return 1
     for i in range(3 * S.n_active):
         w[S.active_forces + i] = 0.0

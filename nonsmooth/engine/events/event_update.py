@@ -361,7 +361,9 @@ def _creeps(S: Scalars, w: Floats, k: Integers) -> int:
         contact = contact_at(S, w, k, c)
         if contact.mode != OPEN and contact.normal_function == 0:
             closed += 1
-            if S.velocity_tolerance < slip_speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
+            # how averaged forces go on is known, whichever way it slips
+            instant = contact.averaged == OPEN
+            if instant and S.velocity_tolerance < slip_speed(S, w, k, c) <= _SLOW * S.velocity_tolerance:
                 creeping += 1
     return 1 if closed > 1 and creeping > 0 else 0
 
