@@ -14,7 +14,7 @@ from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_TRUE = 20.0
+_TRUE = 0.5
 """Contacts give way no more where that makes rates wrong by no more than this part of what counts as none."""
 _RATIO = 0.01
 """Contacts give way by this part of what they did before,"""
@@ -122,8 +122,9 @@ def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int
         for r in range(3):
             given = r == 0 and contact.normal_function != 0
             active.free[r] = moment * active.free[r] + (0.0 if given else contact.rate[r])
+    _keep(S, w, k)
     sweep(S, w, k, SWEEPS)
-    if step_by_newton(S, w, k) == 1:
+    if _step_or_stay(S, w, k) == 1:
         return 1
     _keep_rigid(S, w, k)
     if _soften_at_hand(S, w, k) == 1:
