@@ -52,7 +52,7 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.roots import TRUSTED
-from nonsmooth.engine.numerics.runge_kutta import step_factor
+from nonsmooth.engine.numerics.runge_kutta import step_factor, trend
 from nonsmooth.engine.numerics.vectors import length
 
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
@@ -73,6 +73,8 @@ _SHARE = 0.7
 """The most of its deformation that a contact loses in one step of its expansion,"""
 _LAST = 2.0
 """down to this deformation, in units of that after the first step of a compression."""
+_LEAST_ERROR = 1e-2
+"""An error below this tells nothing of a trend of errors."""
 _AT_EVENT = 4.0 * NOISE
 """A guard this near zero at the end of a step that was aimed at it has fired, one that began small only nearer."""
 _FAR = 4.0
@@ -289,6 +291,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
     S.aimed = -1
     prepare_guards(S, w, k)
     write_impact_slope(S, w, k, S.impact_slopes)
+    before, error_before = 0.0, 1.0
     for _step in range(MOST_STEPS):
         if interrupted(S, 8 * S.n_active) == 1:
             return ENDLESS
@@ -318,9 +321,14 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
         grow_scales(S, w, k)
         _stop(S, w, k)
         if S.trigger < 0:
-            h *= step_factor(error)
+            factor, error = step_factor(error), max(_LEAST_ERROR, error)
+            if before > 0.0 and S.lone < 0:
+                factor = min(factor, trend(error, error_before, h / before))
+            before, error_before = h, error
+            h *= factor
             _go_on(S, w, k, shortest)
             continue
+        before = 0.0
         h = _pass_switch(S, w, k, h, shortest, windowed)
         if windowed == 1 and S.lone < 0 and _leaves(S, w, k) == 1:
             S.impact_h = h

@@ -140,3 +140,13 @@ def step_factor(error: float) -> float:
     if error <= _TINY:
         return GROW
     return float(min(GROW, max(SHRINK, SAFETY * error**_EXPONENT)))
+
+
+@kernel("f8(f8, f8, f8)")
+def trend(error: float, error_before: float, growth: float) -> float:
+    """Return by how much the next step may differ if it does as this one, ``growth`` times the one before it, did.
+
+    Towards a singularity steps shrink by a factor each, and what the last error alone allows is too long every time:
+    the controller of K. Gustafsson, ACM Trans. Math. Softw. 20 (1994) 496-517.
+    """
+    return float(SAFETY * growth * (error_before / (error * error)) ** -_EXPONENT)
