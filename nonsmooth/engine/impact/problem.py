@@ -52,7 +52,7 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.roots import TRUSTED
-from nonsmooth.engine.numerics.runge_kutta import step_factor, trend
+from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor, trend
 from nonsmooth.engine.numerics.vectors import length
 
 FINISHED, ENDLESS, INVALID, MOVED = 1, 2, 3, 4
@@ -73,6 +73,9 @@ _SHARE = 0.7
 """The most of its deformation that a contact loses in one step of its expansion,"""
 _LAST = 2.0
 """down to this deformation, in units of that after the first step of a compression."""
+_SETTLING = -0.4
+"""The error of an implicit step in which slips settle grows with the power 2.5 of its length: its stages are of second
+order there."""
 _LEAST_ERROR = 1e-2
 """An error below this tells nothing of a trend of errors."""
 _AT_EVENT = 4.0 * NOISE
@@ -308,7 +311,7 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
             if not error < math.inf and h < NOISE * shortest:
                 # a law that still has no finite value has none
                 return INVALID
-            h *= step_factor(error) if error < math.inf else 0.1
+            h *= _shorter(S, error)
             continue
         located = _step_to_switch(S, w, k, h, linear)
         if not located <= TRUSTED:
@@ -337,6 +340,14 @@ def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, wi
     cut_short(S, w, k)
     finish(S, w, k)
     return ENDLESS
+
+
+@kernel("f8(S, f8)")
+def _shorter(S: Scalars, error: float) -> float:
+    """Return by what part a step of that error is too long, one in which slips settle by the order that it has left."""
+    if not error < math.inf:
+        return 0.1
+    return max(SHRINK, SAFETY * error**_SETTLING) if S.turning == 1 else float(step_factor(error))
 
 
 @kernel("void(S, F, I)")
