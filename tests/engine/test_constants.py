@@ -26,6 +26,7 @@ from tests.engine.constant_force_kernels import FORCE_KERNELS
 from tests.engine.constant_kernels import KERNELS
 from tests.engine.constant_motions import MOTIONS
 from tests.engine.constant_runs import RUNS, Run
+from tests.engine.test_inelastic import wedged_balls
 
 Floats = NDArray[np.float64]
 _EXACT = 1e-9
@@ -61,7 +62,12 @@ def row(n: int, random: np.random.Generator) -> Problem:
     return Problem(jacobian @ (inverse_mass[:, None] * jacobian.T), jacobian @ free)
 
 
-_KINDS = {"bodies": bodies, "feet": feet, "heavy": heavy, "row": row, "static": bodies}
+def wedged(n: int, random: np.random.Generator) -> Problem:
+    """Return balls that wedge each other."""
+    return Problem(*wedged_balls(n, random))
+
+
+_KINDS = {"wedged": wedged, "bodies": bodies, "feet": feet, "heavy": heavy, "row": row, "static": bodies}
 
 
 @dataclass(frozen=True)
@@ -103,33 +109,35 @@ class Case:
 
 CASES: dict[str, tuple[Any, Case | Run | Callable[[], None]]] = {
     "contact.cone._SETTLED": (1e-6, Case("feet", 12, 101, "gauss_seidel", 90)),
-    "contact.distribution._STEPS": (3, Case("row", 12, 101, "auto", 10)),
+    "contact.distribution._STEPS": (3, Case("feet", 12, 101, "newton", 3)),
     "contact.distribution._FLOOR": (0.0, Case("feet", 3, 100, "auto", 4)),
-    "contact.distribution._FLOOR_IN_BAND": (1.0, Case("row", 12, 101, "newton", 10)),
+    "contact.distribution._FLOOR_IN_BAND": (1.0, Case("row", 12, 102, "newton", 7)),
     "contact.distribution._CHEAP": (1e3, Case("row", 12, 103, "auto", 12)),
     "contact.forces.DOUBTFUL": (0.0, Case("feet", 3, 0, "lemke", 10)),
-    "contact.forces._COUPLED": (0.1, Case("row", 12, 101, "auto", 10)),
+    "contact.forces._COUPLED": (0.1, Case("row", 12, 102, "newton", 7)),
     "contact.gauss_seidel.STAGES": (1, Case("feet", 6, 3, "gauss_seidel", 90)),
     "contact.gauss_seidel.SWEEPS": (2, Case("feet", 3, 102, "gauss_seidel", 10)),
     "contact.lemke.STAGES": (1, Case("bodies", 3, 10, "lemke", 30)),
     "contact.lemke._ZERO": (1e-4, Case("heavy", 4, 1, "lemke", 30)),
-    "contact.newton.STAGES": (1, Case("bodies", 2, 6, "newton", 30)),
-    "contact.newton._SWEEPS": (0, Case("heavy", 4, 2, "newton", 30)),
-    "contact.newton._STEPS": (3, Case("feet", 12, 101, "newton", 4)),
+    "contact.newton.STAGES": (1, Case("wedged", 4, 105, "newton", 25)),
+    "contact.newton._SWEEPS": (0, Case("feet", 12, 107, "newton", 11)),
+    "contact.newton._REACH": (1.0, Case("wedged", 8, 116, "newton", 4)),
+    "contact.newton._MEMORY": (0.0, Case("wedged", 8, 133, "newton", 14)),
+    "contact.newton.STEPS": (3, Case("feet", 12, 101, "newton", 4)),
     "contact.newton._HALVINGS": (0, Case("bodies", 2, 5, "newton", 6)),
     "contact.newton._FLOOR": (0.0, Case("feet", 4, 8, "newton", 6)),
     "contact.newton._SETTLED": (1e-3, Case("feet", 4, 8, "newton", 6)),
     "contact.polish._STEPS": (2, Case("bodies", 2, 6, "enumeration", 60)),
     "contact.polish._TURN": (0.01, Case("bodies", 2, 6, "enumeration", 60)),
     "contact.polish.EXACT": (1e-6, Case("bodies", 2, 6, "enumeration", 60)),
-    "contact.search._MOST_EFFORT": (1e3, Case("bodies", 2, 6, "newton", 30)),
+    "contact.search._MOST_EFFORT": (1e3, Case("wedged", 4, 105, "newton", 25)),
     "contact.trial.EQUAL": (1e9, Case("row", 12, 100, "auto", 6)),
     "contact.trial.NO_FORCE": (1e-4, Case("row", 12, 101, "auto", 10)),
     "contact.trial._SOLVED": (1e4, Case("heavy", 2, 2, "enumeration", 100)),
-    "contact.trial._ARRIVED": (1e3, Case("row", 12, 101, "auto", 10)),
+    "contact.trial._ARRIVED": (1e3, Case("feet", 4, 100, "newton", 3)),
     "memory.solvers.MOST_ENUMERATED": (3, Case("feet", 4, 0, "enumeration", 100)),
     "numerics.linear.SINGULAR": (1e-4, Case("heavy", 3, 111, "lemke", 30)),
-    "numerics.null_band._SHIFT": (0.5, Case("row", 12, 101, "auto", 10)),
+    "numerics.null_band._SHIFT": (0.5, Case("row", 12, 102, "newton", 7)),
     "numerics.null_band._FAINT": (1e-20, Case("row", 12, 102, "auto", 7)),
     "numerics.null_band._SETTLED": (1e-6, Case("row", 12, 101, "auto", 10)),
     **RUNS,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -10,25 +11,30 @@ from numpy.typing import NDArray
 
 from laws import Coulomb
 from nonsmooth.contact import _memory
-from nonsmooth.engine.contact import inelastic
+from nonsmooth.engine.contact import inelastic, newton
 from nonsmooth.engine.native.kernel import PLAIN, call_entry
 from nonsmooth.model.delassus import write_delassus
+from tests.benchmarks.solvers import bodies
 
 Floats = NDArray[np.float64]
 FRICTION = 0.8
-MOST = 200
+MOST = 85
 """Newton's method is tried so often at most for all wedges that are drawn."""
 REST = 1e-8
 """Velocity that counts as none [m/s]."""
 
 
 def wedged(seed: int) -> tuple[Floats, Floats]:
+    """Return the Delassus matrix and the rates of three to six wedged balls."""
+    random = np.random.default_rng(seed)
+    return wedged_balls(int(random.integers(3, 7)), random)
+
+
+def wedged_balls(n: int, random: np.random.Generator) -> tuple[Floats, Floats]:
     """Return the Delassus matrix and the rates of balls with two contacts each, with walls and with one another.
 
     Normals are drawn, so that some wedge, and there may be more contacts than motions.
     """
-    random = np.random.default_rng(seed)
-    n = int(random.integers(3, 7))
     jacobian = np.zeros((6 * n, 6 * n))
     for contact in range(2 * n):
         first, second = random.choice(n, 2, replace=False)
@@ -43,13 +49,14 @@ def wedged(seed: int) -> tuple[Floats, Floats]:
     return (jacobian * mobility) @ jacobian.T, jacobian @ random.normal(size=6 * n)
 
 
-def impact(delassus: Floats, rates: Floats) -> tuple[bool, Floats]:
-    """Return whether impulses are found, and them, shape [n, 3]."""
+def impact(delassus: Floats, rates: Floats, at_hand: Floats | float = 0.0) -> tuple[bool, Floats]:
+    """Return whether impulses are found from those at hand, and them, shape [n, 3]."""
     n = len(rates) // 3
     memory = _memory([Coulomb(FRICTION)] * n, 0)
     write_delassus(memory, delassus)
     memory.scalars["velocity_tolerance"] = REST
     memory.array("free_accelerations", 3 * n)[:] = rates
+    memory.array("active_forces", 3 * n)[:] = at_hand
     found = call_entry("inelastic_impulses", memory, 1.0) == 1
     return found, memory.array("active_forces", 3 * n).reshape(n, 3).copy()
 
@@ -101,10 +108,45 @@ def _assert_all_short(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.skipif(not PLAIN, reason="constants are compiled into the engine")
-@pytest.mark.parametrize(("name", "value"), [("_TRUE", 1e10), ("_STUCK", 0.0), ("_RATIO", 0.99)])
-def test_the_path_needs_its_constants(name: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("module", "name", "value"),
+    [
+        (inelastic, "_TRUE", 1e10),
+        (inelastic, "_STUCK", 0.0),
+        (inelastic, "_RATIO", 0.99),
+        (newton, "_MEMORY", 0.0),
+        (newton, "_REACH", 1.0),
+    ],
+)
+def test_the_path_needs_its_constants(
+    module: ModuleType, name: str, value: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """It ends where rates are right, tries again where it does not go on, and is short."""
     _assert_all_short(monkeypatch)
-    monkeypatch.setattr(inelastic, name, value)
+    monkeypatch.setattr(module, name, value)
     with pytest.raises(AssertionError):
         _assert_all_short(monkeypatch)
+
+
+def _assert_unique_are_exact() -> None:
+    """Start from impulses next to the right ones: contacts that give way are next to rigid ones, but not at them."""
+    for seed in range(20):
+        problem = bodies(4, np.random.default_rng(seed))
+        found, impulses = impact(problem.delassus, problem.bias)
+        again, later = impact(problem.delassus, problem.bias, 1.01 * impulses.ravel())
+        assert found
+        assert again
+        np.testing.assert_allclose(later, impulses, rtol=0, atol=1e-9 * np.max(impulses))
+
+
+def test_impulses_that_are_unique_do_not_hang_on_those_at_hand() -> None:
+    """Contacts that give way only lead there."""
+    _assert_unique_are_exact()
+
+
+@pytest.mark.skipif(not PLAIN, reason="constants are compiled into the engine")
+def test_and_do_without_the_last_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Then the impulses are those of contacts that give way."""
+    monkeypatch.setattr(inelastic, "_LAST", 0)
+    with pytest.raises(AssertionError):
+        _assert_unique_are_exact()

@@ -32,8 +32,6 @@ DOUBTFUL = 1e-5
 """A pivot below this part of the largest entry may be that of contacts of which one is redundant."""
 _COUPLED = 1e-7
 """Null-space entries above this tie a contact to the group whose forces are not unique."""
-_SHARED = 30
-"""Forces that are not unique take as long as so many evaluations of those that are, where time is to go on passing."""
 DEAR = 500
 """Elementary operations that count as one evaluation of a contact."""
 
@@ -144,7 +142,7 @@ def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     if rank == n and eliminate_reduced(S, w, n, SINGULAR) == 1:
         return
     S.deficient = 1
-    S.evaluations += _SHARED
+    S.shared += 1
     if not full:
         S.null_banded = 1
         least_norm_in_band(S, w, n)

@@ -16,10 +16,8 @@ from nonsmooth.engine.numerics.vectors import length
 
 _TRUE = 0.5
 """Contacts give way no more where that makes rates wrong by no more than this part of what counts as none."""
-_SAFELY = 0.5
-"""and start with this part of it, as the impulses to be found may be larger than those at hand."""
 _LAST = 3
-"""Newton steps from there to contacts that do not give way."""
+"""Newton steps from there to contacts that do not give way: where impulses are unique, one or two do."""
 _RATIO = 0.01
 """Contacts give way by this part of what they did before,"""
 _STUCK = 0.5
@@ -85,15 +83,17 @@ def _go_on(S: Scalars, w: Floats, k: Integers) -> int:
     fastest = _fastest(S, w, k)
     if fastest == 0.0:
         return 0
-    _soften(S, w, k, min(1.0, _SAFELY * _TRUE * S.velocity_tolerance / fastest))
+    # half of what may be, as the impulses to be found may be larger than those at hand
+    part = min(1.0, 0.5 * _TRUE * S.velocity_tolerance / fastest)
+    _soften(S, w, k, part)
     settled = _step_or_stay(S, w, k, STEPS)
     _soften(S, w, k, 0.0)
-    return settled
+    return settled * _next_to_rigid(S, w, k, part)
 
 
 @kernel("i8(S, F, I)")
 def _follow(S: Scalars, w: Floats, k: Integers) -> int:
-    """Follow the impulses from contacts that give way to those that do next to nothing; return 1 if that leads there."""
+    """Follow impulses from contacts that give way to those that do next to not at all; return 1 if that leads there."""
     found, ratio = 1.0, _RATIO
     _soften(S, w, k, found)
     sweep(S, w, k, SWEEPS)

@@ -20,6 +20,7 @@ ARRAYS = Arrays(
             "guess",
             "unsettled",
             "evaluations",
+            "shared",
             "stray",
         ),
         **real(

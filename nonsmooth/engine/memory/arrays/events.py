@@ -33,7 +33,6 @@ ARRAYS = Arrays(
             "recorded",
             "sample_index",
             "calls",
-            "evaluated",
         ),
         **real(
             "t_end",
@@ -52,6 +51,7 @@ ARRAYS = Arrays(
             "next_sample",
             "crowd",
             "crowd_t",
+            "evaluated",
         ),
         # in which samples fill half of their room
         "sample_span": math.inf,
