@@ -41,32 +41,32 @@ def _counted(value: Callable[[float], float]) -> tuple[Callable[[float], float],
 
 
 @contextmanager
-def _one_guard(value: Callable[[float], float], first: float, last: float, gap: int = 0) -> Iterator[Any]:
-    """Let a step of the flow have one guard, a gap or none, of these values in it, at its start and at its end."""
+def _one_guard(value: Callable[[float], float], first: float, last: float, rises: int = 0) -> Iterator[Any]:
+    """Let a step of the flow have one guard, no gap, of these values in it, at its start and at its end."""
     evaluate, looks = _counted(value)
-    record = SimpleNamespace(value=last, first=first, end=last, middle=value(0.5), deflated=0, looks=looks)
+    record = SimpleNamespace(value=last, first=first, end=last, middle=value(0.5), deflated=rises, looks=looks)
     with patch.multiple(
         location,
         guard_at=lambda *_: record,
         kinematic=lambda *_: 0,
-        is_gap=lambda *_: gap,
+        is_gap=lambda *_: 0,
         guards_within=lambda *_: None,
         _guard_at=lambda S, w, k, h, theta, i, forces: evaluate(theta),
     ):
         yield record
 
 
-def _root(value: Callable[[float], float], first: float, h: float = 1e-3, gap: int = 0) -> tuple[float, float, int]:
+def _root(value: Callable[[float], float], first: float, h: float = 1e-3, rises: int = 0) -> tuple[float, float, int]:
     """Return where the guard vanishes within a step of ``h``, with what slope, and how often it was looked at."""
     S = SimpleNamespace(time_tolerance=1e-12, guard_slope=0.0)
-    with _one_guard(value, first, value(1.0), gap) as record:
+    with _one_guard(value, first, value(1.0), rises) as record:
         theta = location._vanishing(S, _UNREAD, _UNREAD, h, 1.0, 0, 1)
         return theta, S.guard_slope, len(record.looks)
 
 
 def starts_by_chance() -> None:
-    """Find where a gap falls that is negative but for round-off at the start, and armed behind it."""
-    theta, _, _ = _root(lambda theta: (theta - 0.3) * (0.6 - theta), 1e-14, gap=1)
+    """Find where a guard falls that rises from zero, but for round-off, with no rate."""
+    theta, _, _ = _root(lambda theta: (theta - 0.3) * (0.6 - theta), 1e-14, rises=1)
     assert abs(theta - 0.6) < 1e-8
 
 
