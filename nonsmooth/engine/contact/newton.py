@@ -33,8 +33,8 @@ _HALVINGS = 8
 _MEMORY = 0.85
 """in which each counts by this part of the one behind it."""
 _REACH = 2.0
-"""The rho of a contact, in units of what it needs to be stopped where no other one acts: as they act on one another, of
-3000 problems of wedged balls a third more are solved than with 1."""
+"""The rho of a contact, in units of what stops it where no other one acts.  As they act on one another, it is larger: of
+621 problems of ten wedged balls 365 are solved from the impulses at hand, 290 with 1."""
 _FLOOR = 1e-8
 """Added to the diagonal, whose entries are near 1: forces that are not unique must not stop the elimination."""
 _SETTLED = 1e-11

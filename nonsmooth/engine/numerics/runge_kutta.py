@@ -149,4 +149,4 @@ def trend(error: float, error_before: float, growth: float) -> float:
     Towards a singularity steps shrink by a factor each, and what the last error alone allows is too long every time:
     the controller of K. Gustafsson, ACM Trans. Math. Softw. 20 (1994) 496-517.
     """
-    return float(SAFETY * growth * (error_before / (error * error)) ** -_EXPONENT)
+    return float(max(SHRINK, SAFETY * growth * (error_before / (error * error)) ** -_EXPONENT))
