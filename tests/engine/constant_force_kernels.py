@@ -56,10 +56,9 @@ def averages_for_a_while() -> None:
     assert 2e-5 < span <= 1e-3
 
 
-def _held_up(evaluations: int, shared: int = 0) -> int:
-    """Return the contact whose slip holds time up with so many evaluations, some of shared forces, or -1."""
-    S = SimpleNamespace(n_grouped=1, grouped=0, crowd=0.0, crowd_t=0.0, t=0.0, evaluated=0.0)
-    S.evaluations, S.shared = evaluations, shared
+def _held_up(evaluations: int) -> int:
+    """Return the contact whose slip holds time up with so many evaluations of forces at one time, or -1."""
+    S = SimpleNamespace(n_grouped=1, grouped=0, crowd=0.0, crowd_t=0.0, t=0.0, evaluations=evaluations, evaluated=0)
     contact = SimpleNamespace(contact_time=1e-5, slip_end=(1e-7, 0.0), force=(1.0, 0.3, 0.0), mobility=10.0)
     contact.mode, contact.averaged, S.velocity_tolerance = SLIDE, 0, 1e-8
     with patch.object(averaging, "contact_at", lambda *_: contact):
@@ -70,12 +69,6 @@ def lets_slips_stop() -> None:
     """Let a slip stop in a thousand evaluations, but average forces where a million do not get on."""
     assert _held_up(1000) == -1
     assert _held_up(10**6) == 0
-
-
-def counts_what_is_dear() -> None:
-    """Average forces a tenth as many evaluations of which do not get on, if they are not unique."""
-    assert _held_up(2000) == -1
-    assert _held_up(2000, 2000) == 0
 
 
 def settles_in_time() -> None:
@@ -180,7 +173,6 @@ FORCE_KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
     "contact.implicit_slip._FAINT": (0.0, holds_at_the_bound),
     "contact.mean_forces._LONGEST": (1e9, averages_for_a_while),
     "events.averaging._BURST": (1e300, lets_slips_stop),
-    "events.averaging._SHARED": (0.0, counts_what_is_dear),
     "impact.problem._SETTLING": (-0.2, settles_in_time),
     "flow.follow._EXCESS": (0.0, chooses_forces_anew),
     "impact.guards._SLACK": (0.0, begins_to_compress),

@@ -142,7 +142,6 @@ def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     if rank == n and eliminate_reduced(S, w, n, SINGULAR) == 1:
         return
     S.deficient = 1
-    S.shared += 1
     if not full:
         S.null_banded = 1
         least_norm_in_band(S, w, n)

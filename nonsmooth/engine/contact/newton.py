@@ -32,9 +32,6 @@ _HALVINGS = 8
 """Of one step, down to which the natural map must become less than its mean over the steps before,"""
 _MEMORY = 0.85
 """in which each counts by this part of the one behind it."""
-_REACH = 2.0
-"""The rho of a contact, in units of what stops it where no other one acts.  As they act on one another, it is larger: of
-621 problems of ten wedged balls 365 are solved from the impulses at hand, 290 with 1."""
 _FLOOR = 1e-8
 """Added to the diagonal, whose entries are near 1: forces that are not unique must not stop the elimination."""
 _SETTLED = 1e-11
@@ -44,7 +41,7 @@ _SETTLED = 1e-11
 @kernel("v2(S, F, I, i8)")
 def _aim(S: Scalars, w: Floats, k: Integers, a: int) -> tuple[float, float]:
     """Return where the friction of the active contact ``a`` would go if nothing cut it."""
-    active, slope = active_at(S, w, k, a), slope_of_slip(S, w, k, a) / _REACH
+    active, slope = active_at(S, w, k, a), slope_of_slip(S, w, k, a)
     y1 = active.friction[0] - active.slip_acceleration[0] / slope
     return y1, active.friction[1] - active.slip_acceleration[1] / slope
 
@@ -58,7 +55,7 @@ def write_natural_map(S: Scalars, w: Floats, k: Integers) -> float:
         right = at(w, S.right + 3 * a)
         for r in range(3):
             active.acceleration[r] = add_product(S, w, k, active.free[r], a, r, S.active_forces)
-        y = active.normal_force - _REACH * active.normal_acceleration / diagonal_block(S, w, k, a).nn
+        y = active.normal_force - active.normal_acceleration / diagonal_block(S, w, k, a).nn
         right[0] = active.normal_force - max(0.0, y)
         radius = active.mu * max(0.0, y)
         t1, t2 = active.friction
@@ -89,7 +86,7 @@ def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, slope: float) -
 def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, c2: float) -> None:
     """Add the derivative of the friction that is cut to the disc, along (c1, c2), to its two rows of ``matrix``."""
     active = active_at(S, w, k, a)
-    own, slope = diagonal_block(S, w, k, a).nn / _REACH, slope_of_slip(S, w, k, a) / _REACH
+    own, slope = diagonal_block(S, w, k, a).nn, slope_of_slip(S, w, k, a)
     n = 3 * S.n_active
     first, second = band_row(S.matrix, 3 * a + 1, n, S.half_band), band_row(S.matrix, 3 * a + 2, n, S.half_band)
     for block in range(active.first_block, active.end_block):
@@ -115,7 +112,7 @@ def _write_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         line = 3 * a
-        own = diagonal_block(S, w, k, a).nn / _REACH
+        own = diagonal_block(S, w, k, a).nn
         y = active.normal_force - active.normal_acceleration / own
         row = band_row(S.matrix, line, n, S.half_band)
         if y > 0.0:
@@ -130,7 +127,7 @@ def _write_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
                 w[row + line] = active.mu * active.direction[r - 1]
         if active.at_rest == 0:
             continue
-        slope = slope_of_slip(S, w, k, a) / _REACH
+        slope = slope_of_slip(S, w, k, a)
         y1, y2 = _aim(S, w, k, a)
         size, radius = length((y1, y2)), active.mu * max(0.0, y)
         if size <= radius:

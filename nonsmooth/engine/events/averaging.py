@@ -18,8 +18,6 @@ from nonsmooth.engine.numerics.vectors import length
 
 _BURST = 20000.0
 """Evaluations of forces beyond one in a contact time: so many are the stop of a slip, not yet a crowd of them."""
-_SHARED = 30.0
-"""Forces that are not unique take as long as so many evaluations of those that are."""
 
 
 @kernel("i8(S, F, I)")
@@ -110,9 +108,8 @@ def holds_time_up(S: Scalars, w: Floats, k: Integers) -> int:
         time = min(time, contact_at(S, w, k, k[S.grouped + i]).contact_time)
     if time == 0.0:
         return -1
-    evaluations = float(S.evaluations) + _SHARED * float(S.shared)
-    S.crowd = max(0.0, S.crowd - (S.t - S.crowd_t) / time) + evaluations - S.evaluated
-    S.crowd_t, S.evaluated = S.t, evaluations
+    S.crowd = max(0.0, S.crowd - (S.t - S.crowd_t) / time) + float(S.evaluations - S.evaluated)
+    S.crowd_t, S.evaluated = S.t, S.evaluations
     if S.crowd <= _BURST:
         return -1
     which, fastest = -1, 1.0

@@ -33,7 +33,7 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at,
 from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
 from nonsmooth.engine.numerics.vectors import length
 
-_STIFF = 10.0
+_STIFF = 1.0
 """Relaxations of a direction within a step that an explicit one bears."""
 _SETTLING = 10.0
 """Relaxations of a direction while its slip changes by as much as it is, with which it is settled."""

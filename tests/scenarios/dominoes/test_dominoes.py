@@ -45,7 +45,7 @@ def test_the_account_of_the_impacts_closes() -> None:
     row = Dominoes()
     solution = ns.simulate(row.build(), row.t_end, sample_interval=row.sample_interval)
     assert solution.status == "done"
-    assert solution.counters.impacts > 20
+    assert solution.counters.impacts > 15
     assert solution.energy.residual < 1e-8
 
 

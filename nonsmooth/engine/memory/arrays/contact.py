@@ -20,7 +20,6 @@ ARRAYS = Arrays(
             "guess",
             "unsettled",
             "evaluations",
-            "shared",
             "stray",
         ),
         **real(

@@ -33,6 +33,7 @@ ARRAYS = Arrays(
             "recorded",
             "sample_index",
             "calls",
+            "evaluated",
         ),
         **real(
             "t_end",
@@ -51,7 +52,6 @@ ARRAYS = Arrays(
             "next_sample",
             "crowd",
             "crowd_t",
-            "evaluated",
         ),
         # in which samples fill half of their room
         "sample_span": math.inf,
