@@ -1,8 +1,9 @@
 """The inelastic impact on Coulomb's cone: what one step of Moreau's rule asks for.
 
 Wedged contacts and redundant ones pass impulses round for long, and from a start far away Newton's method finds none.
-Contacts that give way a little do neither.  So the impulses are followed from contacts that give way as much as the
-bodies do to those that do not at all: every answer is the start of the next.
+Contacts that give way a little do neither.  So impulses that are at hand, of the averaging before, lead to those of
+contacts that give way next to not at all.  Others are followed from contacts that give way as much as the bodies do to
+those that do not at all: every answer is the start of the next.
 """
 
 from __future__ import annotations

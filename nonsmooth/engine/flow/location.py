@@ -38,6 +38,7 @@ from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 
 _MIDDLE = 0.5
+"""Part of the step at which forces and own guards are looked at besides its ends: as far from both as can be."""
 _NEAR = 0.2
 """A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
 _FAINT = 1e-9
