@@ -9,6 +9,8 @@ the contacts let go.
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.contact.unknowns import force_of, set_force
@@ -62,6 +64,33 @@ def _keep_null_space_force(S: Scalars, w: Floats, k: Integers, n: int) -> None:
         contact.null_space_force[unknown.direction] = force_of(S, w, k, i) - w[S.active_forces_first + i]
 
 
+@kernel("i8(S, F, I, f8, i8)")
+def _choose(S: Scalars, w: Floats, k: Integers, largest: float, rung: int) -> int:
+    """Choose forces off every bound by so many quarterings of the largest, from those of least norm; 1 if there are."""
+    for i in range(S.n_unknown):
+        set_force(S, w, k, i, w[S.active_forces_first + i])
+    return int(distribute(S, w, k, 0.25**rung * largest, _ARRIVED * largest))
+
+
+@kernel("i8(S, F, I, f8)")
+def _choose_farthest(S: Scalars, w: Floats, k: Integers, largest: float) -> int:
+    """Choose forces as far off every bound as can be, within a factor; return 1 if there are any."""
+    near, far = int(-math.log(_LEAST) / math.log(4.0)), 0
+    rung = 1
+    while _choose(S, w, k, largest, rung) == 0:
+        if rung == near:
+            return 0
+        far, rung = rung, min(2 * rung, near)
+    near = rung
+    while near - far > 1:
+        rung = (near + far) // 2
+        if _choose(S, w, k, largest, rung) == 1:
+            near = rung
+        else:
+            far = rung
+    return int(rung == near or _choose(S, w, k, largest, near) == 1)
+
+
 @entry_point("i8(S, F, I)")
 def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
     """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it keeps off every bound."""
@@ -78,12 +107,7 @@ def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
         largest = max(largest, abs(w[S.x + i]))
     if _least_distance(S, w, k, n) >= _AMPLE * largest:
         return 1
-    inset, found = 0.25 * largest, 0
-    while found == 0 and inset >= _LEAST * largest:
-        for i in range(n):
-            set_force(S, w, k, i, w[S.active_forces_first + i])
-        found = distribute(S, w, k, inset, _ARRIVED * largest)
-        inset *= 0.25
+    found = _choose_farthest(S, w, k, largest)
     if found == 0:
         for i in range(n):
             set_force(S, w, k, i, w[S.active_forces_first + i])

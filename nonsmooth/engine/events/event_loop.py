@@ -10,6 +10,7 @@ from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.events.averaging import average_island_of, end_averaging, holds_time_up
+from nonsmooth.engine.events.causes import cause_at_start, cause_of
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import (
     CODE_HEAD,
@@ -23,6 +24,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
+from nonsmooth.engine.flow.choices import choose_anew, first_without_choice, is_of_choice, may_choose
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
 from nonsmooth.engine.flow.ending import end_features
@@ -33,12 +35,11 @@ from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_end_guard,
     first_own_guard,
-    is_friction_guard,
     normal_guard,
 )
-from nonsmooth.engine.flow.guards import arm_guards, keep_end, keep_start, watch_features, write_guards
+from nonsmooth.engine.flow.guards import arm_guards, first_fired, keep_end, keep_start, watch_features, write_guards
 from nonsmooth.engine.flow.leap import leap, measure_noise
-from nonsmooth.engine.flow.location import first_crossing, locate
+from nonsmooth.engine.flow.location import closed_before, first_crossing, locate
 from nonsmooth.engine.flow.projection import (
     normalise_quaternions,
     project_closed,
@@ -54,9 +55,7 @@ from nonsmooth.engine.memory.modes import (
     FEATURE_CHANGE,
     FEATURE_END,
     GUARD,
-    IMPACT,
     JAM,
-    LIFT_OFF,
     NO_CONTACT_SOLUTION,
     NO_SLOT,
     NOT_FINITE,
@@ -68,10 +67,8 @@ from nonsmooth.engine.memory.modes import (
     STALLED,
     START,
     STEP_TOO_SMALL,
-    STICK,
     STICK_TO_SLIP,
     STOPPED,
-    TOUCH,
 )
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -83,6 +80,7 @@ from nonsmooth.engine.native.kernel import (
     kernel,
     own_guard_at,
 )
+from nonsmooth.engine.numerics.roots import TRUSTED
 from nonsmooth.engine.numerics.vectors import length
 
 _SPACINGS = 4.0 * 2.0**-52
@@ -146,26 +144,6 @@ def _end_within(S: Scalars, w: Floats, k: Integers) -> int:
     return _arrived(S, w, k)
 
 
-@kernel("i8(S, F, I, i8)")
-def _closing_cause(S: Scalars, w: Floats, k: Integers, c: int) -> int:
-    """Return what it is when contact ``c`` closes."""
-    return IMPACT if contact_at(S, w, k, c).normal_function == 0 else TOUCH
-
-
-@kernel("i8(S, F, I, i8)")
-def _cause(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
-    """Return what it means that a guard of a contact has fired."""
-    c = contact_of(S, guard)
-    contact = contact_at(S, w, k, c)
-    if is_friction_guard(S, guard) == 0:
-        return _closing_cause(S, w, k, c) if contact.mode == OPEN else LIFT_OFF
-    if contact.mode != STICK:
-        return SLIP_TO_STICK
-    # the static bound vanishes with the normal force
-    force = guard_at(S, w, k, normal_guard(c))
-    return LIFT_OFF if force.value <= 1e-9 * force.first else STICK_TO_SLIP
-
-
 @kernel("i8(S, F, I, i8, i8)")
 def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> int:
     """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
@@ -211,7 +189,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     keep_start(S, w, k)
     which = _due_at_start(S, w, k)
     if which >= 0:
-        return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
+        return _carry_out(S, w, k, cause_at_start(S, w, k, which), which)
     S.h_listed = longest_step(S, w, k) if S.n_units > 0 else 1e300
     if S.h_listed == 0.0:
         return int(list_contacts(S, w, k))
@@ -229,6 +207,8 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     for i in range(first_own_guard(S), first_end_guard(S)):
         if not abs(guard_at(S, w, k, i).end) < 1e300:
             return _up_to_end(S, NOT_FINITE)
+    if high > 0.0 and may_choose(S, w, k) == 1:
+        return _step_by_choice(S, w, k, high)
     if high > 0.0:
         return _step_to_event(S, w, k, high)
     return _whole_step(S, w, k)
@@ -277,17 +257,6 @@ def _due_at_start(S: Scalars, w: Floats, k: Integers) -> int:
         if S.fresh == 0 and unique and is_violated(S, w, k, c) == 1:
             return c
     return -1
-
-
-@kernel("i8(S, F, I, i8)")
-def _cause_at_start(S: Scalars, w: Floats, k: Integers, which: int) -> int:
-    """Return the cause of the event that is due of contact ``which`` before any step."""
-    if contact_at(S, w, k, which).mode == OPEN:
-        return _closing_cause(S, w, k, which)
-    if guard_at(S, w, k, first_end_guard(S) + which).end < 0.0:
-        return FEATURE_END
-    pulls = guard_at(S, w, k, normal_guard(which)).end < 0.0
-    return LIFT_OFF if pulls else STICK_TO_SLIP
 
 
 @kernel("i8(S, F, I, i8)")
@@ -345,7 +314,7 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
         # it was made to end where a gap is about to close
         which = _due_at_start(S, w, k)
         if which >= 0:
-            return _carry_out(S, w, k, _cause_at_start(S, w, k, which), which)
+            return _carry_out(S, w, k, cause_at_start(S, w, k, which), which)
     return RUNNING
 
 
@@ -361,6 +330,31 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
         S.limit = BY_END
         return _end_within(S, w, k)
     return _event(S, w, k, h, S.trigger)
+
+
+@kernel("i8(S, F, I, f8)")
+def _step_by_choice(S: Scalars, w: Floats, k: Integers, high: float) -> int:
+    """Go on to the fraction ``high`` of the step with other forces, or to where there are none; return the status."""
+    guard = first_fired(S, w, k, 1, -1)
+    closed = closed_before(S, w, k, S.h, high, -1)
+    if closed > 0.0:
+        return _step_to_event(S, w, k, closed)
+    ends = first_without_choice(S, w, k, S.h, high)
+    h = (ends if ends > 0.0 else high) * S.h
+    S.fresh, S.limit = 0, BY_EVENT
+    if h < S.h:
+        S.h = h
+        if not try_step(S, w, k, h) <= TRUSTED:
+            return _shorten(S, w, k)
+    if h > S.t_end - S.t:
+        S.limit = BY_END
+        return _end_within(S, w, k)
+    if ends > 0.0:
+        write_guards(S, w, k, S.t + h, S.y_new, 1)
+        return _event(S, w, k, h, guard)
+    _commit(S, w, k, h)
+    S.chosen_t = S.t
+    return RUNNING
 
 
 @kernel("i8(S, F, I)")
@@ -392,30 +386,13 @@ def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
     if guard >= first_own_guard(S):
         _commit(S, w, k, h)
         return _own_event(S, w, k, guard - first_own_guard(S))
-    cause, which = _cause(S, w, k, guard), contact_of(S, guard)
+    cause, which = cause_of(S, w, k, guard), contact_of(S, guard)
     if cause == STICK_TO_SLIP:
         _break_direction(S, w, k, which)
     _commit(S, w, k, h)
-    if contact_at(S, w, k, which).redundant == 1 and _null_space_forces_hold(S, w, k, guard) == 1:
+    if is_of_choice(S, w, k, guard) == 1 and choose_anew(S, w, k) == 1:
         return RUNNING
     return _carry_out(S, w, k, cause, which)
-
-
-@kernel("i8(S, F, I, i8)")
-def _null_space_forces_hold(S: Scalars, w: Floats, k: Integers, guard: int) -> int:
-    """Choose the forces that are not unique anew; return 1 if all closed contacts can keep their bounds.
-
-    The ``guard`` that fired must be that of a force.  A second time within the time tolerance there is no choice: then
-    all forces vanish.
-    """
-    contact = contact_at(S, w, k, contact_of(S, guard))
-    if contact.mode == OPEN or (is_friction_guard(S, guard) == 1 and contact.holds == 0):
-        return 0
-    if S.t - S.chosen_t <= S.time_tolerance:
-        return 0
-    S.chosen_t = S.t
-    group_closed(S, w, k)
-    return int(right_hand_side(S, w, k, S.t, S.y, 1, 1))
 
 
 @kernel("i8(S, F, I, i8)")

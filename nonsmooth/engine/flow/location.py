@@ -190,7 +190,7 @@ def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float
 
 
 @kernel("f8(S, F, I, f8, f8, i8)")
-def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, asked: int) -> float:
+def closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, asked: int) -> float:
     """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0.
 
     If none has, the contact ``asked`` stands at ``theta``.
@@ -245,7 +245,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     # what has fired at the end is located first, and what closes before it searched then
     if fired < 0 and S.n_astray + S.n_doubtful > 0:
         looks += S.n_astray
-        theta = _closed_before(S, w, k, h, 1.0, -1)
+        theta = closed_before(S, w, k, h, 1.0, -1)
         if theta > 0.0:
             return theta
     if looks > 0:
@@ -465,7 +465,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             fired = first
             first = first_fired(S, w, k, closed, fired)
         if first < 0 and S.n_astray + S.n_doubtful > 0:
-            earlier = _closed_before(S, w, k, h, theta, contact_of(S, fired))
+            earlier = closed_before(S, w, k, h, theta, contact_of(S, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
             elif S.n_astray > 0:
