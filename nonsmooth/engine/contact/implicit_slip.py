@@ -108,14 +108,16 @@ def oppose_slips(S: Scalars, w: Floats, k: Integers) -> int:
     """
     held = 0
     for _round in range(2 * (2 + S.n_active)):
-        if polish(S, w, k) == 0:
+        polished = polish(S, w, k)
+        if polished == 0:
             if held == 1:
                 return 0
             held = 1
             for a in range(S.n_active):
                 active = active_at(S, w, k, a)
                 active.mode_tried = STICK if active.at_rest == 1 else active.mode_past
-        hold_tried(S, w, k)
+        if polished != 1 or S.deficient == 1:
+            hold_tried(S, w, k)
         if _stop_and_go(S, w, k) == 0:
             return 1
     return 0

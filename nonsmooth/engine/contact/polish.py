@@ -7,10 +7,10 @@ import math
 from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.contact.unknowns import list_unknown
-from nonsmooth.engine.delassus.delassus import add_product
+from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel, unknown_at
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel, unknown_at
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, minimum_norm, transpose
 from nonsmooth.engine.numerics.null_band import solve_shifted
@@ -32,42 +32,76 @@ def _acceleration(S: Scalars, w: Floats, k: Integers, a: int, r: int) -> float:
 
 
 @kernel("f8(S, F, I, i8, i8)")
-def _effect(S: Scalars, w: Floats, k: Integers, g: int, j: int) -> float:
-    """Return the effect of unknown ``j``, a force or the turn of a direction, on the row of a block at ``g``."""
-    unknown = unknown_at(S, w, k, j)
-    active = active_at(S, w, k, unknown.contact)
-    d1, d2 = active.direction
-    if unknown.turn == 1:
-        return float(d2 * w[g + 1] - d1 * w[g + 2])
-    if unknown.direction != 0 or active.tangent_held == 1:
-        return w[g + unknown.direction]
-    return float(w[g] - active.mu * (d1 * w[g + 1] + d2 * w[g + 2]))
+def _across(S: Scalars, w: Floats, k: Integers, a: int, i: int) -> float:
+    """Write what row ``i`` of contact ``a``, that of its turn, lacks; return how wrong it is, relative."""
+    d1, d2 = active_at(S, w, k, a).direction
+    a1, a2 = _acceleration(S, w, k, a, 1), _acceleration(S, w, k, a, 2)
+    w[S.right + i] = -(a1 * d2 - a2 * d1)
+    return float(abs(w[S.right + i]) / max(S.acceleration_scale, abs(a1), abs(a2)))
 
 
-@kernel("f8(S, F, I, i8, i8, i8)")
-def _write_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> float:
-    """Write row ``i`` of Newton's system, one of contact ``a``; return how wrong it is, relative."""
+@kernel("f8(S, F, I, i8)")
+def _worst_across(S: Scalars, w: Floats, k: Integers, n: int) -> float:
+    """Write the right-hand side of Newton's system; return how wrong the worst direction is.
+
+    The forces of the present directions are exact.
+    """
+    worst = 0.0
+    for i in range(n):
+        unknown = unknown_at(S, w, k, i)
+        w[S.right + i] = 0.0
+        if unknown.turn == 1:
+            worst = max(worst, _across(S, w, k, unknown.contact, i))
+    return worst
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _write_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Write row ``i`` of Newton's system, one of contact ``a``: of an acceleration, or of that across a slip."""
     active, unknown = active_at(S, w, k, a), unknown_at(S, w, k, i)
-    line = band_row(S.reduced, i, n, S.half_band)
+    line, turn, r = band_row(S.reduced, i, n, S.half_band), unknown.turn, unknown.direction
     d1, d2 = active.direction
     for block in range(active.first_block, active.end_block):
         other = active_at(S, w, k, k[S.block_column + block])
-        g = S.delassus + DELASSUS * block
-        for j in range(other.first_unknown, other.end_unknown):
-            if unknown.turn == 0:
-                w[line + j] = _effect(S, w, k, g + 3 * unknown.direction, j)
-            else:
-                w[line + j] = d2 * _effect(S, w, k, g + 3, j) - d1 * _effect(S, w, k, g + 6, j)
-    w[S.right + i] = 0.0
-    if unknown.turn == 0:
-        return 0.0  # the forces of these directions are exact
-    a1, a2 = _acceleration(S, w, k, a, 1), _acceleration(S, w, k, a, 2)
-    w[S.right + i] = -(a1 * d2 - a2 * d1)
-    # a turn counts by the force that it moves
-    force = active.mu * active.normal_force
-    if abs(force) > 0.0:
-        w[line + i] += (a1 * d1 + a2 * d2) / force
-    return float(abs(w[S.right + i]) / max(S.acceleration_scale, abs(a1), abs(a2)))
+        out, end = line + other.first_unknown, line + other.end_unknown
+        if out == end:
+            continue
+        g = at(w, S.delassus + DELASSUS * block)
+        if turn == 1:
+            g0, g1, g2 = d2 * g[3] - d1 * g[6], d2 * g[4] - d1 * g[7], d2 * g[5] - d1 * g[8]
+        else:
+            g0, g1, g2 = g[3 * r], g[3 * r + 1], g[3 * r + 2]
+        e1, e2 = other.direction
+        if other.normal_held == 1:
+            w[out] = g0 if other.tangent_held == 1 else g0 - other.mu * (e1 * g1 + e2 * g2)
+            out += 1
+        if other.tangent_held == 1:
+            w[out], w[out + 1] = g1, g2
+            out += 2
+        if out < end:
+            w[out] = e2 * g1 - e1 * g2
+    if turn == 1:
+        _add_turn(S, w, k, a, i, n)
+
+
+@kernel("void(S, F, I, i8, i8, i8)")
+def _add_turn(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+    """Add what turning the direction of contact ``a`` does to what is across it, by the force that the turn moves.
+
+    Of next to no force it is so much that the row is weighed less, or all others would count as zero beside it.
+    """
+    active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a)
+    force, (d1, d2) = active.mu * active.normal_force, active.direction
+    if not abs(force) > 0.0:
+        return
+    line = band_row(S.reduced, i, n, S.half_band)
+    turned = (_acceleration(S, w, k, a, 1) * d1 + _acceleration(S, w, k, a, 2) * d2) / force
+    w[line + i] += turned
+    mobility = max(own.nn, own.t11, own.t22)
+    weight = mobility / (mobility + abs(turned))
+    w[S.right + i] *= weight
+    for j in range(max(0, i - S.half_band), min(n, i + S.half_band + 1)):
+        w[line + j] *= weight
 
 
 @kernel("i8(S, F, I)")
@@ -133,27 +167,28 @@ def polish(S: Scalars, w: Floats, k: Integers) -> int:
     """Turn the directions of incipient slip until no acceleration is left across them, the modes being given.
 
     Newton's method on the turns, the forces of every direction being exact; quadratic, from a good guess.  Return 1
-    if it arrives.  Nothing is asked of signs and bounds.
+    if it arrives, its forces in ``active_forces``, or 2 where there is nothing to turn.  Nothing is asked of signs and
+    bounds.
     """
     turns = 0
     for a in range(S.n_active):
         turns += _starts(S, w, k, a)
     if turns == 0:
-        return 1
+        return 2
     best = 1e300
     for _step in range(_STEPS):
         hold_tried(S, w, k)
         n = _list_unknowns(S, w, k)
-        if open_band(S, w, k, n, S.reduced) == 0:
-            return 0
-        worst = 0.0
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
-            for i in range(active.first_unknown, active.end_unknown):
-                worst = max(worst, _write_row(S, w, k, a, i, n))
+        worst = _worst_across(S, w, k, n)
         if worst <= EXACT or (worst <= _NEAR and worst >= best):
             return 1
         best = min(best, worst)
+        if open_band(S, w, k, n, S.reduced) == 0:
+            return 0
+        for a in range(S.n_active):
+            active = active_at(S, w, k, a)
+            for i in range(active.first_unknown, active.end_unknown):
+                _write_row(S, w, k, a, i, n)
         _solve(S, w, n)
         for i in range(n):
             if unknown_at(S, w, k, i).turn == 1:

@@ -21,6 +21,7 @@ ARRAYS = Arrays(
             "n_colliding",
             "may_be_lone",
             "phases_kept",
+            "phases_watched",
             "truncated",
             "slow_steps",
         ),
@@ -32,6 +33,9 @@ ARRAYS = Arrays(
             "faint",
             "guard_slope",
             "rest_speed",
+            "rubbed_watched",
+            "lost_watched",
+            "bouncing_watched",
         ),
     },
     floats={
