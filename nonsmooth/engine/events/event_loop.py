@@ -24,7 +24,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
-from nonsmooth.engine.flow.choices import choose_anew, first_without_choice, is_of_choice, may_choose
+from nonsmooth.engine.flow.choices import choose_anew, end_of_choices, nearest_bound
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
 from nonsmooth.engine.flow.ending import end_features
@@ -37,9 +37,9 @@ from nonsmooth.engine.flow.guard_numbers import (
     first_own_guard,
     normal_guard,
 )
-from nonsmooth.engine.flow.guards import arm_guards, first_fired, keep_end, keep_start, watch_features, write_guards
+from nonsmooth.engine.flow.guards import arm_guards, is_of_choice, keep_end, keep_start, watch_features, write_guards
 from nonsmooth.engine.flow.leap import leap, measure_noise
-from nonsmooth.engine.flow.location import closed_before, first_crossing, locate
+from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (
     normalise_quaternions,
     project_closed,
@@ -175,6 +175,7 @@ def _hardest_pressed(S: Scalars, w: Floats, k: Integers, sliding: int) -> int:
 @kernel("i8(S, F, I)")
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
+    S.blind = 0
     if S.mean_until - S.t <= S.time_tolerance:
         S.fresh = 0
         return update_at_event(S, w, k, AVERAGING, -1)
@@ -203,12 +204,11 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if status != RUNNING:
         return _without_step(S, w, k, status)
     S.steps += 1
+    S.blind = 1 if S.chosen_t == S.t and S.n_grouped > 0 and S.stage_time == 0.0 else 0
     high = first_crossing(S, w, k, S.h)
     for i in range(first_own_guard(S), first_end_guard(S)):
         if not abs(guard_at(S, w, k, i).end) < 1e300:
             return _up_to_end(S, NOT_FINITE)
-    if high > 0.0 and may_choose(S, w, k) == 1:
-        return _step_by_choice(S, w, k, high)
     if high > 0.0:
         return _step_to_event(S, w, k, high)
     return _whole_step(S, w, k)
@@ -302,6 +302,9 @@ def _after_leap(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I)")
 def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Take over a step without an event, unless a slip has come to rest in it; return the status."""
+    ends = end_of_choices(S, w, k, S.h) if S.blind == 1 else -1.0
+    if ends >= 0.0:
+        return _without_choice(S, w, k, ends)
     if S.h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
@@ -326,6 +329,9 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     if h < 0.0:
         status = _shorten(S, w, k)
         return _without_step(S, w, k, status) if status == STEP_TOO_SMALL else status
+    ends = end_of_choices(S, w, k, h) if S.blind == 1 else -1.0
+    if ends >= 0.0:
+        return _without_choice(S, w, k, ends)
     if h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
@@ -333,28 +339,17 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
 
 
 @kernel("i8(S, F, I, f8)")
-def _step_by_choice(S: Scalars, w: Floats, k: Integers, high: float) -> int:
-    """Go on to the fraction ``high`` of the step with other forces, or to where there are none; return the status."""
-    guard = first_fired(S, w, k, 1, -1)
-    closed = closed_before(S, w, k, S.h, high, -1)
-    if closed > 0.0:
-        return _step_to_event(S, w, k, closed)
-    ends = first_without_choice(S, w, k, S.h, high)
-    h = (ends if ends > 0.0 else high) * S.h
-    S.fresh, S.limit = 0, BY_EVENT
-    if h < S.h:
-        S.h = h
-        if not try_step(S, w, k, h) <= TRUSTED:
-            return _shorten(S, w, k)
+def _without_choice(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+    """Take the step of ``h``, at whose end forces cannot be chosen any more, and what follows; return the status."""
+    S.fresh, S.limit, S.h = 0, BY_EVENT, h
+    if not try_step(S, w, k, h) <= TRUSTED:
+        return _shorten(S, w, k)
     if h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
-    if ends > 0.0:
-        write_guards(S, w, k, S.t + h, S.y_new, 1)
-        return _event(S, w, k, h, guard)
-    _commit(S, w, k, h)
-    S.chosen_t = S.t
-    return RUNNING
+    right_hand_side(S, w, k, S.t + h, S.y_new, 1, 0)
+    write_guards(S, w, k, S.t + h, S.y_new, 1)
+    return _event(S, w, k, h, nearest_bound(S, w, k))
 
 
 @kernel("i8(S, F, I)")

@@ -334,8 +334,18 @@ def _wrong(S: Scalars, w: Floats, k: Integers, i: int) -> float:
 
 
 @kernel("i8(S, F, I, i8)")
+def is_of_choice(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+    """Return 1 if guard ``i`` of a contact is that of a force which is not unique."""
+    contact = contact_at(S, w, k, contact_of(S, i))
+    slips = is_friction_guard(S, i) == 1 and contact.holds == 0
+    return 0 if contact.mode == OPEN or contact.redundant == 0 or slips else 1
+
+
+@kernel("i8(S, F, I, i8)")
 def has_fired(S: Scalars, w: Floats, k: Integers, i: int) -> int:
-    """Return 1 if guard ``i`` of a contact has fired."""
+    """Return 1 if guard ``i`` of a contact has fired; to those of forces that are chosen the step may be blind."""
+    if S.blind == 1 and is_of_choice(S, w, k, i) == 1:
+        return 0
     guard = guard_at(S, w, k, i)
     if guard.value < 0.0 and (guard.armed == 1 or guard.value < _wrong(S, w, k, i)):
         return 1 - _rests(S, w, k, i)

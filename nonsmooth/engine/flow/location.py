@@ -25,6 +25,7 @@ from nonsmooth.engine.flow.guards import (
     evaluate_guards,
     first_fired,
     is_gap,
+    is_of_choice,
     keep_end,
     kinematic,
     stand_at,
@@ -130,7 +131,8 @@ def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         contact = contact_at(S, w, k, c)
         if contact.mode != OPEN:
             for i in (normal_guard(c), friction_guard(S, c)):
-                if guard_at(S, w, k, i).armed == 1 and (i == normal_guard(c) or contact.mode == STICK):
+                blind = S.blind == 1 and is_of_choice(S, w, k, i) == 1
+                if guard_at(S, w, k, i).armed == 1 and (i == normal_guard(c) or contact.mode == STICK) and not blind:
                     theta = _lowest(S, w, k, h, i)
                     if theta > 0.0:
                         return theta
@@ -190,7 +192,7 @@ def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float
 
 
 @kernel("f8(S, F, I, f8, f8, i8)")
-def closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, asked: int) -> float:
+def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, asked: int) -> float:
     """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0.
 
     If none has, the contact ``asked`` stands at ``theta``.
@@ -245,7 +247,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     # what has fired at the end is located first, and what closes before it searched then
     if fired < 0 and S.n_astray + S.n_doubtful > 0:
         looks += S.n_astray
-        theta = closed_before(S, w, k, h, 1.0, -1)
+        theta = _closed_before(S, w, k, h, 1.0, -1)
         if theta > 0.0:
             return theta
     if looks > 0:
@@ -465,7 +467,7 @@ def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
             fired = first
             first = first_fired(S, w, k, closed, fired)
         if first < 0 and S.n_astray + S.n_doubtful > 0:
-            earlier = closed_before(S, w, k, h, theta, contact_of(S, fired))
+            earlier = _closed_before(S, w, k, h, theta, contact_of(S, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(S, w, k, closed, -1)
             elif S.n_astray > 0:

@@ -30,6 +30,7 @@ ARRAYS = Arrays(
             "impacts",
             "policy",
             "halting",
+            "blind",
             "recorded",
             "sample_index",
             "calls",
