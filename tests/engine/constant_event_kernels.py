@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 from unittest.mock import patch
 
+import nonsmooth as ns
+from bodies import Ball
 from nonsmooth.engine.bodies import listing, touching
 from nonsmooth.engine.contact import null_space_forces
 from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.events import accumulation, event_update
 from nonsmooth.engine.flow import guards
+from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.impact import scales, window
 from nonsmooth.engine.memory.modes import NO_SLOT, OPEN, RUNNING, SLIDE
+from nonsmooth.engine.native.kernel import contact_at
 from tests.engine.constant_kernels import _root
 from tests.engine.plain_cases import CASES
+from tests.engine.test_clearance import LAWS, R
 
 _UNREAD: Any = None
 """A heap that a kernel by itself does not read."""
@@ -254,6 +260,30 @@ def looks_through_windows() -> None:
     assert len(drawn) < 0.5 * 17
 
 
+def stops_a_row_that_creeps() -> None:
+    """Stop a row of open contacts, of which the first approaches slower than what counts as motion, at all of them."""
+    n, counts_as_motion = 12, 2e-8
+    balls = [Ball(R) for _ in range(n)]
+    system = ns.System(balls, gravity=0.0)
+    for i, ball in enumerate(balls):
+        if i:
+            system.contact(balls[i - 1], ball, **LAWS)
+        system.place(ball, position=(2.0 * R * i, 0.0, 0.0), velocity=(0.0 if i else 0.25 * counts_as_motion, 0.0, 0.0))
+    speeds = [0.0] * n
+
+    def stop_open(S: Any, w: Any, k: Any) -> float:
+        for c in range(S.n_contacts):
+            contact_at(S, w, k, c).mode = OPEN
+        loss = float(accumulation.stop_creeping(S, w, k))
+        speeds[:] = [w[S.y + S.n_q + 6 * i] for i in range(n)]
+        return loss
+
+    with patch.multiple(event_update, project_closed=lambda *_: 0.0, stop_creeping=stop_open):
+        ns.simulate(system, 1e-9, engine=ns.EventDriven(velocity_tolerance=counts_as_motion))
+    assert math.isclose(sum(speeds), 0.25 * counts_as_motion)
+    assert min(after - before for before, after in pairwise(speeds)) > -NOUGHT * counts_as_motion
+
+
 EVENT_KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
     "flow.location._SLOW": (10**9, leaves_the_near_end),
     "bodies.listing._NARROWEST": (1.0, lists_what_is_near),
@@ -265,6 +295,7 @@ EVENT_KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
     "impact.scales._MET": (1.0, knows_its_deformation),
     "contact.null_space_forces._ARRIVED": (1e-3, keeps_bounds_that_it_looks_for),
     "contact.null_space_forces._SLACK": (0.0, lets_go_of_what_pulls_only),
+    "contact.cone.SWEEPS": (20, stops_a_row_that_creeps),
     "impact.window.LARGE": (10**6, looks_through_windows),
     "impact.window._LAYERS": (1, looks_through_windows),
 }
