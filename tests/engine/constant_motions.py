@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 from typing import Any
@@ -14,7 +15,7 @@ from laws import Coulomb, EnergeticImpact, Frictionless, LinearCompliant, Stribe
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.impact import _memory
 from nonsmooth.model.delassus import write_delassus
-from tests.engine.plain_cases import _creeping
+from tests.engine.plain_cases import _creeping, jamming
 from tests.engine.test_clearance import LAWS, R, drop
 from tests.engine.test_courses import FAR, HEIGHT, _beside
 from tests.engine.test_spins import test_a_spin_that_keeps_its_direction_is_integrated_along_the_body as keep_direction
@@ -164,6 +165,26 @@ def _wrong(*problem: Any) -> float:
     return max(abs(before - after - lost) / before, float(approach))
 
 
+def slides_over_two_plates() -> None:
+    """Let a ball slide over two plates that are next to one, where they meet: neither stops it."""
+    lean, speed = 1e-5, 5e-4
+    plates, ball = [Plate(), Plate(Rest(orientation=(math.cos(0.5 * lean), 0.0, -math.sin(0.5 * lean), 0.0)))], Ball(R)
+    system = ns.System([*plates, ball], gravity=G)
+    for plate in plates:
+        system.contact(plate, ball, **LAWS)
+    system.place(ball, position=(0.0, 0.0, R), velocity=(speed, 0.0, 0.0))
+    assert abs(ns.simulate(system, 1e-3).u_end[0] / speed - 1.0) < 0.02
+
+
+def jams_late() -> None:
+    """Jam a slip at the Painleve singularity three years later than at the start, in steps that are no shorter."""
+    model, late = ns.assemble(jamming(0.999)), 1e8
+    solution = model.run(late + 5e-4, start=dataclasses.replace(model.start, time=late))
+    counters = solution.counters
+    assert "jamming of a slip" in solution.events.causes()
+    assert counters.steps + counters.rejected + counters.gap_looks < 150
+
+
 def keeps_account_of_a_light_contact() -> None:
     """Book all energy of two contacts of one body on a line, of which one moves along its normal hardly."""
     line = np.array([[4.5e-3, -0.079, -0.70], [-1.17, 0.25, -0.80]])
@@ -189,16 +210,20 @@ def rebounds_slowly() -> None:
 MOTIONS: dict[str, tuple[Any, Callable[[], None]]] = {
     "flow.location._MIDDLE": (0.999, passes_a_level),
     "flow.courses._ATTEMPTS": (0, rolls_undisturbed),
+    "flow.courses._DRIFT": (0.0, rolls_undisturbed),
     "flow.courses._KEPT": (2.0, rolls_undisturbed),
     "flow.spins._KEPT": (2.0, keep_direction),
+    "memory.layout.PARTS": (2, touches_a_ball_on_its_way_down),
     "flow.guards.UNKNOWN_FALL": ((0.0, 0.0, 0.0), touches_a_ball_on_its_way_down),
     "events.step_length._TURN": (1e9, precesses_into_a_ball),
     "events.step_length._FIRST_WAY": (1e9, is_thrown_back),
     "events.step_length._SHORTEST": (1.0, steps_up_to_a_closing),
     "flow.clearance._CLOSINGS": (2, flies_up_to_a_closing),
+    "flow.projection._DAMPING": (0.0, slides_over_two_plates),
     "flow.projection._MOST_ITERATIONS": (1, hangs_by_a_rope),
     "flow.projection._ROUND_OFF": (1e-3, keeps_its_length),
     "flow.self_check.NOUGHT": (1.0, flies_up_to_a_closing),
+    "events.event_loop._SPACINGS": (0.0, jams_late),
     "events.stall._EVENTS": (10**6, stalls),
     "events.stall._TIME": (1.0, does_not_stall),
     "flow.step.STIFF": (1e300, creeps_in_long_steps),

@@ -51,6 +51,7 @@ RUNS: dict[str, tuple[Any, Run]] = {
     "flow.self_check._ROUND_OFF": (0.0, Run("squeezed", 3)),
     "flow.step._SHARE": (0.0, Run("shaken", 12)),
     "flow.step._SLOWEST": (0.0, Run("shaken", 12)),
+    "impact.instant._NEXT_TO_ZERO": (0.0, Run("into the singularity", 200)),
     "impact.problem._FAR": (0.01, Run("bouncing", 48)),
     "impact.problem._FIRST": (25.0, Run("skew", 220)),
     "impact.problem._LAST": (0.0, Run("skew", 220)),

@@ -115,7 +115,7 @@ def _dumbbell(laws: Numbers, periods: float, skew: float = 0.1) -> Numbers:
     return _numbers(system, periods / 25.0)
 
 
-def _jam(policy: str, share: float) -> Numbers:
+def jamming(share: float) -> ns.System:
     """Let a dumbbell slide ahead of its mass centre with a share of the friction for which no force exists."""
     plate, body = Plate(), Dumbbell(rod_mass_fraction=0.9)
     half, tilt = body.centre_distance / 2, math.radians(45.0)
@@ -126,7 +126,11 @@ def _jam(policy: str, share: float) -> Numbers:
     system.place(
         body, position=(x, 0, z), orientation=(math.cos(tilt / 2), 0, -math.sin(tilt / 2), 0), velocity=(-1.0, 0.0, 0.0)
     )
-    return _numbers(system, 5e-4, painleve=policy)
+    return system
+
+
+def _jam(policy: str, share: float) -> Numbers:
+    return _numbers(jamming(share), 5e-4, painleve=policy)
 
 
 def _box(tilt: float, spin: float, t_end: float, slope: float = 0.0) -> Numbers:

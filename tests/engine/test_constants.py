@@ -22,6 +22,7 @@ from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import solver_number
 from nonsmooth.engine.native.kernel import PLAIN, call_entry
 from tests.benchmarks.solvers import FRICTION, Problem, bodies, feet, lay_out
+from tests.engine.constant_event_kernels import EVENT_KERNELS
 from tests.engine.constant_force_kernels import FORCE_KERNELS
 from tests.engine.constant_kernels import KERNELS
 from tests.engine.constant_motions import MOTIONS
@@ -113,10 +114,13 @@ CASES: dict[str, tuple[Any, Case | Run | Callable[[], None]]] = {
     "contact.distribution._FLOOR": (0.0, Case("feet", 3, 100, "auto", 4)),
     "contact.distribution._FLOOR_IN_BAND": (1.0, Case("row", 12, 101, "newton", 10)),
     "contact.distribution._CHEAP": (1e3, Case("row", 12, 103, "auto", 12)),
+    "contact.enumeration._ENDLESS": (1.0, Case("bodies", 3, 4, "enumeration", 112)),
+    "contact.enumeration._SWEEPS": (0, Case("bodies", 3, 4, "enumeration", 112)),
     "contact.forces.DOUBTFUL": (0.0, Case("feet", 3, 0, "lemke", 10)),
     "contact.forces._COUPLED": (0.1, Case("row", 12, 101, "auto", 10)),
     "contact.gauss_seidel.STAGES": (1, Case("feet", 6, 3, "gauss_seidel", 90)),
     "contact.gauss_seidel.SWEEPS": (2, Case("feet", 3, 102, "gauss_seidel", 10)),
+    "contact.lemke.CORNERS": (3, Case("row", 4, 0, "lemke", 2)),
     "contact.lemke.STAGES": (1, Case("bodies", 3, 10, "lemke", 30)),
     "contact.lemke._ZERO": (1e-4, Case("heavy", 4, 1, "lemke", 30)),
     "contact.newton.STAGES": (1, Case("bodies", 2, 6, "newton", 30)),
@@ -128,6 +132,7 @@ CASES: dict[str, tuple[Any, Case | Run | Callable[[], None]]] = {
     "contact.newton._SETTLED": (1e-3, Case("feet", 4, 8, "newton", 6)),
     "contact.polish._STEPS": (2, Case("bodies", 2, 6, "enumeration", 60)),
     "contact.polish._TURN": (0.01, Case("bodies", 2, 6, "enumeration", 60)),
+    "contact.polish._NEAR": (0.0, Case("feet", 6, 3, "gauss_seidel", 30)),
     "contact.polish.EXACT": (1e-6, Case("bodies", 2, 6, "enumeration", 60)),
     "contact.search._MOST_EFFORT": (1e3, Case("bodies", 2, 6, "newton", 30)),
     "contact.trial.EQUAL": (1e9, Case("row", 12, 100, "auto", 6)),
@@ -143,6 +148,7 @@ CASES: dict[str, tuple[Any, Case | Run | Callable[[], None]]] = {
     **MOTIONS,
     **KERNELS,
     **FORCE_KERNELS,
+    **EVENT_KERNELS,
 }
 
 
@@ -159,7 +165,7 @@ def test_a_problem_is_solved_that_needs_a_constant(constant: str) -> None:
     """The laws hold, and few trials were needed; nothing stands here that the engine has not."""
     module, _, name = constant.rpartition(".")
     assert name in vars(sys.modules[f"nonsmooth.engine.{module}"])
-    if constant in {**KERNELS, **FORCE_KERNELS} and not PLAIN:
+    if constant in {**KERNELS, **FORCE_KERNELS, **EVENT_KERNELS} and not PLAIN:
         pytest.skip("single kernels are compiled into the engine")
     _assert_solved(constant)
 

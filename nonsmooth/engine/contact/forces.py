@@ -32,15 +32,13 @@ DOUBTFUL = 1e-5
 """A pivot below this part of the largest entry may be that of contacts of which one is redundant."""
 _COUPLED = 1e-7
 """Null-space entries above this tie a contact to the group whose forces are not unique."""
-DEAR = 500
-"""Elementary operations that count as one evaluation of a contact."""
 
 
 @entry_point()
 def resolve(S: Scalars, w: Floats, k: Integers) -> None:
     """Complete ``active_forces``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(S, w, k)
-    interrupted(S, n + n * n * n // DEAR)
+    interrupted(S, n * S.n_active)
     if S.n_active == 1 and n == 3 and _stick_alone(S, w, k) == 1:
         return
     if open_band(S, w, k, n, S.reduced) == 0:

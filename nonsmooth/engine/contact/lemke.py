@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.forces import DEAR, friction_of_slip
+from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.delassus.delassus import write_dense
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
@@ -179,7 +179,7 @@ def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
     _lay(S, w, k, n, g, size)
     row, column = _first_row(S, w, k, n), n
     for _pivots in range(50 * n):
-        if row < 0 or interrupted(S, 1 + n * n // DEAR) == 1:
+        if row < 0 or interrupted(S, m) == 1:
             break
         left = k[S.lemke_row + row]
         _pivot(S, w, k, n, row, column)

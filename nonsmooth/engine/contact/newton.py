@@ -11,7 +11,6 @@ They hold iff Eqs. (16) and (17) do.  Sweeps of Gauss-Seidel bring the start nea
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.forces import DEAR
 from nonsmooth.engine.contact.gauss_seidel import sweep
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
@@ -158,7 +157,7 @@ def step_by_newton(S: Scalars, w: Floats, k: Integers, steps: int) -> int:
     square = write_natural_map(S, w, k)
     mean, weight = square, 1.0
     for _step in range(steps):
-        if interrupted(S, width + width * S.half_band * S.half_band // DEAR) == 1:
+        if interrupted(S, S.n_active * S.half_band) == 1:
             return 0
         size = 0.0
         for i in range(width):

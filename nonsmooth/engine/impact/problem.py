@@ -66,10 +66,9 @@ _PATIENCE = 20
 """Steps that a slip may take next to rest without slowing down."""
 _LONG = 6
 """Phases per contact after which an impact may be a cascade that never ends."""
-PROBE = 1e-2
-"""Where no force has built up yet, forces are compared after this part of the shortest compression."""
 _FIRST = 0.25
-"""The first step of an impact is the tolerance to this power, in units of the shortest compression."""
+"""The first step of an impact is the tolerance to this power, in units of the shortest compression; where no force has
+built up yet, forces are compared behind it."""
 _SHARE = 0.7
 """The most of its deformation that a contact loses in one step of its expansion,"""
 _LAST = 2.0
@@ -277,8 +276,9 @@ def energetic_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> int:
     shortest = scale_impact(S, w, k, seed)
     if not shortest > 0.0:
         return INVALID
-    start_impact(S, w, k, PROBE * shortest, seed)
-    return run_impact(S, w, k, first_step(S, shortest), shortest, 0)
+    h = first_step(S, shortest)
+    start_impact(S, w, k, h, seed)
+    return run_impact(S, w, k, h, shortest, 0)
 
 
 @kernel("f8(S, f8)")
@@ -390,7 +390,7 @@ def _go_on(S: Scalars, w: Floats, k: Integers, shortest: float) -> None:
     """Prepare the next step where no guard has fired in the last."""
     if _stopping(S, w, k) == 1:
         # close to rest the direction of the slip is stiff, and what is left of it below the tolerance
-        choose_friction(S, w, k, PROBE * shortest)
+        choose_friction(S, w, k, first_step(S, shortest))
         prepare_guards(S, w, k)
         end_trapped(S, w, k)
         write_impact_slope(S, w, k, S.impact_slopes)
@@ -413,7 +413,7 @@ def _pass_switch(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, 
     following = max(h, shortest * S.impact_rtol**_FIRST)
     if S.lone >= 0:
         following = _FAR * active_at(S, w, k, S.lone).impulse_scale
-    _switch(S, w, k, PROBE * shortest, S.trigger)
+    _switch(S, w, k, first_step(S, shortest), S.trigger)
     if S.n_active > 1 and change_clock(S, w, k) == 1:
         following = shortest if S.lone < 0 else _FAR * active_at(S, w, k, S.lone).impulse_scale
     contacts = S.n_colliding if windowed == 1 else S.n_active

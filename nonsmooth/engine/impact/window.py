@@ -16,7 +16,6 @@ from nonsmooth.engine.impact.problem import (
     INVALID,
     MOST_STEPS,
     MOVED,
-    PROBE,
     first_step,
     run_impact,
     start_impact,
@@ -171,8 +170,8 @@ def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
             outcome = INVALID
             break
         if window == 0:
-            start_impact(S, w, k, PROBE * shortest, 0.0)
             S.impact_h = first_step(S, shortest)
+            start_impact(S, w, k, S.impact_h, 0.0)
         outcome = run_impact(S, w, k, S.impact_h, shortest, 1)
         _store(S, w, k)
         if outcome != MOVED:
