@@ -13,10 +13,7 @@ from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B, SPIN
 from nonsmooth.types import Floats
 
 FLATTEST = 1e-9
-"""Sine of the angle between a rim and what it touches below which the lowest point is not followed any more."""
-_CROWN = 1e-7
-"""The same over a plane, and the sine at the rim of a face's crown: what rocks by less than counts as turning stays on
-it, under a body of 40 mm and less."""
+"""Sine of the angle between rim and plane below which the lowest point is not followed any more."""
 _STILL = 1e-2
 """A turning of a flat rim that is slower is none [rad/s]."""
 
@@ -49,8 +46,8 @@ def evaluate_rim_over_plane(
     """Write the geometry block of the lowest point of the rim, or of the torus about it.
 
     For a rim that lies flat all points are lowest; the one is taken that its turning makes the lowest, and stands for a
-    rim that is :data:`_CROWN`.  One that hardly turns has its lowest point on a crown, by which a face is not quite
-    flat: the middle of it where it lies flat, a point of the rim where that is :data:`_CROWN`.  A face whose feet
+    rim that is :data:`FLATTEST`.  One that hardly turns has its lowest point on a crown, by which a face is not quite
+    flat: the middle of it where it lies flat, a point of the rim where that is :data:`FLATTEST`.  A face whose feet
     stand out beyond a ``crown`` has a larger one, a cap of a sphere with that sine at the rim.
     """
     x, y, z = point_in_world(b, x, y, z)
@@ -58,16 +55,16 @@ def evaluate_rim_over_plane(
     n_x, n_y, n_z = a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8]
     along, sine, down_x, down_y, down_z = across(-n_x, -n_y, -n_z, axis_x, axis_y, axis_z)
     reach, flat, turn, below, out_of_rim = radius, 1.0, 0.0, rounding, 0.0
-    if _CROWN < crown > sine:
+    if FLATTEST < crown > sine:
         reach, flat, turn = radius * sine / crown, crown, radius
         sum_of_cosines = math.sqrt(1.0 - crown * crown) + math.sqrt(1.0 - sine * sine)
         out_of_rim = math.copysign(radius / crown * (crown * crown - sine * sine) / sum_of_cosines, along)
-    elif sine < _CROWN:
+    elif sine < FLATTEST:
         turning, soon_x, soon_y, soon_z = _soonest(a, b, axis_x, axis_y, axis_z)
         if turning > _STILL:
             down_x, down_y, down_z = soon_x, soon_y, soon_z
         else:
-            reach, flat, turn = radius * sine / _CROWN, _CROWN, radius
+            reach, flat, turn = radius * sine / FLATTEST, FLATTEST, radius
         # the gap is that of the rim's lowest point all the same
         below += radius * sine + reach * (down_x * n_x + down_y * n_y + down_z * n_z)
     x, y, z = x + reach * down_x, y + reach * down_y, z + reach * down_z
@@ -76,5 +73,5 @@ def evaluate_rim_over_plane(
     rim_x = axis_y * down_z - axis_z * down_y
     rim_y = axis_z * down_x - axis_x * down_z
     rim_z = axis_x * down_y - axis_y * down_x
-    write_principal(out, SIDE_B, rim_x, rim_y, rim_z, max(sine, crown, _CROWN), radius, flat, turn)
+    write_principal(out, SIDE_B, rim_x, rim_y, rim_z, max(sine, crown, FLATTEST), radius, flat, turn)
     write_sweep(out, SIDE_B, rounding)
