@@ -393,9 +393,7 @@ def ends_ahead() -> None:
         contact.beyond = 1.0 if t >= 5e-12 else -1.0
 
     with (
-        patch.multiple(
-            ending, contact_at=lambda *_: contact, evaluate_bodies=evaluate, evaluate_geometry=lambda *_: None
-        ),
+        patch.multiple(ending, evaluate_bodies=evaluate, evaluate_geometry=lambda *_: None),
         patch.object(flow_guards, "contact_at", lambda *_: contact),
     ):
         assert ending.end_features(S, [0.0, 0.0, 0.0], [0]) == 0
