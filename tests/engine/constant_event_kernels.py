@@ -74,7 +74,7 @@ def _past_the_end(beyond: float) -> tuple[float, int]:
     contact = SimpleNamespace(beyond=beyond, gap=1e-13, rate=(0.0, 0.0, 0.0), mode=SLIDE, normal_function=0)
     contact.feature = contact.touching = -1
     with patch.object(guards, "contact_at", lambda *_: contact):
-        left = float(guards._feature_guard(S, _UNREAD, _UNREAD, 0))
+        left = float(guards.feature_guard(S, _UNREAD, _UNREAD, 0))
     nothing: dict[str, Any] = dict.fromkeys(
         ("evaluate_kinematics", "evaluate_jacobian", "evaluate_bias"), lambda *_: None
     )

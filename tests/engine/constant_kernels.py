@@ -387,13 +387,14 @@ def stands_for_its_twin() -> None:
 def ends_ahead() -> None:
     """Find the end of the features of a contact five least times ahead, to which steps did not get."""
     S = SimpleNamespace(time_tolerance=1e-12, gap_tolerance=1e-12, t=0.0, y=0, y_new=1, slopes=2, n_y=1)
-    S.n_grouped, S.grouped, contact = 1, 0, SimpleNamespace(beyond=-1.0)
+    S.n_grouped, S.grouped, contact = 1, 0, SimpleNamespace(beyond=-1.0, feature=-1, feature_now=0.0)
 
     def evaluate(S: Any, w: Any, k: Any, t: float, y: int) -> None:
         contact.beyond = 1.0 if t >= 5e-12 else -1.0
 
-    with patch.multiple(
-        ending, contact_at=lambda *_: contact, evaluate_bodies=evaluate, evaluate_geometry=lambda *_: None
+    with (
+        patch.multiple(ending, evaluate_bodies=evaluate, evaluate_geometry=lambda *_: None),
+        patch.object(flow_guards, "contact_at", lambda *_: contact),
     ):
         assert ending.end_features(S, [0.0, 0.0, 0.0], [0]) == 0
 

@@ -178,6 +178,20 @@ def test_oblique(law: CompliantNormalLaw, part: float) -> None:
     assert solution.u_end[0] == pytest.approx(expected, rel=1e-8)
 
 
+def test_what_starts_in_touch_is_damped_by_no_rate_of_round_off() -> None:
+    """A ball that spins on a slope is there from the start; the law's damping was scaled by its 1e-16 m/s."""
+    ends = []
+    for law in (LankaraniNikravesh(2e7, 0.75), HertzCompliant(2e7)):
+        plate, ball = Plate(Rest(slope=0.05005)), Ball(RADIUS)
+        system = ns.System([plate, ball], G)
+        system.contact(plate, ball, normal=law, friction=Frictionless())
+        spin = (70.9921, -303.3826, -176.9651)
+        ns.touching(system, ball, position=(-0.02764, -0.01549, 0.08441), angular_velocity=spin)
+        ends.append(ns.simulate(system, 1e-3, sample_interval=1e-3))
+    assert ends[0].counters.steps == ends[1].counters.steps
+    assert np.array_equal(ends[0].q_end, ends[1].q_end)
+
+
 def test_it_comes_to_rest_on_its_indentation() -> None:
     """Bounces die out, and gravity holds the balance of k x^(3/2)."""
     stiffness = 1e7

@@ -7,10 +7,10 @@ import math
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, CapsuleBody, DrivenBody, Rest
+from bodies import Ball, CapsuleBody, CylinderBody, DrivenBody, HullBody, Rest
 from bodies.free import FreeBody
 from bodies.shapes.box import Box
-from laws import EnergeticImpact, Frictionless, Unilateral
+from laws import Cohesive, CoulombContensou, EnergeticImpact, Frictionless, Unilateral
 
 ALONG = (math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0)
 RADIUS, HALF, G = 0.02, 0.1, 9.81
@@ -56,3 +56,35 @@ def test_too_fast_it_leaves_the_face_at_its_end(body: FreeBody) -> None:
     # free flight from there
     fallen = solution.t_end - lifted
     assert solution.q_end[2] == pytest.approx(HALF + RADIUS - 0.5 * G * fallen**2, abs=1e-9)
+
+
+def test_a_corner_on_springs_leaves_a_cylinder_by_its_cap_in_place_of_its_side() -> None:
+    """The depth jumps there, and the slip by which bristles bend: no step led across, however short.
+
+    Random system 7200381.
+    """
+    points = (
+        *((-0.009203, 0.006369, 0.009095), (-0.005046, 0.011201, 0.009603), (-0.014307, 0.008368, 0.016232)),
+        *((-0.003417, -0.013478, 0.007641), (0.003568, 0.015972, 0.015726), (-0.005342, 0.011166, 0.013996)),
+        (0.0037, 0.001801, -0.005161),
+    )
+    hull, cylinder = HullBody(points, density=2700.0), CylinderBody(0.01895, 0.01532, density=7800.0)
+    friction = CoulombContensou(0.2273, 0.0006282, 0.0001694, presliding=1e-5)
+    system = ns.System([hull, cylinder], gravity=0.0)
+    system.contact(hull, cylinder, normal=Cohesive(5610.0, 0.1693, 3.618), friction=friction)
+    system.place(
+        hull,
+        orientation=(-0.6702058035392506, -0.7355827843749722, 0.060827982169192066, 0.07773097721433334),
+        velocity=(0.6355, 0.6785, 0.5649),
+        angular_velocity=(-278.9048, -161.9213, -111.972),
+    )
+    system.place(
+        cylinder,
+        position=(-0.033449, -0.017072, 0.005414),
+        orientation=(-0.06913600146637462, -0.31151800660729706, -0.047674001011165576, 0.9465220200757323),
+        velocity=(0.1943, 0.1384, -0.0856),
+        angular_velocity=(-103.0197, 215.083, -73.6981),
+    )
+    solution = ns.simulate(system, 5e-5, sample_interval=5e-5)
+    assert solution.events.causes()[-1] == "change of feature"
+    assert solution.energy.residual < 1e-10

@@ -67,3 +67,24 @@ def test_a_cylinder_without_feet_stands() -> None:
     solution = ns.simulate(system, 0.1, sample_interval=0.01)
     assert np.max(np.abs(solution.q - solution.q[0])) < 1e-9
     assert np.max(np.abs(solution.u)) < 1e-6
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.6, -0.8, 0.0)])
+def test_a_face_without_feet_falls_flat_with_impacts(axis: tuple[float, float, float]) -> None:
+    """It lands on its rim, falls flat in a plane, and the other side of the rim strikes, then this one, and so on.
+
+    No error showed that a step led across flat: the rim was in the plate behind it, and what a projection took of the
+    velocities was lost in silence.  Without restitution a collision at the other side leaves k of the turning,
+    reversed, k = (1 - b) / (1 + b) with b = m r^2 / I.
+    """
+    body = CylinderBody(0.01, 0.004, density=1000.0, foot_height=0.0)
+    system = _on_a_plate(body, Frictionless(), PlasticImpact())
+    turn = np.roll(Rotation.from_rotvec(0.3 * np.array(axis)).as_quat(), 1)
+    ns.at_height(system, body, 0.001, position=(0.0, 0.0, 0.02), orientation=turn)
+    events = ns.simulate(system, 0.03145, sample_interval=1e-3).events
+    instant = events.time == events.time[2]
+    assert events.causes()[1:10] == ["impact"] * 9
+    assert np.sum(instant) > 9
+    turning = events.u_after[2:9, 3:] @ axis
+    b = body.total_mass * 0.01**2 / body.inertia[0]
+    np.testing.assert_allclose(turning[1:] / turning[:-1], (1.0 - b) / (1.0 + b), rtol=1e-6)

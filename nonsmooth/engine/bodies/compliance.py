@@ -89,9 +89,12 @@ def refresh_states(S: Scalars, w: Floats, k: Integers, y: int) -> None:
 
 @kernel("void(S, F, I, i8)")
 def begin_contact(S: Scalars, w: Floats, k: Integers, c: int) -> None:
-    """Let the inner states of contact ``c``, which closes, start anew, and keep the rate at which it does."""
+    """Let the inner states of contact ``c``, which closes, start anew, and keep the rate at which it does.
+
+    Of one that is closed from the start that rate is none: by what round-off leaves of it no damping is scaled.
+    """
     contact = contact_at(S, w, k, c)
-    contact.closing_rate = max(0.0, -contact.rate[0])
+    contact.closing_rate = -contact.rate[0] if contact.rate[0] < -S.velocity_tolerance else 0.0
     for i in range(contact.n_state):
         w[state_at(S, w, k, c, S.y) + i] = w[contact.state_start + i]
 

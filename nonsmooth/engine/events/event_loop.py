@@ -29,7 +29,7 @@ from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
 from nonsmooth.engine.flow.ending import end_features
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
-from nonsmooth.engine.flow.flow import is_violated, right_hand_side, slope
+from nonsmooth.engine.flow.flow import hardest_pressed, is_violated, right_hand_side, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -37,8 +37,16 @@ from nonsmooth.engine.flow.guard_numbers import (
     first_own_guard,
     normal_guard,
 )
-from nonsmooth.engine.flow.guards import arm_guards, is_of_choice, keep_end, keep_start, watch_features, write_guards
-from nonsmooth.engine.flow.leap import leap, measure_noise
+from nonsmooth.engine.flow.guards import (
+    arm_guards,
+    has_changed,
+    is_of_choice,
+    keep_end,
+    keep_start,
+    watch_features,
+    write_guards,
+)
+from nonsmooth.engine.flow.leap import leap, measure_noise, passed_flat
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (
     normalise_quaternions,
@@ -55,6 +63,7 @@ from nonsmooth.engine.memory.modes import (
     FEATURE_CHANGE,
     FEATURE_END,
     GUARD,
+    IMPACT,
     JAM,
     NO_CONTACT_SOLUTION,
     NO_SLOT,
@@ -62,7 +71,6 @@ from nonsmooth.engine.memory.modes import (
     OPEN,
     PAUSED,
     RUNNING,
-    SLIDE,
     SLIP_TO_STICK,
     STALLED,
     START,
@@ -153,23 +161,6 @@ def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> in
             return STALLED
         contact_at(S, w, k, which).crowd_events = 0
     return update_at_event(S, w, k, cause, which)
-
-
-@kernel("i8(S, F, I, i8)")
-def _hardest_pressed(S: Scalars, w: Floats, k: Integers, sliding: int) -> int:
-    """Return the closed contact of the greatest normal force, or -1; of those only that slide (1), or all (0)."""
-    group_closed(S, w, k)
-    evaluate_bodies(S, w, k, S.t, S.y)
-    right_hand_side(S, w, k, S.t, S.y, 0, 1)
-    hardest, most = -1, 0.0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        takes_part = contact.mode == SLIDE if sliding == 1 else contact.mode != OPEN
-        takes_part = takes_part and is_on_course(S, w, k, c) == 0
-        force = contact.force[0] if sliding == 1 else abs(contact.force[0])
-        if takes_part and contact.normal_function == 0 and force > most:
-            hardest, most = c, force
-    return hardest
 
 
 @kernel("i8(S, F, I)")
@@ -268,14 +259,15 @@ def _without_step(S: Scalars, w: Floats, k: Integers, status: int) -> int:
     if status == STEP_TOO_SMALL:
         which = end_features(S, w, k)
         if which >= 0:
+            changed = has_changed(S, w, k, which)
             _take_over(S, w, k, S.h)
-            return _carry_out(S, w, k, FEATURE_END, which)
-        which = _hardest_pressed(S, w, k, 1)
+            return _pass_on(S, w, k, which, changed)
+        which = hardest_pressed(S, w, k, 1)
         if which >= 0:
             outcome = _carry_out(S, w, k, JAM, which)
             if outcome != NO_CONTACT_SOLUTION:
                 return int(outcome)
-        which = _hardest_pressed(S, w, k, 0)
+        which = hardest_pressed(S, w, k, 0)
         if which >= 0 and average_island_of(S, w, k, which) == 1:
             S.fresh = 0
             return update_at_event(S, w, k, AVERAGING, which)
@@ -308,7 +300,12 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     if S.h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
+    which = passed_flat(S, w, k)
+    if which >= 0 and S.h > S.time_tolerance:
+        return _in_part(S, w, k)
     ended = _commit(S, w, k, S.h)
+    if which >= 0:
+        return _carry_out(S, w, k, IMPACT, which)
     which = stopping(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, SLIP_TO_STICK, which)
@@ -327,8 +324,7 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     S.fresh, S.limit = 0, BY_EVENT
     h = locate(S, w, k, S.h, high)
     if h < 0.0:
-        status = _shorten(S, w, k)
-        return _without_step(S, w, k, status) if status == STEP_TOO_SMALL else status
+        return _in_part(S, w, k)
     ends = end_of_choices(S, w, k, h) if S.blind == 1 else -1.0
     if ends >= 0.0:
         return _without_choice(S, w, k, ends)
@@ -343,7 +339,7 @@ def _without_choice(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     """Take the step of ``h``, at whose end forces cannot be chosen any more, and what follows; return the status."""
     S.fresh, S.limit, S.h = 0, BY_EVENT, h
     if not try_step(S, w, k, h) <= TRUSTED:
-        return _shorten(S, w, k)
+        return _in_part(S, w, k)
     if h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
@@ -353,12 +349,12 @@ def _without_choice(S: Scalars, w: Floats, k: Integers, h: float) -> int:
 
 
 @kernel("i8(S, F, I)")
-def _shorten(S: Scalars, w: Floats, k: Integers) -> int:
-    """Ask for a quarter of the step, in which no event could be located; return the status."""
-    S.limit = BY_CROWD
-    # crowded guards, or an error that grows
+def _in_part(S: Scalars, w: Floats, k: Integers) -> int:
+    """Ask for a quarter of the step, which leads past what it should end at; return the status."""
+    S.fresh, S.limit = 0, BY_CROWD
+    # crowded guards, an error that grows, or a flat place
     if S.h < NOUGHT * S.time_tolerance:
-        return STEP_TOO_SMALL
+        return _without_step(S, w, k, STEP_TOO_SMALL)
     if S.n_integrated == 0 and S.course_end < math.inf:
         S.course_end = S.t + 0.25 * S.h
     elif is_held(S, w, k) == 1:
@@ -373,11 +369,9 @@ def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
     """Take over the step of ``h`` at whose end a guard fires, and carry out its event; return the status."""
     if guard >= first_end_guard(S):
         which = guard - first_end_guard(S)
-        changed = contact_at(S, w, k, which).beyond <= S.gap_tolerance
+        changed = has_changed(S, w, k, which)
         _commit(S, w, k, h)
-        if changed:
-            S.feature_t = S.t
-        return _carry_out(S, w, k, FEATURE_CHANGE if changed else FEATURE_END, which)
+        return _pass_on(S, w, k, which, changed)
     if guard >= first_own_guard(S):
         _commit(S, w, k, h)
         return _own_event(S, w, k, guard - first_own_guard(S))
@@ -388,6 +382,14 @@ def _event(S: Scalars, w: Floats, k: Integers, h: float, guard: int) -> int:
     if is_of_choice(S, w, k, guard) == 1 and choose_anew(S, w, k) == 1:
         return RUNNING
     return _carry_out(S, w, k, cause, which)
+
+
+@kernel("i8(S, F, I, i8, i8)")
+def _pass_on(S: Scalars, w: Floats, k: Integers, which: int, changed: int) -> int:
+    """Carry out that the features of contact ``which`` have ended, or changed (1); return the status."""
+    if changed == 1:
+        S.feature_t = S.t
+    return _carry_out(S, w, k, FEATURE_CHANGE if changed == 1 else FEATURE_END, which)
 
 
 @kernel("i8(S, F, I, i8)")

@@ -1,16 +1,17 @@
-"""The instant in which the features of a closed contact end where no step leads.
+"""The instant in which the features of a closed contact end, or change, where no step leads.
 
 A contact is at the nearest points of two features, a local minimum of their distance.  Where that minimum merges with
 another one and vanishes, its point runs ever faster, and what the features report behind jumps by the size of the
-bodies.  No step crosses that: a stage behind it meets another force.
+bodies.  So does the depth of a corner where it leaves another body by its cap in place of its side, and with it the
+force of a spring.  No step crosses that: a stage behind it meets another force.
 """
 
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.flow.guards import LATE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.flow.guards import feature_guard
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
 
 _DOUBLINGS = 3
 """Steps shrink by a factor of five at once, so that the last one that failed is up to five tolerances long."""
@@ -18,7 +19,7 @@ _DOUBLINGS = 3
 
 @kernel("i8(S, F, I)")
 def end_features(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return a closed contact whose features end within the least times, with the state there in ``y_new``, or -1.
+    """Return a closed contact whose features end or change within the least times, the state there ``y_new``, or -1.
 
     So short a way, the time ``h``, is straight.  ``slopes`` must hold the slope at ``y``, and the closed contacts be
     grouped.
@@ -31,7 +32,7 @@ def end_features(S: Scalars, w: Floats, k: Integers) -> int:
         for i in range(S.n_grouped):
             c = k[S.grouped + i]
             evaluate_geometry(S, w, k, c)
-            if contact_at(S, w, k, c).beyond > LATE * S.gap_tolerance:
+            if feature_guard(S, w, k, c) < 0.0:
                 return c
         S.h *= 2.0
     return -1

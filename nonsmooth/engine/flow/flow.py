@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.anisotropy import facing_force
-from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies, evaluate_free_bodies, evaluate_integrated_bodies
+from nonsmooth.engine.bodies.bodies import (
+    evaluate_bodies,
+    evaluate_driven_bodies,
+    evaluate_free_bodies,
+    evaluate_integrated_bodies,
+)
 from nonsmooth.engine.bodies.compliance import (
     evaluate_compliant_force,
     refresh_states,
     rub_by_traction,
     write_state_rates,
 )
+from nonsmooth.engine.bodies.courses import is_on_course
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.contact.held_contacts import hold_contacts, write_rows
 from nonsmooth.engine.contact.implicit_slip import hold_at_end
 from nonsmooth.engine.contact.lone_slip import hold_lone_slip, lone_slip
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient, slip_coefficient
-from nonsmooth.engine.delassus.islands import activate_group
+from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.flight import accelerate_in_flight
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
@@ -237,3 +243,20 @@ def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosi
     w[powers + DRIVEN], w[powers + FRICTION_LOSS], w[powers + LOADS] = S.driven_power, lost, S.load_power
     w[powers + EXCHANGED] = abs(own) + abs(S.driven_power) + abs(lost)
     write_state_rates(S, w, k, y, out)
+
+
+@kernel("i8(S, F, I, i8)")
+def hardest_pressed(S: Scalars, w: Floats, k: Integers, sliding: int) -> int:
+    """Return the closed contact of the greatest normal force, or -1; of those only that slide (1), or all (0)."""
+    group_closed(S, w, k)
+    evaluate_bodies(S, w, k, S.t, S.y)
+    right_hand_side(S, w, k, S.t, S.y, 0, 1)
+    hardest, most = -1, 0.0
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        takes_part = contact.mode == SLIDE if sliding == 1 else contact.mode != OPEN
+        takes_part = takes_part and is_on_course(S, w, k, c) == 0
+        force = contact.force[0] if sliding == 1 else abs(contact.force[0])
+        if takes_part and contact.normal_function == 0 and force > most:
+            hardest, most = c, force
+    return hardest

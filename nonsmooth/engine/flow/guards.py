@@ -54,13 +54,19 @@ LATE = 2.0
 
 
 @kernel("f8(S, F, I, i8)")
-def _feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+def feature_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     """Return the way left to the end of the features of a closed contact, negative if it has other ones than before."""
     contact = contact_at(S, w, k, c)
     left = LATE * S.gap_tolerance - contact.beyond if contact.beyond != 0.0 else 1.0
     if left < 0.0 or contact.feature < 0 or int(contact.feature_now) == contact.feature:
         return float(left)
     return float(-left)
+
+
+@kernel("i8(S, F, I, i8)")
+def has_changed(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+    """Return 1 if contact ``c``, whose features are not those of before, has others; 0 if they have ended."""
+    return 1 if contact_at(S, w, k, c).beyond <= S.gap_tolerance else 0
 
 
 @kernel("void(S, F, I)")
@@ -122,7 +128,7 @@ def _write_other_guards(S: Scalars, w: Floats, k: Integers, t: float, y: int, fo
         end, contact = guard_at(S, w, k, first_end_guard(S) + c), contact_at(S, w, k, c)
         end.value = 1.0
         if contact.mode != OPEN and forces == 1 and S.n_grouped > 0 and is_on_course(S, w, k, c) == 0:
-            end.value = _feature_guard(S, w, k, c)
+            end.value = feature_guard(S, w, k, c)
 
 
 @kernel("void(S, F, I, f8, i8, i8)")

@@ -18,8 +18,9 @@ from nonsmooth.engine.contact.trial import NO_FORCE, small_force
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.flow.flow import right_hand_side
+from nonsmooth.engine.flow.self_check import EXPLAINED
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS
-from nonsmooth.engine.memory.modes import LIFT_OFF, STICK, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import LIFT_OFF, OPEN, STICK, STICK_TO_SLIP
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import dot, length, minus
 
@@ -122,10 +123,24 @@ def _reflect(S: Scalars, w: Floats, k: Integers, part: float) -> None:
                 w[powers + EXCHANGED] += abs(lost)
 
 
-@kernel("i8(S, F, I, f8)")
-def _runs(S: Scalars, w: Floats, k: Integers, h: float) -> int:
-    """Return 1 if a contact point has run in the time ``h``, faster than the bodies go, to where they approach."""
-    runs = 0
+@kernel("void(S, F, I)")
+def _keep_points(S: Scalars, w: Floats, k: Integers) -> None:
+    """Keep where the contact points are at ``y``."""
+    evaluate_bodies(S, w, k, S.t, S.y)
+    for i in range(S.n_grouped):
+        c = k[S.grouped + i]
+        contact = contact_at(S, w, k, c)
+        evaluate_geometry(S, w, k, c)
+        contact.start_a, contact.start_b = contact.point_a, contact.point_b
+
+
+@kernel("i8(S, F, I, f8, f8)")
+def _runs(S: Scalars, w: Floats, k: Integers, h: float, rate: float) -> int:
+    """Return a contact whose point has run in the time ``h``, faster than the bodies go, to where they approach, or -1.
+
+    That is by more than a gap ``rate``, the bodies being evaluated at its end.
+    """
+    runs = -1
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         evaluate_geometry(S, w, k, c)
@@ -134,8 +149,8 @@ def _runs(S: Scalars, w: Floats, k: Integers, h: float) -> int:
         spin_a, spin_b = frame_at(w, contact.frame_a).spin, frame_at(w, contact.frame_b).spin
         turning, way = minus(spin_b, spin_a), minus(contact.point_b, contact.start_b)
         speed = length(contact.slip) + contact.size * math.sqrt(dot(turning, turning))
-        if contact.rate[0] < 0.0 and dot(way, way) > (_FASTER * h * speed) ** 2:
-            runs = 1
+        if contact.rate[0] < rate and dot(way, way) > (_FASTER * h * speed) ** 2:
+            runs = c
     return runs
 
 
@@ -160,19 +175,16 @@ def leap(S: Scalars, w: Floats, k: Integers, h: float) -> int:
     ``slopes`` must hold the slope at ``y``, and the closed contacts be grouped.  What the impulses let go is
     ``released``, by the cause that it means.
     """
-    evaluate_bodies(S, w, k, S.t, S.y)
     for i in range(S.n_grouped):
-        c = k[S.grouped + i]
-        contact = contact_at(S, w, k, c)
+        contact = contact_at(S, w, k, k[S.grouped + i])
         if contact.normal_function != 0:
             return 0
-        evaluate_geometry(S, w, k, c)
-        contact.start_a, contact.start_b = contact.point_a, contact.point_b
         contact.released = 0
+    _keep_points(S, w, k)
     for i in range(S.n_y):
         w[S.y_new + i] = w[S.y + i] + (h * w[S.slopes + i] if i < S.n_q else 0.0)
     evaluate_bodies(S, w, k, S.t + h, S.y_new)
-    if _runs(S, w, k, h) == 0:
+    if _runs(S, w, k, h, 0.0) < 0:
         return 0
     n = _stretches(S, w, k)
     for stretch in range(n):
@@ -181,3 +193,23 @@ def leap(S: Scalars, w: Floats, k: Integers, h: float) -> int:
             _reflect(S, w, k, (stretch + 0.5) / n)
         evaluate_bodies(S, w, k, S.t + h, S.y_new)
     return 1
+
+
+@kernel("i8(S, F, I)")
+def passed_flat(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return a held contact whose point ran along a body within the step that was taken, or -1.
+
+    Behind it they approach faster than tolerances explain of what is held: a face has fallen flat, and the other side
+    of its rim is the lower one.
+    """
+    approaches, explained = 0, EXPLAINED * S.velocity_tolerance
+    for i in range(S.n_grouped):
+        contact = contact_at(S, w, k, k[S.grouped + i])
+        held = contact.normal_function == 0 and contact.averaged == OPEN and contact.past_end <= 0.0
+        if held and contact.rate_end[0] < -explained:
+            approaches = 1
+    if approaches == 0:
+        return -1
+    _keep_points(S, w, k)
+    evaluate_bodies(S, w, k, S.t + S.h, S.y_new)
+    return _runs(S, w, k, S.h, -explained)
