@@ -24,7 +24,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
-from nonsmooth.engine.flow.choices import choose_anew, end_of_choices, nearest_bound
+from nonsmooth.engine.flow.choices import choose_anew, end_of_choices, may_be_blind, nearest_bound
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
 from nonsmooth.engine.flow.ending import end_features
@@ -166,7 +166,7 @@ def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> in
 @kernel("i8(S, F, I)")
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
-    S.blind = 0
+    S.blind, S.follows_choice = 0, 1 if S.chosen_t == S.t else 0
     if S.mean_until - S.t <= S.time_tolerance:
         S.fresh = 0
         return update_at_event(S, w, k, AVERAGING, -1)
@@ -195,7 +195,7 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if status != RUNNING:
         return _without_step(S, w, k, status)
     S.steps += 1
-    S.blind = 1 if S.chosen_t == S.t and S.n_grouped > 0 and S.stage_time == 0.0 else 0
+    may_be_blind(S)
     high = first_crossing(S, w, k, S.h)
     for i in range(first_own_guard(S), first_end_guard(S)):
         if not abs(guard_at(S, w, k, i).end) < 1e300:
@@ -309,7 +309,7 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     which = stopping(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, SLIP_TO_STICK, which)
-    S.fresh = 1 if ended == 0 else 0
+    S.fresh = 1 if ended == 0 and S.chosen_t != S.t else 0
     if S.limit == BY_EVENT and S.fresh == 1 and S.failed == RUNNING and S.t_end - S.t > S.time_tolerance:
         # it was made to end where a gap is about to close
         which = _due_at_start(S, w, k)

@@ -31,6 +31,7 @@ ARRAYS = Arrays(
             "policy",
             "halting",
             "blind",
+            "follows_choice",
             "recorded",
             "sample_index",
             "calls",
@@ -53,6 +54,7 @@ ARRAYS = Arrays(
             "next_sample",
             "crowd",
             "crowd_t",
+            "choice_way",
         ),
         # in which samples fill half of their room
         "sample_span": math.inf,
