@@ -24,12 +24,12 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
-from nonsmooth.engine.flow.choices import choose_anew, end_of_choices, may_be_blind, nearest_bound
+from nonsmooth.engine.flow.choices import choose_anew
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
 from nonsmooth.engine.flow.ending import end_features
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
-from nonsmooth.engine.flow.flow import hardest_pressed, is_violated, right_hand_side, slope
+from nonsmooth.engine.flow.flow import hardest_pressed, is_violated, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -88,7 +88,6 @@ from nonsmooth.engine.native.kernel import (
     kernel,
     own_guard_at,
 )
-from nonsmooth.engine.numerics.roots import TRUSTED
 from nonsmooth.engine.numerics.vectors import length
 
 _SPACINGS = 4.0 * 2.0**-52
@@ -166,7 +165,6 @@ def _carry_out(S: Scalars, w: Floats, k: Integers, cause: int, which: int) -> in
 @kernel("i8(S, F, I)")
 def _step(S: Scalars, w: Floats, k: Integers) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
-    S.blind, S.follows_choice = 0, 1 if S.chosen_t == S.t else 0
     if S.mean_until - S.t <= S.time_tolerance:
         S.fresh = 0
         return update_at_event(S, w, k, AVERAGING, -1)
@@ -195,7 +193,6 @@ def _step(S: Scalars, w: Floats, k: Integers) -> int:
     if status != RUNNING:
         return _without_step(S, w, k, status)
     S.steps += 1
-    may_be_blind(S)
     high = first_crossing(S, w, k, S.h)
     for i in range(first_own_guard(S), first_end_guard(S)):
         if not abs(guard_at(S, w, k, i).end) < 1e300:
@@ -294,9 +291,6 @@ def _after_leap(S: Scalars, w: Floats, k: Integers) -> int:
 @kernel("i8(S, F, I)")
 def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     """Take over a step without an event, unless a slip has come to rest in it; return the status."""
-    ends = end_of_choices(S, w, k, S.h) if S.blind == 1 else -1.0
-    if ends >= 0.0:
-        return _without_choice(S, w, k, ends)
     if S.h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
@@ -304,12 +298,14 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
     if which >= 0 and S.h > S.time_tolerance:
         return _in_part(S, w, k)
     ended = _commit(S, w, k, S.h)
+    if S.blended == 1:
+        S.chosen_t = S.t
     if which >= 0:
         return _carry_out(S, w, k, IMPACT, which)
     which = stopping(S, w, k)
     if which >= 0:
         return _carry_out(S, w, k, SLIP_TO_STICK, which)
-    S.fresh = 1 if ended == 0 and S.chosen_t != S.t else 0
+    S.fresh = 1 if ended == 0 else 0
     if S.limit == BY_EVENT and S.fresh == 1 and S.failed == RUNNING and S.t_end - S.t > S.time_tolerance:
         # it was made to end where a gap is about to close
         which = _due_at_start(S, w, k)
@@ -325,27 +321,10 @@ def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     h = locate(S, w, k, S.h, high)
     if h < 0.0:
         return _in_part(S, w, k)
-    ends = end_of_choices(S, w, k, h) if S.blind == 1 else -1.0
-    if ends >= 0.0:
-        return _without_choice(S, w, k, ends)
     if h > S.t_end - S.t:
         S.limit = BY_END
         return _end_within(S, w, k)
     return _event(S, w, k, h, S.trigger)
-
-
-@kernel("i8(S, F, I, f8)")
-def _without_choice(S: Scalars, w: Floats, k: Integers, h: float) -> int:
-    """Take the step of ``h``, at whose end forces cannot be chosen any more, and what follows; return the status."""
-    S.fresh, S.limit, S.h = 0, BY_EVENT, h
-    if not try_step(S, w, k, h) <= TRUSTED:
-        return _in_part(S, w, k)
-    if h > S.t_end - S.t:
-        S.limit = BY_END
-        return _end_within(S, w, k)
-    right_hand_side(S, w, k, S.t + h, S.y_new, 1, 0)
-    write_guards(S, w, k, S.t + h, S.y_new, 1)
-    return _event(S, w, k, h, nearest_bound(S, w, k))
 
 
 @kernel("i8(S, F, I)")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.flow.choices import blend_choices, choose_at_end
 from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap, look_at_slip
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
@@ -25,7 +26,6 @@ from nonsmooth.engine.flow.guards import (
     evaluate_guards,
     first_fired,
     is_gap,
-    is_of_choice,
     keep_end,
     kinematic,
     stand_at,
@@ -80,6 +80,7 @@ def _asks_forces(S: Scalars, w: Floats, k: Integers) -> int:
 def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     state_within(S, w, k, h, theta, S.y_stage)
+    blend_choices(S, w, k, theta)
     evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
 
 
@@ -131,8 +132,7 @@ def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         contact = contact_at(S, w, k, c)
         if contact.mode != OPEN:
             for i in (normal_guard(c), friction_guard(S, c)):
-                blind = S.blind == 1 and is_of_choice(S, w, k, i) == 1
-                if guard_at(S, w, k, i).armed == 1 and (i == normal_guard(c) or contact.mode == STICK) and not blind:
+                if guard_at(S, w, k, i).armed == 1 and (i == normal_guard(c) or contact.mode == STICK):
                     theta = _lowest(S, w, k, h, i)
                     if theta > 0.0:
                         return theta
@@ -217,6 +217,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     """
     closed = _asks_forces(S, w, k)
     write_guards(S, w, k, S.t + h, S.y_new, 1)
+    choose_at_end(S, w, k, h)
     keep_end(S, w, k)
     bound_speeds(S, w, k)
     find_doubtful(S, w, k, h)
@@ -250,6 +251,7 @@ def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
         theta = _closed_before(S, w, k, h, 1.0, -1)
         if theta > 0.0:
             return theta
+    blend_choices(S, w, k, 1.0)
     if looks > 0:
         stand_at(S, w, k, S.t + h, S.y_new)
         for i in range(number_of_guards(S)):
@@ -373,6 +375,7 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
     # two or three do unless the guard is not smooth
     for _halving in range(PARTS):
         S.h = step
+        blend_choices(S, w, k, step / h)
         if not try_step(S, w, k, step) <= TRUSTED:
             return -1.0
         write_guards(S, w, k, S.t + step, S.y_new, 1)

@@ -91,6 +91,8 @@ CONTACT: Fields = {
         "mean_wait",
         "force",
         "null_space_force",
+        "choice_first",
+        "choice_end",
         "slack",
         "holds",
         "static_margin",

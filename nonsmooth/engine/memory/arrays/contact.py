@@ -47,6 +47,8 @@ ARRAYS = Arrays(
         "margin": per(1, "n_slots"),
         "acceleration": per(3, "n_slots"),
         "null_space_force": per(3, "n_slots"),
+        "choice_first": per(3, "n_slots"),
+        "choice_end": per(3, "n_slots"),
         "mean_force": per(3, "n_slots"),
         "mean_span": per(1, "n_slots"),
         "mean_way": per(1, "n_slots"),

@@ -30,8 +30,7 @@ ARRAYS = Arrays(
             "impacts",
             "policy",
             "halting",
-            "blind",
-            "follows_choice",
+            "blended",
             "recorded",
             "sample_index",
             "calls",
@@ -54,7 +53,6 @@ ARRAYS = Arrays(
             "next_sample",
             "crowd",
             "crowd_t",
-            "choice_way",
         ),
         # in which samples fill half of their room
         "sample_span": math.inf,
