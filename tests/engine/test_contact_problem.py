@@ -16,6 +16,7 @@ from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.model.delassus import write_delassus
+from tests.benchmarks.solvers import FRICTION, bodies, lay_out
 
 
 def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:
@@ -211,3 +212,28 @@ def test_painleve_with_two_solutions_takes_the_stable_one(past: int) -> None:
     assert found
     assert modes[0] == OPEN
     assert forces[0, 0] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("decades", [8, 14, 20])
+def test_directions_are_found_beside_contacts_with_next_to_no_force(decades: int) -> None:
+    """Normal forces so many decades apart: friction is along the acceleration of each slip that starts, soon."""
+    n = 8
+    for seed in range(50):
+        random = np.random.default_rng(seed)
+        problem = bodies(n, random)
+        normal = np.append(1.0, 10.0 ** random.uniform(-decades, 0.0, n - 1))
+        memory = lay_out(problem, 0)
+        memory.array("given", n)[:] = 1
+        memory.array("mode_tried", n)[:] = SLIDE
+        forces = memory.array("active_forces", 3 * n).reshape(n, 3)
+        forces[:, 0] = normal
+        slip = (problem.delassus @ forces.ravel() + problem.bias).reshape(n, 3)[:, 1:]
+        directions = slip / np.hypot(slip[:, 0], slip[:, 1])[:, None]
+        memory.array("active_directions", 2 * n).reshape(n, 2)[:] = directions
+        assert call_entry("polish", memory) == 1
+        assert memory.scalars["evaluations"][0] <= 10
+        slip = (problem.delassus @ forces.ravel() + problem.bias).reshape(n, 3)[:, 1:]
+        pull = forces[:, 1:] / normal[:, None]
+        assert np.hypot(pull[:, 0], pull[:, 1]) == pytest.approx(FRICTION)
+        across = pull[:, 0] * slip[:, 1] - pull[:, 1] * slip[:, 0]
+        assert across == pytest.approx(0.0, abs=1e-12 * np.max(np.abs(problem.bias)))

@@ -24,7 +24,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
-from nonsmooth.engine.flow.choices import choose_anew
+from nonsmooth.engine.flow.choices import choices_bend, choose_anew
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
 from nonsmooth.engine.flow.ending import end_features
@@ -318,6 +318,8 @@ def _whole_step(S: Scalars, w: Floats, k: Integers) -> int:
 def _step_to_event(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     """Locate the first event before the fraction ``high`` of the step and carry it out; return the status."""
     S.fresh, S.limit = 0, BY_EVENT
+    if choices_bend(S, w, k, high) == 1:
+        return _in_part(S, w, k)
     h = locate(S, w, k, S.h, high)
     if h < 0.0:
         return _in_part(S, w, k)

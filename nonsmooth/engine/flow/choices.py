@@ -9,9 +9,10 @@ these do so, too, but for the curvature of the motion, which the guards look at.
 from __future__ import annotations
 
 from nonsmooth.engine.delassus.islands import group_closed
+from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.guard_numbers import first_own_guard
-from nonsmooth.engine.flow.guards import has_fired, is_of_choice, write_guards
+from nonsmooth.engine.flow.guards import first_fired, has_fired, is_of_choice, write_guards
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
 
 
@@ -64,3 +65,16 @@ def blend_choices(S: Scalars, w: Floats, k: Integers, theta: float) -> None:
         for r in range(3):
             first, end = contact.choice_first[r], contact.choice_end[r]
             contact.null_space_force[r] = first + theta * (end - first)
+
+
+@kernel("i8(S, F, I, f8)")
+def choices_bend(S: Scalars, w: Floats, k: Integers, high: float) -> int:
+    """Return 1 if forces can be chosen at the fraction ``high`` of the step though those in between pass a bound there.
+
+    Where they have no room but that of one value the motion bends it, the less the shorter the step is.
+    """
+    fired = first_fired(S, w, k, 1, -1)
+    if S.blended == 0 or high == 1.0 or not 0 <= fired < first_own_guard(S) or is_of_choice(S, w, k, fired) == 0:
+        return 0
+    state_within(S, w, k, S.h, high, S.y_stage)
+    return int(right_hand_side(S, w, k, S.t + high * S.h, S.y_stage, 1, 0))

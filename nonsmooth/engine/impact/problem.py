@@ -12,7 +12,6 @@ import math
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.impact.clock import change_clock
 from nonsmooth.engine.impact.end import account, cut_short, empty, end_trapped, faded, finish, finished
-from nonsmooth.engine.impact.feeding import is_fed, watch_feeding
 from nonsmooth.engine.impact.friction import break_away, choose_friction
 from nonsmooth.engine.impact.guards import (
     ENERGY_GUARD,
@@ -176,7 +175,6 @@ def start_impact(S: Scalars, w: Floats, k: Integers, probe: float, seed: float) 
         w[S.impact_y + i] = 0.0
     S.phases = 0
     S.trigger = -1
-    watch_feeding(S)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)
         state = impact_state(w, S.impact_y, a)
@@ -417,8 +415,7 @@ def _pass_switch(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, 
     if S.n_active > 1 and change_clock(S, w, k) == 1:
         following = shortest if S.lone < 0 else _FAR * active_at(S, w, k, S.lone).impulse_scale
     contacts = S.n_colliding if windowed == 1 else S.n_active
-    over = S.phases > _LONG * contacts and faded(S, w, k, 0.5 * S.phases / contacts) == 1
-    if over or (windowed == 0 and is_fed(S, w, k, _LONG * contacts) == 1):
+    if S.phases > _LONG * contacts and faded(S, w, k, 0.5 * S.phases / contacts) == 1:
         cut_short(S, w, k)
     end_trapped(S, w, k)
     if windowed == 1:

@@ -21,7 +21,6 @@ ARRAYS = Arrays(
             "n_colliding",
             "may_be_lone",
             "phases_kept",
-            "phases_watched",
             "truncated",
             "slow_steps",
         ),
@@ -33,9 +32,6 @@ ARRAYS = Arrays(
             "faint",
             "guard_slope",
             "rest_speed",
-            "rubbed_watched",
-            "lost_watched",
-            "bouncing_watched",
         ),
     },
     floats={
