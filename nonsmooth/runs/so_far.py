@@ -24,6 +24,10 @@ class RunSoFar:
     _records: Records
     _engine: Engine
 
+    def __repr__(self) -> str:
+        """Return how far it is."""
+        return f"RunSoFar(t = {self.time:.9g} s; {self.n_events} events, {self.n_impacts} impacts)"
+
     @property
     def time(self) -> float:
         """Time reached [s]."""

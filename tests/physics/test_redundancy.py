@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 import nonsmooth as ns
-from bodies import ConstantVelocity, Plate, Rest, RigidBody, Sphere
+from bodies import ConstantVelocity, Harmonic, Plate, Rest, RigidBody, Sphere
 from laws import Coulomb
 from nonsmooth import ContactResult
 from nonsmooth.engine.memory.modes import IMPACT, STICK_TO_SLIP
@@ -237,3 +237,18 @@ def test_order_and_place_of_the_feet_change_no_force(build: Any, count: int) -> 
         found.append(lines[np.argsort(order)])
         assert np.all(np.linalg.norm(lines[:, 1:], axis=1) < 0.8 * lines[:, 0])
     np.testing.assert_allclose(found[1], found[0], rtol=0, atol=1e-10 * G)
+
+
+@pytest.mark.parametrize("count", [4, 5, 8])
+def test_bounds_of_forces_that_are_chosen_end_few_steps(build: Any, count: int) -> None:
+    """Shaken sideways up to 1 % below what friction holds, where one choice of forces is good for a short time only."""
+    mu, omega, angle = 0.4, 20.0 * math.pi, 0.6
+    amplitude = 0.99 * mu * G / omega**2
+    along = np.array([math.cos(angle), math.sin(angle), 0.0])
+    plate, block = Plate(Harmonic(amplitude, 10.0, axis_x=along[0], axis_y=along[1], axis_z=0.0)), _block(FEET[count])
+    system = ns.System([plate, block], G)
+    system.contact(plate, block, **build.laws(friction=mu))
+    system.place(block, position=(0.0, 0.0, HEIGHT), velocity=amplitude * omega * along)
+    solution = ns.simulate(system, 0.1)
+    assert len(solution.events) == 1
+    assert solution.counters.limits.get("event", 0) <= 2

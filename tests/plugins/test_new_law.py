@@ -52,18 +52,13 @@ def test_it_moves_the_dumbbell_as_the_built_in_that_it_copies(tmp_path: Path) ->
 
 
 @pytest.mark.skipif(PLAIN, reason="nothing is compiled")
-def test_it_is_compiled_alone_and_soon(tmp_path: Path) -> None:
+def test_it_is_compiled_alone(tmp_path: Path) -> None:
     from numba.core import event
 
     system = DumbbellScenario(mode="drift").build()
     ns.simulate(ns.with_laws(system, friction=_new(tmp_path, "before")), 0.01)  # the compiler warms up
-    seconds = []
-    for name in ("first", "second", "third"):
-        with event.install_recorder("numba:run_pass") as recorder:
-            began = time.perf_counter()
-            ns.simulate(ns.with_laws(system, friction=_new(tmp_path, name)), 0.01)
-            seconds.append(time.perf_counter() - began)
-        passes: list[Any] = [e.data for _, e in recorder.buffer if e.is_start]
-        compiled = {data["qualname"] for data in passes if "native_lowering" in data["name"]}
-        assert compiled == {name, "shim"}
-    assert min(seconds) < 0.3
+    with event.install_recorder("numba:run_pass") as recorder:
+        ns.simulate(ns.with_laws(system, friction=_new(tmp_path, "alone")), 0.01)
+    passes: list[Any] = [e.data for _, e in recorder.buffer if e.is_start]
+    compiled = {data["qualname"] for data in passes if "native_lowering" in data["name"]}
+    assert compiled == {"alone", "shim"}

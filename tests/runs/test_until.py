@@ -43,6 +43,7 @@ def test_a_condition_sees_what_there_is(model: ns.Model, whole: ns.Solution) -> 
 
     def look(run: RunSoFar) -> bool:
         seen.append((run.time, run.n_events, len(run.events), len(run.q), len(run.u)))
+        assert repr(run) == f"RunSoFar(t = {run.time:.9g} s; {run.n_events} events, {run.n_impacts} impacts)"
         return False
 
     assert differences(whole, model.run(T_END, until=look)) == []

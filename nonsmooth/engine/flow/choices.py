@@ -30,32 +30,6 @@ def choose_anew(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel("void(S, F, I, f8)")
-def choose_at_end(S: Scalars, w: Floats, k: Integers, h: float) -> None:
-    """Choose forces at the end of the step of ``h`` where those of its start, chosen there, pass a bound.
-
-    The guards must be written there, and are for the choice.
-    """
-    S.blended = 0
-    if S.chosen_t != S.t or S.stage_time > 0.0:
-        return
-    for i in range(first_own_guard(S)):
-        if is_of_choice(S, w, k, i) == 1 and has_fired(S, w, k, i) == 1:
-            S.blended = 1
-    if S.blended == 0:
-        return
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        for r in range(3):
-            contact.choice_first[r] = contact.null_space_force[r]
-    right_hand_side(S, w, k, S.t + h, S.y_new, 1, 0)
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        for r in range(3):
-            contact.choice_end[r] = contact.null_space_force[r]
-    write_guards(S, w, k, S.t + h, S.y_new, 1)
-
-
-@kernel("void(S, F, I, f8)")
 def blend_choices(S: Scalars, w: Floats, k: Integers, theta: float) -> None:
     """Take the forces between those chosen at the start and the end of the step at the fraction ``theta`` of it."""
     if S.blended == 0:
@@ -65,6 +39,51 @@ def blend_choices(S: Scalars, w: Floats, k: Integers, theta: float) -> None:
         for r in range(3):
             first, end = contact.choice_first[r], contact.choice_end[r]
             contact.null_space_force[r] = first + theta * (end - first)
+
+
+@kernel("i8(S, F, I, f8, i8)")
+def _choose_at(S: Scalars, w: Floats, k: Integers, elapsed: float, y: int) -> int:
+    """Choose forces at the time ``elapsed`` in the step and the state ``y``; return 1 if there are any.
+
+    Where there are none, what lets forces hold that were chosen would let their end be late.
+    """
+    if right_hand_side(S, w, k, S.t + elapsed, y, 1, 0) == 1:
+        return 1
+    for c in range(S.n_contacts):
+        contact_at(S, w, k, c).slack = 0.0
+    return 0
+
+
+@kernel("i8(S, F, I)")
+def _passes_bound(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if a force that is chosen has passed its bound."""
+    for i in range(first_own_guard(S)):
+        if is_of_choice(S, w, k, i) == 1 and has_fired(S, w, k, i) == 1:
+            return 1
+    return 0
+
+
+@kernel("void(S, F, I, f8)")
+def choose_at_end(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+    """Choose forces at the end of the step of ``h`` where those of its start, chosen there, pass a bound.
+
+    The guards must be written there, and are for the choice.
+    """
+    S.blended = 0
+    if S.chosen_t != S.t or S.stage_time > 0.0 or _passes_bound(S, w, k) == 0:
+        return
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        for r in range(3):
+            contact.choice_first[r] = contact.null_space_force[r]
+    S.blended = 1
+    if _choose_at(S, w, k, h, S.y_new) == 0:
+        right_hand_side(S, w, k, S.t + h, S.y_new, 0, 0)
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        for r in range(3):
+            contact.choice_end[r] = contact.null_space_force[r]
+    write_guards(S, w, k, S.t + h, S.y_new, 1)
 
 
 @kernel("i8(S, F, I, f8)")
@@ -77,4 +96,4 @@ def choices_bend(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     if S.blended == 0 or high == 1.0 or not 0 <= fired < first_own_guard(S) or is_of_choice(S, w, k, fired) == 0:
         return 0
     state_within(S, w, k, S.h, high, S.y_stage)
-    return int(right_hand_side(S, w, k, S.t + high * S.h, S.y_stage, 1, 0))
+    return int(_choose_at(S, w, k, high * S.h, S.y_stage))
