@@ -28,7 +28,7 @@ from bodies import (
     SuperellipsoidBody,
 )
 from bodies.inertia import tensor_of
-from laws import Coulomb, EnergeticImpact, Frictionless, HertzCompliant, Unilateral
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.interfaces import Shape
 from tests.bodies.carriers import Stand
 from tests.bodies.polytopes import tetrahedron
@@ -302,35 +302,3 @@ def test_a_rounded_disc_rolls_in_a_circle() -> None:
     axes = Rotation.from_quat(np.roll(solution.q_end[3:], -1)).as_matrix()
     expected = Rotation.from_rotvec([0.0, 0.0, 0.5 * rate]).apply(axis)
     np.testing.assert_allclose(axes[:, 2], expected, rtol=0, atol=1e-7)
-
-
-def test_a_rim_presses_into_the_edge_of_a_sharp_wedge_on_springs() -> None:
-    """Its nearest point is deep under the edge beside the wedge, and the rim goes through the wedge all the same.
-
-    The crossing was taken for one of bodies that had passed each other, and the disc fell into the wedge with no
-    contact of its own (random system 7200985).
-    """
-    points = (
-        *((0.005604, -0.005602, -0.001826), (-0.00542, 0.005892, 0.00228)),
-        *((-0.003377, -0.004201, 0.005911), (-0.004067, -0.000831, 0.001241)),
-    )
-    wedge, disc = HullBody(points, density=7800.0), DiscBody(0.002363, 10.0)
-    system = ns.System([wedge, disc], gravity=0.0)
-    system.contact(wedge, disc, normal=HertzCompliant(421000.0), friction=Frictionless())
-    system.place(
-        wedge,
-        orientation=(0.7598482787595104, 0.25752809447728914, -0.593862217865521, 0.060312022126193125),
-        velocity=(0.0599, -0.2527, 0.3332),
-        angular_velocity=(-28.818, 0.4328, 37.3777),
-    )
-    system.place(
-        disc,
-        position=(-0.0006204, 0.0019205, 0.0034711),
-        orientation=(-0.5514451240864715, 0.6972591568976219, 0.4477781007592635, -0.0960870216215521),
-        velocity=(0.4028, -0.3056, -0.741),
-    )
-    solution = ns.simulate(system, 1e-3, sample_interval=1e-3)
-    causes, triggers = solution.events.causes(), solution.triggers()
-    crossing = [cause for cause, name in zip(causes, triggers, strict=True) if "(12)" in name]
-    assert crossing == ["touch of a compliant contact", "lift-off"]
-    assert solution.energy.residual < 1e-8

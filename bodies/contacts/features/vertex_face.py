@@ -87,27 +87,6 @@ def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float
 
 
 @compiled
-def passes_through(
-    frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float, tx: float, ty: float, tz: float
-) -> bool:
-    """Return whether points of the world from (x, y, z) - t to (x, y, z) + t lie inside of the planes of the faces."""
-    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
-    tx, ty, tz = vector_in_body(frame, tx, ty, tz)
-    first, last = -1.0, 1.0
-    for i in range(int(n_faces)):
-        face = FACE * i
-        height = plane_height(faces, face, x, y, z)
-        slope = faces[face] * tx + faces[face + 1] * ty + faces[face + 2] * tz
-        if slope > 0.0:
-            last = min(last, -height / slope)
-        elif slope < 0.0:
-            first = max(first, -height / slope)
-        elif height > 0.0:
-            return False
-    return first <= last
-
-
-@compiled
 def nearest_face(
     frame: Floats,
     other: Floats,

@@ -12,7 +12,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.features.curvature import write_sweep
 from bodies.contacts.features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
-from bodies.contacts.features.vertex_face import passes_through
+from bodies.contacts.features.vertex_face import height_over
 from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, write_part
 from bodies.contacts.frustum.frustum_edge import (
     astray_of_edge,
@@ -88,20 +88,16 @@ def _aside(
     px: float,
     py: float,
     pz: float,
-    tx: float,
-    ty: float,
-    tz: float,
     x: float,
     y: float,
     z: float,
 ) -> bool:
     """Return whether bodies that seem to overlap at a crossing are on the far sides of each other.
 
-    Then neither has the other's point: the frustum's in the world, on the rim, which is straight by t on either side,
-    the edge's in the axes of the frustum.  Of a sharp rim across a sharp edge neither has it as well, so that it tells
-    of deep overlaps only.  Under the edge of a wedge the rim's nearest point may be beside it, and the rim go through.
+    Then neither has the other's point: the frustum's in the world, the edge's in the axes of the frustum.  Of a sharp
+    rim across a sharp edge neither has it as well, so that it tells of deep overlaps only.
     """
-    if passes_through(b, n_faces, faces, px, py, pz, tx, ty, tz):
+    if height_over(b, n_faces, faces, px, py, pz) <= 0.0:
         return False
     outside, _, _, _ = nearest_part(frustum, z, math.sqrt(x * x + y * y))
     return bool(outside > 0.0)
@@ -184,13 +180,9 @@ def evaluate_rim_edge(
     overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, wx, wy, wz, cx, cy, cz)
     past = past_end(gap, over, crossing, astray, overlap, size)
     deep = past <= 0.0 and total == 0.0 and n_faces > 0.0 and gap < -THROUGH * size
+    if deep and _aside(b, frustum, n_faces, faces, cx + qx, cy + qy, cz + qz, wx, wy, wz):
+        past = -gap
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    if deep:
-        # so far the rim leaves its tangent by less than the depth
-        straight = math.sqrt(-2.0 * wide * gap)
-        rx, ry, rz = forth(axes, straight * tx, straight * ty, 0.0)
-        if _aside(b, frustum, n_faces, faces, qx, qy, qz, rx, ry, rz, wx, wy, wz):
-            past = -gap
     write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, nx, ny, nz, qx, qy, qz, overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, part, axes[2], axes[5], axes[8], ux, uy, uz, ex * nx + ey * ny, wide)
