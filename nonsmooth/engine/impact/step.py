@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.implicit_slip import oppose_slips
 from nonsmooth.engine.contact.problem import slip_coefficient
 from nonsmooth.engine.delassus.delassus import diagonal_block
@@ -159,23 +158,6 @@ def _lay_stage(S: Scalars, w: Floats, k: Integers, ahead: float, y: int, n: int,
             active.free[r] = active.rate[r] / ahead if moves else 0.0
 
 
-@kernel("i8(S, F, I)")
-def _oppose_by_sweeps(S: Scalars, w: Floats, k: Integers) -> int:
-    """Find the friction that opposes all slips from where sweeps lead to; return 1 if found.
-
-    As the normal forces are given, sweeps always lead nearer.
-    """
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        active.normal_held, active.mu_static = 0, active.mu
-    gauss_seidel(S, w, k, SWEEPS)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        if active.mode_past == SLIDE:
-            active.mode_tried = STICK if active.at_rest == 1 and active.tangent_held == 1 else SLIDE
-    return int(oppose_slips(S, w, k))
-
-
 @kernel("i8(S, F, I, f8, i8)")
 def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> int:
     """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
@@ -192,7 +174,7 @@ def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> in
         for i in range(n):
             w[guess + i] = w[here + i]
         _lay_stage(S, w, k, ahead, out, n, guess)
-        if oppose_slips(S, w, k) == 0 and _oppose_by_sweeps(S, w, k) == 0:
+        if oppose_slips(S, w, k) == 0:
             return 0
         for a in range(S.n_active):
             active, state = active_at(S, w, k, a), impact_state(w, out, a)

@@ -30,7 +30,6 @@ ARRAYS = Arrays(
             "impacts",
             "policy",
             "halting",
-            "blended",
             "recorded",
             "sample_index",
             "calls",
@@ -56,8 +55,6 @@ ARRAYS = Arrays(
         ),
         # in which samples fill half of their room
         "sample_span": math.inf,
-        # nothing has happened yet
-        "chosen_t": -math.inf,
     },
     floats={
         "event_head": fixed(5),

@@ -19,6 +19,7 @@ ARRAYS = Arrays(
             "suspect",
             "follows",
             "replaced",
+            "blended",
             "n_doubtful",
             "looked",
             "n_astray",
@@ -54,6 +55,7 @@ ARRAYS = Arrays(
         ),
         # nothing has happened yet
         "feature_t": -math.inf,
+        "chosen_t": -math.inf,
         # no body is on a course
         "course_end": math.inf,
     },
