@@ -104,16 +104,12 @@ def end_trapped(S: Scalars, w: Floats, k: Integers) -> int:
     return 1
 
 
-@kernel("i8(S, F, I, f8)")
-def faded(S: Scalars, w: Floats, k: Integers, waves: float) -> int:
-    """Return 1 if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce.
-
-    Each of its ``waves`` takes a contact time, in which forces that are none of the impact go on accelerating: what
-    they make of so long a time is not told from a bounce.
-    """
+@kernel("i8(S, F, I)")
+def faded(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return 1 if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
     small = max(S.impact_rtol, 1e-11)
     # behind the impact, what is within the tolerance of velocities is no approach
-    slowest = max(waves * S.slow_speed, S.velocity_tolerance)
+    slowest = max(S.slow_speed, S.velocity_tolerance)
     slow = max(slowest, small * S.speed_scale)
     for a in range(S.n_active):
         active = active_at(S, w, k, a)

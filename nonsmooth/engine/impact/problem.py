@@ -414,8 +414,7 @@ def _pass_switch(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, 
     _switch(S, w, k, first_step(S, shortest), S.trigger)
     if S.n_active > 1 and change_clock(S, w, k) == 1:
         following = shortest if S.lone < 0 else _FAR * active_at(S, w, k, S.lone).impulse_scale
-    contacts = S.n_colliding if windowed == 1 else S.n_active
-    if S.phases > _LONG * contacts and faded(S, w, k, 0.5 * S.phases / contacts) == 1:
+    if S.phases > _LONG * (S.n_colliding if windowed == 1 else S.n_active) and faded(S, w, k) == 1:
         cut_short(S, w, k)
     end_trapped(S, w, k)
     if windowed == 1:
