@@ -296,7 +296,7 @@ def _spread(distance: float) -> int:
 
 def spreads_forces() -> None:
     """Spread forces that are next to a bound, and end that where there are no others."""
-    assert 0 < _spread(1e-9) < 40
+    assert 0 < _spread(1e-9) < 10
 
 
 def _stretches(way: float) -> int:
@@ -438,7 +438,7 @@ KERNELS: dict[str, tuple[Any, Callable[[], None]]] = {
     "flow.mean_motion._SHARE": (1e9, leads_no_gap_to_where_nothing_explains_it),
     "events.step_length._ASTRAY": (1e9, leads_no_gap_to_where_nothing_explains_it),
     "contact.null_space_forces._AMPLE": (0.0, spreads_forces),
-    "contact.null_space_forces._LEAST": (0.0, spreads_forces),
+    "contact.null_space_forces._RUNGS": (1000, spreads_forces),
     "flow.leap._PART": (1.0, runs_across_a_body),
     "flow.leap._MOST": (10**9, runs_far),
     "contact.cone._FLAT": (0.0, rubs_on_the_bound),

@@ -23,7 +23,8 @@ from tests.engine.plain_cases import CASES
 NOT_ENTERED = {
     "contact/search": {"_accept_raw", "_rubs"},
     "contact/distribution": {"_add_disc_curve", "_disc_excess"},
-    "events/event_loop": {"_up_to_end", "_cause_at_start"},
+    "events/event_loop": {"_up_to_end"},
+    "flow/choices": {"_choose_at"},
     "impact/clock": {"_restore_phases"},
     "impact/end": {"cut_short", "faded"},
     "events/averaging": {"average_island_of", "end_averaging"},

@@ -9,8 +9,6 @@ the contacts let go.
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.contact.unknowns import force_of, set_force
@@ -29,8 +27,8 @@ from nonsmooth.engine.numerics.vectors import length
 
 _AMPLE = 1e-2
 """A distance to the bounds of this part of the largest force is as good as more."""
-_LEAST = 1e-11
-"""A distance below this part of the largest force is none."""
+_RUNGS = 18
+"""A distance of the largest force quartered more often than that is none: a hundred-thousand-millionth of it."""
 _ARRIVED = 1e-12
 """Forces may be so much out of their cones, relative to the largest, where they count as within."""
 _SLACK = 2.0 * NO_FORCE
@@ -75,13 +73,12 @@ def _choose(S: Scalars, w: Floats, k: Integers, largest: float, rung: int) -> in
 @kernel("i8(S, F, I, f8)")
 def _choose_farthest(S: Scalars, w: Floats, k: Integers, largest: float) -> int:
     """Choose forces as far off every bound as can be, within a factor; return 1 if there are any."""
-    near, far = int(-math.log(_LEAST) / math.log(4.0)), 0
-    rung = 1
-    while _choose(S, w, k, largest, rung) == 0:
-        if rung == near:
+    near, far = 1, 0
+    while _choose(S, w, k, largest, near) == 0:
+        if near == _RUNGS:
             return 0
-        far, rung = rung, min(2 * rung, near)
-    near = rung
+        far, near = near, min(2 * near, _RUNGS)
+    rung = near
     while near - far > 1:
         rung = (near + far) // 2
         if _choose(S, w, k, largest, rung) == 1:
