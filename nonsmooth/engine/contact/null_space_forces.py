@@ -28,7 +28,7 @@ from nonsmooth.engine.numerics.vectors import length
 _AMPLE = 1e-2
 """A distance to the bounds of this part of the largest force is as good as more."""
 _RUNGS = 18
-"""A distance of the largest force quartered more often than that is none: a hundred-thousand-millionth of it."""
+"""A distance of the largest force quartered more often than that, 1.5e-11 of it, is none."""
 _ARRIVED = 1e-12
 """Forces may be so much out of their cones, relative to the largest, where they count as within."""
 _SLACK = 2.0 * NO_FORCE
