@@ -90,10 +90,13 @@ def choose_at_end(S: Scalars, w: Floats, k: Integers, h: float) -> None:
 def choices_bend(S: Scalars, w: Floats, k: Integers, high: float) -> int:
     """Return 1 if forces can be chosen at the fraction ``high`` of the step though those in between pass a bound there.
 
-    Where they have no room but that of one value the motion bends it, the less the shorter the step is.
+    Where they have no room but that of one value the motion bends it, the less the shorter the step is; within the time
+    tolerance that is an event.
     """
+    if S.blended == 0 or high == 1.0 or S.h <= S.time_tolerance:
+        return 0
     fired = first_fired(S, w, k, 1, -1)
-    if S.blended == 0 or high == 1.0 or not 0 <= fired < first_own_guard(S) or is_of_choice(S, w, k, fired) == 0:
+    if not 0 <= fired < first_own_guard(S) or is_of_choice(S, w, k, fired) == 0:
         return 0
     state_within(S, w, k, S.h, high, S.y_stage)
     return int(_choose_at(S, w, k, high * S.h, S.y_stage))
