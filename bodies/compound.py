@@ -16,6 +16,7 @@ from bodies.values import unit_quaternion, vector
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.look import Look
 from nonsmooth.rotations import rotation
 
 
@@ -115,6 +116,12 @@ class Compound(FreeBody):
     def shapes(self) -> tuple[Shape, ...]:
         """Those of all parts, in the axes of the compound."""
         return self._shapes
+
+    @property
+    def sketch(self) -> tuple[Look, ...]:
+        """Lines from part to part and back to the first, for what holds them together."""
+        places = np.array([part.position for part in self.parts]) - self.centre
+        return (Look.polyline(*places, places[0]),)
 
 
 def _symmetric(tensor: Vector) -> tuple[tuple[float, ...], ...]:

@@ -9,6 +9,7 @@ from typing import final
 from bodies.free import FreeBody
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
 
 
@@ -66,3 +67,9 @@ class Dumbbell(FreeBody):
         """Balls 1 and 2."""
         half = self.centre_distance / 2.0
         return Sphere(self.radius, x=-half), Sphere(self.radius, x=half)
+
+    @property
+    def sketch(self) -> tuple[Look, ...]:
+        """The rod."""
+        half = self.centre_distance / 2.0
+        return (Look.polyline((-half, 0.0, 0.0), (half, 0.0, 0.0)),)

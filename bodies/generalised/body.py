@@ -12,13 +12,14 @@ from types import MappingProxyType
 from typing import Any, final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from bodies.generalised.checks import check_equations
 from bodies.generalised.coordinate import Coordinate
-from bodies.generalised.equations import Equations, evaluator
+from bodies.generalised.equations import Equations, Part, evaluator, own_names
 from bodies.generalised.example import cart_pendulum
 from bodies.generalised.frames import Function, MovingFrame
-from bodies.generalised.sample import Sampler, check_signatures
+from bodies.generalised.sample import GRAVITY, Sampler, check_signatures
 from bodies.values import Word, read_start
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
@@ -57,6 +58,9 @@ class GeneralisedBody(Body):
         ``power(t, q, u, ...)`` returns the power of those forces in h that have no potential, dampers and motors [W];
         without it h must be that of Lagrange's equations.  With it the body has one more coordinate, the last: the work
         of these forces [J].  In the energy account it comes off the potential energy.
+    drawn : callable, optional
+        ``drawn(q, ...)`` returns the ends of lines [m], shape [m, 2, 3], that stand for the mechanism in pictures.  It
+        is not compiled.
     forcing_period : float, optional
         Shortest time over which h changes by itself [s].
 
@@ -77,6 +81,7 @@ class GeneralisedBody(Body):
     moving_frames: tuple[MovingFrame, ...] = ()
     constants: Mapping[str, Value] = field(default_factory=dict)
     power: Callable[..., float] | None = None
+    drawn: Callable[..., ArrayLike] | None = None
     forcing_period: float | None = parameter(
         None, doc="shortest time over which the forces change by themselves", unit="s", above=0.0
     )
@@ -98,7 +103,9 @@ class GeneralisedBody(Body):
                 names,
                 "Give Coordinate objects.",
             )
-        check_signatures("GeneralisedBody", self._equations, self.constants)
+        check_signatures("GeneralisedBody", self._equations.parts(), {**self.constants, **GRAVITY})
+        if self.drawn is not None:
+            check_signatures("GeneralisedBody", [Part("drawn", "drawn", "drawn", self.drawn, 0)], self.constants)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields; a read-only view of constants cannot be pickled."""
@@ -125,6 +132,13 @@ class GeneralisedBody(Body):
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """The shapes of every moving frame."""
         return tuple(frame.carried for frame in self.moving_frames)
+
+    def strokes(self, q: Vector) -> Vector:
+        """Return what ``drawn`` returns."""
+        if self.drawn is None:
+            return super().strokes(q)
+        own = {name: self.constants[name] for name in own_names(self.drawn, "drawn")}
+        return np.asarray(self.drawn(q, **own), dtype=float).reshape(-1, 2, 3)
 
     @property
     def q_labels(self) -> NamesAndUnits:

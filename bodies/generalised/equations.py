@@ -19,6 +19,7 @@ LEADING = {
     "force": ("t", "q", "u", "out"),
     "potential": ("q",),
     "power": ("t", "q", "u"),
+    "drawn": ("q",),
     "pose": ("q", "out"),
     "jacobian": ("q", "out"),
     "bias": ("q", "u", "out"),

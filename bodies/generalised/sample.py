@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies.generalised.equations import GUARD, LEADING, Equations, own_names, places, probe
+from bodies.generalised.equations import GUARD, LEADING, Equations, Part, own_names, places, probe
 from nonsmooth.binding.call import body_caller
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.parameters import Value
@@ -17,12 +17,12 @@ from nonsmooth.parameters import Value
 Vector = NDArray[np.float64]
 
 _SENTINEL = -7.0e250
-_GRAVITY = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
+GRAVITY = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
 """Gravity of the checks [m/s^2], which must hold with any."""
 
 
-def check_signatures(name: str, equations: Equations, constants: Mapping[str, Value]) -> None:
-    """Look at what the functions take.
+def check_signatures(name: str, parts: Sequence[Part], known: Mapping[str, Value]) -> None:
+    """Look at what the functions take, besides their leading arguments out of what is known.
 
     Raises
     ------
@@ -31,8 +31,7 @@ def check_signatures(name: str, equations: Equations, constants: Mapping[str, Va
     UnknownName
         If one asks for a constant that nobody gives.
     """
-    known = {**constants, **_GRAVITY}
-    for _, part, role, function, _ in equations.parts():
+    for _, part, role, function, _ in parts:
         expected = LEADING[role]
         if not inspect.isfunction(function):
             raise InvalidInput(f"{name}.{part}", "must be a plain function", function, f"Write {_form(role)}.")
@@ -58,7 +57,7 @@ class Sampler:
         self.equations = equations
         self.places = places(equations)
         self._functions = {part.name: part.function for part in equations.parts()}
-        self._call = body_caller(probe(equations), {**constants, **_GRAVITY}, name)
+        self._call = body_caller(probe(equations), {**constants, **GRAVITY}, name)
         last, start = self.places[-1]
         self._size = start + last.size + GUARD
 

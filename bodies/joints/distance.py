@@ -6,8 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
+import numpy as np
+
 from bodies.joints.rows import distance_row
 from nonsmooth.interfaces import Joint
+from nonsmooth.interfaces.solid import Vector
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 from nonsmooth.vectors import vector
@@ -54,3 +57,8 @@ class Distance(Joint):
     def evaluator(self) -> Callable[..., None]:
         """The rows."""
         return _evaluate
+
+    @property
+    def ends(self) -> Vector:
+        """The two points [m], shape [2, 3]."""
+        return np.array([self.first, self.second], dtype=float)

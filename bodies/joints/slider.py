@@ -6,9 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
+import numpy as np
+
 from bodies.joints.rows import angle_row, point_row
 from bodies.values import turned_back
 from nonsmooth.interfaces import Joint
+from nonsmooth.interfaces.solid import Vector
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 from nonsmooth.vectors import perpendiculars, unit_vector, vector
@@ -84,3 +87,8 @@ class Slider(Joint):
     def evaluator(self) -> Callable[..., None]:
         """The rows."""
         return _evaluate
+
+    @property
+    def ends(self) -> Vector:
+        """The two points [m], shape [2, 3]."""
+        return np.array([self.first, self.second], dtype=float)

@@ -6,8 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
+import numpy as np
+
 from nonsmooth.engine.memory.blocks import LOAD_MOMENT, LOAD_POINT, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Load
+from nonsmooth.interfaces.solid import Vector
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 from nonsmooth.vectors import vector
@@ -63,3 +66,8 @@ class Bushing(Load):
     def evaluator(self) -> Callable[..., None]:
         """Force, point and moment."""
         return _evaluate
+
+    @property
+    def ends(self) -> Vector:
+        """The two points [m], shape [2, 3]."""
+        return np.array([self.first, self.second], dtype=float)

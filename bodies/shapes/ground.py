@@ -6,7 +6,10 @@ import math
 from abc import abstractmethod
 from typing import final
 
+import numpy as np
+
 from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.look import Look
 
 
 class Ground(Shape):
@@ -34,3 +37,9 @@ class Ground(Shape):
     def ceiling(self) -> float:
         """The height [m]."""
         return self.height
+
+    @property
+    @final
+    def look(self) -> Look:
+        """A plane without end."""
+        return Look(np.array([[0.0, 0.0, self.height]]), sheet=True)

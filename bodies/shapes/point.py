@@ -10,6 +10,7 @@ import numpy as np
 
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.convex_solid import ConvexSolid
+from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
 
 
@@ -32,3 +33,8 @@ class Point(Shape):
         """The point."""
         place = np.array([self.x, self.y, self.z])
         return ConvexSolid(lambda direction: place)
+
+    @property
+    def look(self) -> Look:
+        """A mark."""
+        return Look.mark((self.x, self.y, self.z))

@@ -19,6 +19,7 @@ from bodies.shapes.polytope import MOST_VERTICES
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
@@ -135,3 +136,8 @@ class TriangleMesh(Shape):
         """Return its vertices in the body frame [m], shape [n, 3], and its triangles, shape [m, 3]."""
         mesh = self.surface.mesh
         return self._placed(mesh.vertices), mesh.faces
+
+    @property
+    def look(self) -> Look:
+        """The drawing."""
+        return Look.solid(*self.drawing())

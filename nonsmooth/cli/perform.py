@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import cast
 
@@ -23,14 +23,22 @@ Told = Callable[[float, float, int], None]
 """Takes the time reached, the end time [s] and the events so far."""
 Compute = Callable[[Told], Solution]
 """From what takes the progress to the solution."""
+Look = Callable[[Solution], None]
+"""What else is done with it."""
 
 
 def perform(
-    job: request.Job, head: report.Report, compute: Compute, folder: Path | None, accept: bool, troubles: list[str]
+    job: request.Job,
+    head: report.Report,
+    compute: Compute,
+    folder: Path | None,
+    accept: bool,
+    troubles: list[str],
+    looks: Sequence[Look] = (),
 ) -> report.Report:
     """Compute a solution, save what there is to save, and return the report; ``head`` is its beginning."""
     scenario = job.scenario
-    solution, status, message = _computed(compute)
+    solution, status, message = computed(compute)
     outcome: report.Report = head | {"status": status, "message": message} | report.of_solution(solution)
     outcome |= {"final": None, "summary": None, "units": {**report.UNITS, **scenario.units}}
     if solution is None:
@@ -49,10 +57,13 @@ def perform(
         _save_figures(job, solution, folder, troubles)
         if not troubles:
             tell(f"results are in {folder}")
+    for look in looks:
+        with results.noting(troubles, "the view"):
+            look(solution)
     return outcome
 
 
-def _computed(compute: Compute) -> tuple[Solution | None, str, str]:
+def computed(compute: Compute) -> tuple[Solution | None, str, str]:
     """Return the solution, as far as there is one, the status and why the run stopped."""
     progress = on_standard_error()
 

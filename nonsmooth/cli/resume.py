@@ -48,7 +48,7 @@ def execute(arguments: argparse.Namespace) -> bool:
 def _perform(output: Output, trust: bool, troubles: list[str]) -> report.Report:
     extras.require(extras.PICTURES)
     folder = SolutionFolder.opened(output)
-    name, job = _job(output, folder, trust)
+    name, job = job_of(output, folder, trust)
     system = job.build()
     check_resumable(output)
 
@@ -59,7 +59,7 @@ def _perform(output: Output, trust: bool, troubles: list[str]) -> report.Report:
     return perform(job, {"scenario": name, **job.head()}, compute, output.folder, False, troubles)
 
 
-def _job(output: Output, folder: SolutionFolder, trust: bool) -> tuple[str, request.Job]:
+def job_of(output: Output, folder: SolutionFolder, trust: bool) -> tuple[str, request.Job]:
     """Return what ran: a scenario by its name, all else by what the folder says of its system.
 
     No Python file is executed because the folder names it, unless the user trusts it.

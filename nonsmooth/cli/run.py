@@ -8,7 +8,7 @@ import json
 import sys
 from typing import Any
 
-from nonsmooth.cli import acceptance, engine, extras, law, report, request
+from nonsmooth.cli import acceptance, engine, extras, law, report, request, view
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.perform import Told, perform
 from nonsmooth.results.output import Output
@@ -39,6 +39,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--accept", action="store_true", help="judge the run by the scenario's own criteria; exit status 1 if one fails"
     )
+    command.add_argument("--view", action="store_true", help="play it in the browser")
     command.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
     command.set_defaults(execute=execute)
 
@@ -63,9 +64,8 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
     if arguments.out is not None:
         extras.require(extras.PICTURES)
         asked = {name: getattr(arguments, name) for name in ("scenario", "set", "law", "engine")}
-        title = str(scenario.resolved().get("title", type(scenario).title))
         folder = Output.to(arguments.out).folder
-        output = Output(folder, title, asked, json.loads(report.as_json(head)))
+        output = Output(folder, view.title_of(scenario), asked, json.loads(report.as_json(head)))
         check_free(output)
         files.prepare(folder)
 
@@ -78,4 +78,5 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
             output=output,
         )
 
-    return perform(job, head, compute, folder, arguments.accept, troubles)
+    looks = [view.in_browser(view.title_of(scenario))] if arguments.view else []
+    return perform(job, head, compute, folder, arguments.accept, troubles, looks)

@@ -143,8 +143,13 @@ class Visitor:
                 self._put_state(row)
                 look(i)
 
+    @property
+    def solves(self) -> bool:
+        """Whether the engine can be followed between stored states, and asked for forces."""
+        return {"delassus", "contact", "flow"} <= set(self._engine.layers)
+
     def _check_solves(self, what: str) -> None:
-        if not {"delassus", "contact", "flow"} <= set(self._engine.layers):
+        if not self.solves:
             raise InvalidInput(
                 "Solution",
                 f"is known {what} only where the engine has the layers delassus, contact and flow, which solve for it",

@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.shape import Shape
 from nonsmooth.parameters import Component
 
@@ -44,6 +45,18 @@ class Body(Component, ABC):
     @abstractmethod
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """The shapes that each frame carries."""
+
+    @property
+    def sketch(self) -> tuple[Look, ...]:
+        """What is seen of each frame besides its shapes, as a rod that touches nothing; none by default."""
+        return ()
+
+    def strokes(self, q: Vector) -> Vector:
+        """Return the ends of lines to draw at coordinates q [m], shape [n, 2, 3], in world axes; none by default.
+
+        They are for what no frame carries, as the links of a mechanism; their number is always the same.
+        """
+        return np.zeros((0, 2, 3))
 
     @property
     @abstractmethod

@@ -10,6 +10,7 @@ import numpy as np
 
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.convex_solid import ConvexSolid
+from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.shape import Shape
 
 
@@ -63,6 +64,12 @@ class ConvexShape(Shape):
         fineness : int
             Number of edges round a full circle, at least 3.
         """
+
+    @property
+    @final
+    def look(self) -> Look:
+        """The drawing."""
+        return Look.solid(*self.drawing())
 
     @property
     def set_back(self) -> float:

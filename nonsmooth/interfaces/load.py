@@ -5,6 +5,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 
+import numpy as np
+
+from nonsmooth.interfaces.solid import Vector
 from nonsmooth.parameters import Component
 
 
@@ -23,3 +26,8 @@ class Load(Component, ABC):
     @abstractmethod
     def evaluator(self) -> Callable[..., None]:
         """The function of point 1."""
+
+    @property
+    def ends(self) -> Vector:
+        """Where it acts, each point in the frame of its body [m], shape [2, 3], to be drawn; the origins by default."""
+        return np.zeros((2, 3))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 
+from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.solid import Solid
 from nonsmooth.parameters import Component
 
@@ -18,7 +19,8 @@ class Shape(Component, ABC):
     2. knows no body and no contact: pairs of shapes are the business of ContactKinematics;
     3. may say by ``advice`` what to do where no kinematics is known for a pair with it;
     4. should give the ``solid`` that it bounds, where it has one: without it, what overlaps and what is met on a way is
-       told by the gaps of contacts alone.
+       told by the gaps of contacts alone;
+    5. may say by ``look`` how it is drawn.
     """
 
     def parameters(self) -> dict[str, float]:
@@ -68,3 +70,8 @@ class Shape(Component, ABC):
     def solid(self) -> Solid | None:
         """What it encloses; None, if it is not bounded or not known, by default."""
         return None
+
+    @property
+    def look(self) -> Look:
+        """What is seen of it; by default the convex hull of what it encloses, or else a mark at the origin."""
+        return Look.mark((0.0, 0.0, 0.0)) if self.solid is None else Look.spanned(self.solid)

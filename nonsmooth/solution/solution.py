@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     import xarray
 
     from nonsmooth.histories.contact_forces import ContactForces
+    from nonsmooth.histories.contact_impulses import ContactImpulses
     from nonsmooth.histories.energies import Energies
     from nonsmooth.histories.joint_forces import JointForces
     from nonsmooth.histories.poses import Poses
@@ -310,6 +312,12 @@ class Solution:
 
         return ContactForces.of(self, times)
 
+    def contact_impulses(self) -> ContactImpulses:
+        """Return points, normals and impulses of the contacts of all events, in world axes."""
+        from nonsmooth.histories.contact_impulses import ContactImpulses
+
+        return ContactImpulses.of(self)
+
     def joint_forces(self, times: ArrayLike | None = None) -> JointForces:
         """Return forces and moments that the joints bear at times, which are those of :meth:`at`.
 
@@ -347,6 +355,41 @@ class Solution:
         from nonsmooth.histories.distances import distances
 
         return distances(self, first, second, times, by)
+
+    def to_html(self, path: Path | str, *, title: str = "", most_knots: int = 4000) -> Path:
+        """Write a page that plays the run in a browser, from the file alone; return its path.
+
+        Parameters
+        ----------
+        path : Path or str
+            The file, which is replaced if it is there.
+        title : str, optional
+            What stands over it.
+        most_knots : int, optional
+            At how many times, besides the instants of events, the bodies are placed; between them they move straight.
+
+        Raises
+        ------
+        InvalidInput
+            As :meth:`at`, or if the path or a number is wrong.
+        FileError
+            If the file cannot be written.
+        """
+        from nonsmooth.solution.pages import write
+
+        return write(self, path, title, most_knots)
+
+    def view(self, *, title: str = "", most_knots: int = 4000) -> Path:
+        """Play the run in the browser; return the path of the page, which :meth:`to_html` tells about."""
+        from nonsmooth.solution.pages import show
+
+        return show(self, title, most_knots)
+
+    def _repr_html_(self) -> str:
+        """Return the page in a frame, for notebooks."""
+        from nonsmooth.solution.pages import framed
+
+        return framed(self)
 
     def to_xarray(self) -> xarray.Dataset:
         """Return samples and events as one dataset with units and labels.

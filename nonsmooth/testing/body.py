@@ -19,6 +19,7 @@ from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.draws import Case, draws
 from nonsmooth.testing.examine import examine
 from nonsmooth.testing.functions import Function, Functions
+from nonsmooth.testing.look import check_sketch
 from nonsmooth.testing.property import Broken, Property, properties
 
 _DRAWS = 12
@@ -45,6 +46,7 @@ def check_body(body: Body) -> list[Property]:
             "it writes every number that can be non-zero, whatever stood there, and nothing beyond the block",
             lambda: examine("writes its block", [body], state_space(body), _writes, _DRAWS),
         ),
+        ("sketch", "what is seen of it besides its shapes can be drawn", lambda: check_sketch(body)),
         *frame_rows(body),
     ]
     if body.n_u > 0:

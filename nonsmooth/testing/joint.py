@@ -16,6 +16,7 @@ from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.draws import Case, draws
 from nonsmooth.testing.examine import Trial, examine
 from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
+from nonsmooth.testing.look import check_ends
 from nonsmooth.testing.moving import Array, Frames
 from nonsmooth.testing.property import Broken, Property, Row, properties
 
@@ -55,6 +56,7 @@ def check_joint(joint: Joint) -> list[Property]:
         row("bias", "it is the derivative of the rate while u' = 0, by differences", _bias),
         row("frame invariance", "where both bodies are moved together, residuals stay and axes turn with them", _moved),
         ("can be closed", "there are poses at which all residuals vanish", lambda: _check_closed(joint)),
+        ("ends", "it can be drawn where it holds", lambda: check_ends(joint.ends)),
         ("independent rows", "where it is closed, no row follows from the others", lambda: _check_rank(joint)),
     ]
     sizes: list[Row] = [("number of rows", "it takes one to six degrees of freedom", lambda: _check_number(joint))]

@@ -17,6 +17,7 @@ from nonsmooth.testing.draws import Case, Variable, draws
 from nonsmooth.testing.examine import Trial, examine
 from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
 from nonsmooth.testing.jumps import jump
+from nonsmooth.testing.look import check_ends
 from nonsmooth.testing.moving import Array, Frames
 from nonsmooth.testing.property import Property, Row, properties
 
@@ -47,6 +48,7 @@ def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
         row("writes its block", "it writes every number that can be non-zero, and nothing beyond the block", _writes),
         row("no jumps", "force and moment are continuous where the bodies move", _jumps),
     ]
+    rows.append(("ends", "it can be drawn where it acts", lambda: check_ends(load.ends)))
     if not tied_to_space:
         rows += [
             row("frame invariance", "where both bodies are moved together, force and moment turn with them", _moved),

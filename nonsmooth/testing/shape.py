@@ -8,6 +8,7 @@ import numpy as np
 
 from nonsmooth.interfaces import Shape
 from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.look import check_look
 from nonsmooth.testing.property import Broken, Property, properties
 
 _DIRECTIONS = 60
@@ -33,6 +34,7 @@ def check_shape(shape: Shape) -> list[Property]:
             "bounds and its extent, and points inside are",
             lambda: _check_solid(shape),
         ),
+        ("look", "what is seen of it can be drawn", lambda: check_look("look", shape.look)),
     ]
     return properties(shape, [*component_rows(shape), *rows])
 

@@ -84,3 +84,10 @@ def slider_bias(q: Floats, u: Floats, out: Floats, crank_length: float, rod_leng
     """Write its acceleration while u' = 0."""
     out[0] = -crank_length * math.cos(q[0]) * u[0] ** 2 - rod_length * math.cos(q[1]) * u[1] ** 2
     out[2] = -crank_length * math.sin(q[0]) * u[0] ** 2 - rod_length * math.sin(q[1]) * u[1] ** 2
+
+
+def links(q: Floats, crank_length: float, rod_length: float) -> list[list[tuple[float, float, float]]]:
+    """Return the ends of crank and rod [m]."""
+    pin = (crank_length * math.cos(q[0]), 0.0, crank_length * math.sin(q[0]))
+    end = (pin[0] + rod_length * math.cos(q[1]), 0.0, pin[2] + rod_length * math.sin(q[1]))
+    return [[(0.0, 0.0, 0.0), pin], [pin, end]]

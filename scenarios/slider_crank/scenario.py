@@ -85,6 +85,7 @@ class SliderCrank(Scenario):
             mass=mechanism.mass,
             force=mechanism.force,
             potential=mechanism.potential,
+            drawn=mechanism.links,
             moving_frames=(TurningFrame(mechanism.slider, mechanism.slider_jacobian, mechanism.slider_bias, corners),),
             constants=self.numbers(),
         )

@@ -65,3 +65,11 @@ def tip_bias(q: Floats, u: Floats, out: Floats, link_length: float) -> None:
     """Write the acceleration of the tip while u' = 0 [m/s^2]."""
     out[0] = -link_length * (math.sin(q[0]) * u[0] ** 2 + math.sin(q[1]) * u[1] ** 2)
     out[2] = link_length * (math.cos(q[0]) * u[0] ** 2 + math.cos(q[1]) * u[1] ** 2)
+
+
+def links(q: Floats, link_length: float, height: float) -> list[list[tuple[float, float, float]]]:
+    """Return the ends of both links [m]."""
+    pivot = (0.0, 0.0, height)
+    elbow = (link_length * math.sin(q[0]), 0.0, height - link_length * math.cos(q[0]))
+    end = (elbow[0] + link_length * math.sin(q[1]), 0.0, elbow[2] - link_length * math.cos(q[1]))
+    return [[pivot, elbow], [elbow, end]]

@@ -106,6 +106,7 @@ class TwoLinkArm(Scenario):
             force=arm.force,
             potential=arm.potential,
             power=arm.power,
+            drawn=arm.links,
             moving_frames=(PointFrame(arm.tip, arm.tip_jacobian, arm.tip_bias, (Point(),)),),
             constants={
                 "link_mass": self.link_mass,

@@ -96,6 +96,7 @@ class Woodpecker(Scenario):
             mass=toy.mass,
             force=toy.force,
             potential=toy.potential,
+            drawn=toy.outlines,
             moving_frames=(
                 PointFrame(toy.beak, toy.beak_jacobian, toy.no_bias, point),
                 PointFrame(toy.lower_edge, toy.lower_edge_jacobian, toy.no_bias, point),

@@ -73,7 +73,7 @@ def beak(
 ) -> None:
     """Write the gap of the beak, along x, and its place along the pole [m]."""
     out[0] = sleeve_arm + bird_arm - beak_arm - pole_radius - beak_height * q[2]
-    out[2] = q[0] + sleeve_arm * q[1] + (bird_arm - beak_arm) * q[2]
+    out[2] = q[0] + beak_height + sleeve_arm * q[1] + (bird_arm - beak_arm) * q[2]
 
 
 def beak_jacobian(
@@ -110,3 +110,37 @@ def upper_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_hei
 
 def no_bias(q: Floats, u: Floats, out: Floats) -> None:
     """Write nothing: all points are linear in q."""
+
+
+def outlines(
+    q: Floats,
+    pole_radius: float,
+    sleeve_radius: float,
+    sleeve_height: float,
+    sleeve_arm: float,
+    bird_arm: float,
+    beak_arm: float,
+    beak_height: float,
+) -> list[list[tuple[float, float, float]]]:
+    """Return the ends of lines for sleeve, spring and bird [m], the beak of which touches the pole at x = 0."""
+
+    def place(x: float, z: float, angle: float, across: float, up: float) -> tuple[float, float, float]:
+        return x + across - up * angle, 0.0, z + up + across * angle
+
+    axis = -pole_radius
+    corners = [
+        place(axis, q[0], q[1], i * sleeve_radius, j * sleeve_height) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    ]
+    spring = place(axis, q[0], q[1], sleeve_arm, 0.0)
+    bird = place(spring[0], spring[2], q[2], bird_arm, 0.0)
+    beak_root = place(bird[0], bird[2], q[2], 0.0, beak_height)
+    tip = place(bird[0], bird[2], q[2], -beak_arm, beak_height)
+    tail = place(bird[0], bird[2], q[2], 0.0, -beak_height)
+    sleeve = [[corners[i], corners[(i + 1) % 4]] for i in range(4)]
+    return [
+        *sleeve,
+        [place(axis, q[0], q[1], sleeve_radius, 0.0), spring],
+        [spring, bird],
+        [tail, beak_root],
+        [beak_root, tip],
+    ]

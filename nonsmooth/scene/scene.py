@@ -1,0 +1,157 @@
+"""Scene: what is seen of a system."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.interfaces import Body
+from nonsmooth.interfaces.look import Look
+from nonsmooth.queries.places import BodyFrames
+from nonsmooth.system.contact import Tie
+from nonsmooth.system.system import System
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A look that a frame carries.
+
+    Attributes
+    ----------
+    frame : int
+        Number of the frame, counted over all bodies.
+    body : int
+        Number of the body.
+    look : Look
+        What is seen.
+    """
+
+    frame: int
+    body: int
+    look: Look
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """A line between two points that frames carry.
+
+    Attributes
+    ----------
+    kind : str
+        "link" of a mechanism, "load" or "joint".
+    name : str
+        Of the body, load or joint.
+    frames : tuple of int
+        The two frames; those behind the last frame of a body are the ends of links.
+    ends : array
+        The points in their frames [m], shape [2, 3].
+    """
+
+    kind: str
+    name: str
+    frames: tuple[int, int]
+    ends: Floats
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """What is seen of a system: parts that frames carry, and lines between frames.
+
+    Frames are counted body by body; behind them stand the ends of links, whose axes are those of the world.
+
+    Attributes
+    ----------
+    system : System
+        The system.
+    parts : tuple of Part
+        Solids, sheets, lines and marks.
+    strokes : tuple of Stroke
+        Links, loads and joints.
+    n_frames : int
+        Number of frames, the ends of links with them.
+    """
+
+    system: System
+    parts: tuple[Part, ...]
+    strokes: tuple[Stroke, ...]
+    n_frames: int
+
+    @classmethod
+    def of(cls, system: System) -> Scene:
+        """Return the scene of a system."""
+        parts = list[Part]()
+        first, frame = dict[int, int](), 0
+        for number, body in enumerate(system.bodies):
+            first[id(body)] = frame
+            for offset, look in _looks(body):
+                parts.append(Part(frame + offset, number, look))
+            frame += len(body.frames)
+        strokes = list[Stroke]()
+        for body in system.bodies:
+            for _ in range(len(body.strokes(body.state()[0]))):
+                strokes.append(Stroke("link", system.name_of(body), (frame, frame + 1), np.zeros((2, 3))))
+                frame += 2
+        for kind, ties in (("load", system.loads), ("joint", system.joints)):
+            strokes += [stroke for tie in ties for stroke in _tied(kind, tie, first)]
+        return cls(system, tuple(parts), tuple(strokes), frame)
+
+    def places(self, times: Floats, q: Floats, u: Floats) -> tuple[Floats, Floats]:
+        """Return origins [m] and axes of all frames, shapes [n, n_frames, 3] and [n, n_frames, 3, 3].
+
+        Parameters
+        ----------
+        times : array
+            [s], shape [n].
+        q, u : array
+            Coordinates and velocities of all bodies, shapes [n, n_q] and [n, n_u].
+        """
+        n = len(times)
+        origin, axes = np.zeros((n, self.n_frames, 3)), np.zeros((n, self.n_frames, 3, 3))
+        axes[:] = np.eye(3)
+        frame = i_q = i_u = 0
+        links = sum(len(body.frames) for body in self.system.bodies)
+        for body in self.system.bodies:
+            own_q, own_u = q[:, i_q : i_q + body.n_q], u[:, i_u : i_u + body.n_u]
+            known = BodyFrames(body, self.system.gravity)
+            for i, t in enumerate(times.tolist()):
+                for offset, place in enumerate(known.at(t, own_q[i], own_u[i])):
+                    origin[i, frame + offset], axes[i, frame + offset] = place
+            size = 2 * len(body.strokes(body.state()[0]))
+            for i in range(n if size > 0 else 0):
+                origin[i, links : links + size] = body.strokes(own_q[i]).reshape(-1, 3)
+            frame, links = frame + len(body.frames), links + size
+            i_q, i_u = i_q + body.n_q, i_u + body.n_u
+        return origin, axes
+
+
+def _looks(body: Body) -> Iterator[tuple[int, Look]]:
+    """Give frame and look of all that the frames of a body carry; what its marks span is one."""
+    for frame, shapes in enumerate(body.frames):
+        looks = [shape.look for shape in shapes]
+        marks = [look for look in looks if _is_mark(look)]
+        yield from ((frame, look) for look in looks if not _is_mark(look))
+        if marks:
+            yield frame, Look.hull(np.concatenate([look.vertices for look in marks]))
+    yield from enumerate(body.sketch)
+
+
+def _is_mark(look: Look) -> bool:
+    return not (look.sheet or len(look.triangles) or len(look.lines))
+
+
+def _tied(kind: str, tie: Tie, first: dict[int, int]) -> Iterator[Stroke]:
+    """Give the line between the ends of a load or joint, and those from the origins of moving frames to them."""
+    bodies = tie.first, tie.second
+    frames = [first[id(body)] + offset for body, offset in zip(bodies, tie.frames, strict=True)]
+    yield Stroke(kind, tie.name, (frames[0], frames[1]), tie.component.ends)
+    if kind == "joint":
+        for body, frame, end in zip(bodies, frames, tie.component.ends, strict=True):
+            if body.n_u > 0 and np.any(end != 0.0):
+                yield Stroke(kind, tie.name, (frame, frame), np.array([np.zeros(3), end]))

@@ -1,0 +1,43 @@
+"""Pages that play a run: in a file, in the browser, in a notebook."""
+
+from __future__ import annotations
+
+import html
+import tempfile
+import webbrowser
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nonsmooth.checks import path_of
+from nonsmooth.solution.files import replacing
+from nonsmooth.viewer.page import page
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+MOST_KNOTS = 4000
+"""Times besides the instants of events, by default."""
+
+
+def write(solution: Solution, path: Path | str, title: str, most_knots: int) -> Path:
+    """Write the page of a run to a file; return its path."""
+    found = path_of("to_html: path", path)
+    text = page(solution, title, most_knots)
+    with replacing(found) as part:
+        part.write_text(text, encoding="utf-8")
+    return found
+
+
+def show(solution: Solution, title: str, most_knots: int) -> Path:
+    """Write the page of a run to a file of its own, open it in the browser, and return where it is."""
+    folder = Path(tempfile.mkdtemp(prefix="nonsmooth-"))
+    path = write(solution, folder / "run.html", title, most_knots)
+    webbrowser.open(path.as_uri())
+    return path
+
+
+def framed(solution: Solution) -> str:
+    """Return the page of a run within a frame, as notebooks show it."""
+    text = html.escape(page(solution, "", MOST_KNOTS))
+    words = 'sandbox="allow-scripts" title="a run of nonsmooth" style="width:100%;height:600px;border:0"'
+    return f'<iframe srcdoc="{text}" {words}></iframe>'

@@ -1,0 +1,1 @@
+"""A run as one HTML file that plays it: no server, no network."""

@@ -1,0 +1,79 @@
+"""What the player shows of events."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING
+from nonsmooth.system.system import System
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.events import Events
+    from nonsmooth.solution.solution import Solution
+
+_MOST_LETTERS = 12
+"""Contacts up to which a mode word is shown as it is."""
+_MOST_NUMBERS = 6
+_STICKS, _SLIDES, _HITS = 1, 5, 2
+"""Bits of Eq. (29) of a contact that is closed, and that which is set while it takes part in an impact."""
+
+
+def event_words(events: Events) -> tuple[list[str], NDArray[np.int64]]:
+    """Return words and which of them hold before, during and after each event, shape [n, 3].
+
+    Of many contacts only those are spoken of that are closed.
+    """
+    rows = [_words(events, which, shift) for which, shift in (("before", BEFORE), ("during", DURING), ("after", AFTER))]
+    spelled, numbers = np.unique([word for row in rows for word in row], return_inverse=True)
+    return spelled.tolist(), np.asarray(numbers).reshape(3, len(events)).T
+
+
+def _words(events: Events, which: str, shift: int) -> list[str]:
+    if events.n_contacts <= _MOST_LETTERS:
+        return events.words(which)
+    bits = events.codes >> shift & CODE
+    return [_spoken(events.listed[a:b], bits[a:b]) for a, b in zip(events.first[:-1], events.first[1:], strict=True)]
+
+
+def _spoken(contacts: NDArray[np.int64], bits: NDArray[np.int64]) -> str:
+    groups = (
+        ("sticking", contacts[bits == _STICKS]),
+        ("sliding", contacts[bits == _SLIDES]),
+        ("colliding", contacts[bits & _HITS > 0]),
+    )
+    return "; ".join(f"{word} {_counted(group)}" for word, group in groups if len(group)) or "all open"
+
+
+def _counted(group: NDArray[np.int64]) -> str:
+    """Return the numbers of contacts, from 1, in full where they are few."""
+    said = " ".join(str(i + 1) for i in sorted(group.tolist())[:_MOST_NUMBERS])
+    return said if len(group) <= _MOST_NUMBERS else f"{said} and {len(group) - _MOST_NUMBERS} more"
+
+
+def sides(system: System) -> NDArray[np.float64]:
+    """Return for each contact 1, or -1 where only its first body moves: arrows show what bodies that move get."""
+    return np.array([-1.0 if c.second.n_u == 0 < c.first.n_u else 1.0 for c in system.contacts])
+
+
+def event_arrays(
+    solution: Solution, times: NDArray[np.float64], side: NDArray[np.float64]
+) -> dict[str, tuple[str, NDArray[Any]]]:
+    """Return the arrays of events; ``times`` are the knots, which hold all instants [s]."""
+    events, impulses = solution.events, solution.contact_impulses()
+    sign = side[impulses.contact][:, None]
+    push, rub = sign * impulses.normal_impulse[:, None] * impulses.normal, sign * impulses.friction_impulse
+    return {
+        "event_time": ("f8", events.time),
+        "event_knot": ("i4", np.searchsorted(times, events.time)),
+        "event_cause": ("u1", events.cause),
+        "event_trigger": ("i4", events.contact),
+        "event_first": ("i4", events.first),
+        "event_contact": ("i4", events.listed),
+        "event_codes": ("i2", events.codes),
+        "event_point": ("f4", np.nan_to_num(impulses.points.mean(axis=1))),
+        "event_push": ("f4", np.nan_to_num(push)),
+        "event_rub": ("f4", np.nan_to_num(rub)),
+    }

@@ -1,0 +1,53 @@
+"""The page: one HTML file with the player and a run in it."""
+
+from __future__ import annotations
+
+import html
+import json
+from importlib.resources import files
+from typing import TYPE_CHECKING
+
+from nonsmooth.parameters import Rule, check_number
+from nonsmooth.viewer.pack import pack
+from nonsmooth.viewer.record import record
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+_KNOTS = Rule("most times that are drawn, besides the instants of events", "1", minimum=2.0, maximum=1e6)
+_POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
+_PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<title>{title}</title>
+<link rel="icon" href="data:,">
+<style>{style}</style>
+</head>
+<body>
+<p id="cut">This file is cut short, or the browser runs no scripts.</p>
+<script type="application/json" id="told">{told}</script>
+<script>{player}</script>
+<script type="application/octet-stream" id="arrays">{arrays}</script>
+</body>
+</html>
+"""
+
+
+def page(solution: Solution, title: str, most_knots: int) -> str:
+    """Return the page of a run."""
+    check_number("to_html: most_knots", most_knots, _KNOTS)
+    told, arrays = record(solution, title or "nonsmooth", int(most_knots))
+    told["directory"], text = pack(arrays)
+    ours = files("nonsmooth.viewer")
+    return _PAGE.format(
+        policy=_POLICY,
+        title=html.escape(str(told["title"])),
+        style=(ours / "viewer.css").read_text(encoding="utf-8"),
+        # within a script element "<" might end it
+        told=json.dumps(told, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        arrays=text,
+        player=(ours / "viewer.js").read_text(encoding="utf-8").replace("</script", "<\\/script"),
+    )

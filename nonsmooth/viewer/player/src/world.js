@@ -1,0 +1,287 @@
+// The bodies in space.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+
+import { Arrows } from "./arrows.js";
+import { SLIDE } from "./run.js";
+
+export const COLOURS = { stick: "#0072b2", slip: "#e69f00", impulse: "#d55e00", push: "#7a869a", link: "#5b6675" };
+const BODIES = ["#6fa8dc", "#f2b36b", "#7cc08f", "#d98fb8", "#b9a3e3", "#9fb8ad", "#d8c66a", "#8fc7d4"];
+const FADING = 0.15; // how long an impulse is seen [s watched]
+const VIEWS = { iso: [0.9, -1.3, 0.7], front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1] };
+const GRID = 1000; // of a solid, half as many units as it is large
+const ROUND = 100; // triangles from which on a part gets a pattern that shows how it turns
+
+export class World {
+  constructor(canvas, run, dark) {
+    this.run = run;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(35, 1, 0.001, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableKeys = false;
+    this.low = new THREE.Vector3(...run.told.low);
+    this.high = new THREE.Vector3(...run.told.high);
+    this.span = Math.max(this.high.distanceTo(this.low), 1e-9);
+    this.reach = this._reach();
+    this.follow = this.span > 8 * this.reach;
+    this.showForces = true;
+    this.frames = Array.from({ length: run.nFrames }, () => new THREE.Group());
+    this.frames.forEach((frame) => this.scene.add(frame));
+    const sun = new THREE.DirectionalLight("#ffffff", 2.2);
+    sun.position.set(0.3, -0.5, 0.81);
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#8a8f99", 1.6), sun);
+    this.put(run.t0);
+    run.told.parts.forEach((part) => this._addPart(part));
+    this.strokes = run.told.strokes.map((stroke) => this._addStroke(stroke));
+    const arm = 1.6 * this.unit;
+    this.arrows = new Arrows(this.scene, 0.035 * this.unit);
+    const strongest = Math.max(...run.strength, 1e-300);
+    this.perImpulse = arm / strongest;
+    this.perForce = (0.6 * arm) / this._typicalForce();
+    this.marks = [];
+    this.theme(dark);
+    this.view("iso");
+  }
+
+  /** Largest distance of a vertex from the origin of its frame, of moving bodies [m]; that of the motion without any. */
+  _reach() {
+    const { told, vertices } = this.run;
+    let found = 0;
+    for (const part of told.parts) {
+      if (part.sheet || !told.bodies[part.body].moves) continue;
+      for (let i = part.vertices[0]; i < part.vertices[1]; i++)
+        found = Math.max(found, Math.hypot(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]));
+    }
+    return found > 0 ? found : 0.3 * this.span;
+  }
+
+  /** The length that lines, marks and arrows are measured by [m]. */
+  get unit() {
+    return Math.min(this.reach, 0.5 * this.span);
+  }
+
+  _typicalForce() {
+    const sizes = [];
+    const p = this.run.force_push;
+    for (let i = 0; i < p.length; i += 3) sizes.push(Math.hypot(p[i], p[i + 1], p[i + 2]));
+    sizes.sort((a, b) => a - b);
+    return sizes[Math.floor(0.95 * sizes.length)] || 1;
+  }
+
+  _addPart(part) {
+    const { told, vertices, triangles, lines } = this.run;
+    const frame = this.frames[part.frame];
+    const moves = told.bodies[part.body].moves;
+    const colour = moves ? BODIES[told.bodies.slice(0, part.body).filter((b) => b.moves).length % BODIES.length] : "#aab2bd";
+    const [first, end] = part.vertices;
+    if (part.sheet) return void frame.add(this._sheet(frame, vertices[3 * first + 2]));
+    const points = vertices.slice(3 * first, 3 * end);
+    const used = new Set();
+    const [a, b] = part.triangles;
+    if (b > a) {
+      const index = triangles.slice(3 * a, 3 * b);
+      index.forEach((i) => used.add(i));
+      frame.add(solid(points, index, colour));
+    }
+    const width = 0.03 * this.unit;
+    for (let i = part.lines[0]; i < part.lines[1]; i++) {
+      const [p, q] = [lines[2 * i], lines[2 * i + 1]];
+      used.add(p).add(q);
+      const bar = new THREE.Mesh(BAR, new THREE.MeshLambertMaterial({ color: COLOURS.link }));
+      span(bar, vector(points, p), vector(points, q), width);
+      frame.add(bar);
+    }
+    for (let i = 0; i < end - first; i++) {
+      if (used.has(i)) continue;
+      const mark = new THREE.Mesh(DOT, new THREE.MeshLambertMaterial({ color: colour }));
+      mark.position.copy(vector(points, i));
+      mark.scale.setScalar(0.06 * this.unit);
+      frame.add(mark);
+    }
+  }
+
+  /** A piece of a plane without end, about the middle of what happens. */
+  _sheet(frame, height) {
+    frame.updateMatrixWorld();
+    const middle = frame.worldToLocal(this.low.clone().add(this.high).multiplyScalar(0.5));
+    const half = 0.75 * this.span + 3 * this.unit;
+    const n = 24;
+    const group = new THREE.Group();
+    const face = new THREE.Mesh(
+      new THREE.PlaneGeometry(2 * half, 2 * half),
+      new THREE.MeshLambertMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide, depthWrite: false }),
+    );
+    const grid = new THREE.GridHelper(2 * half, n).rotateX(Math.PI / 2);
+    group.add(face, grid);
+    const cell = (2 * half) / n;
+    group.position.set(Math.round(middle.x / cell) * cell, Math.round(middle.y / cell) * cell, height);
+    (this.sheets ??= []).push([face, grid]);
+    return group;
+  }
+
+  _addStroke(stroke) {
+    const mesh = new THREE.Mesh(
+      stroke.kind === "load" ? COIL : BAR,
+      new THREE.MeshLambertMaterial({ color: stroke.kind === "joint" ? "#8c6d46" : COLOURS.link }),
+    );
+    this.scene.add(mesh);
+    return { mesh, stroke };
+  }
+
+  theme(dark) {
+    this.scene.background = new THREE.Color(dark ? "#14181f" : "#f4f6f9");
+    for (const [face, grid] of this.sheets ?? []) {
+      face.material.color.set(dark ? "#3a4454" : "#c9d1db");
+      grid.material.color.set(dark ? "#8794a8" : "#9aa5b4");
+      grid.material.vertexColors = false;
+      grid.material.transparent = true;
+      grid.material.opacity = 0.5;
+      grid.material.needsUpdate = true;
+    }
+  }
+
+  /** Puts all frames where they are at a time. */
+  put(t) {
+    const knot = this.run.knot(t);
+    this.frames.forEach((frame, i) => this.run.place(i, knot, frame.position, frame.quaternion));
+    for (const { mesh, stroke } of this.strokes ?? []) {
+      const [p, q] = [0, 1].map((i) => {
+        const frame = this.frames[stroke.frames[i]];
+        return new THREE.Vector3(...stroke.ends[i]).applyQuaternion(frame.quaternion).add(frame.position);
+      });
+      span(mesh, p, q, (stroke.kind === "load" ? 0.12 : 0.035) * this.unit);
+    }
+    return knot;
+  }
+
+  /** Middle of what moves [m]. */
+  middle() {
+    const seen = this.run.told.parts.filter((part) => this.run.told.bodies[part.body].moves);
+    const found = new THREE.Vector3();
+    if (seen.length === 0) return this.low.clone().add(this.high).multiplyScalar(0.5);
+    seen.forEach((part) => found.add(this.frames[part.frame].position));
+    return found.divideScalar(seen.length);
+  }
+
+  view(name) {
+    const away = new THREE.Vector3(...VIEWS[name]).normalize();
+    this.controls.target.copy(this.follow ? this.middle() : this.low.clone().add(this.high).multiplyScalar(0.5));
+    const size = this.follow ? 4 * this.reach : 1.1 * this.span;
+    const distance = size / (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.min(1, this.camera.aspect);
+    this.camera.position.copy(this.controls.target).addScaledVector(away, distance);
+    this.camera.near = distance / 1000;
+    this.camera.far = distance * 100 + 10 * this.span;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+  }
+
+  resize(width, height) {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+
+  /** Draws time t [s]; of impulses those of one event, or, of none, those of the last moments watched. */
+  draw(t, event, speed) {
+    const before = this.follow ? this.middle() : null;
+    const [k] = this.put(t);
+    if (before) {
+      const moved = this.middle().sub(before);
+      this.camera.position.add(moved);
+      this.controls.target.add(moved);
+    }
+    this.arrows.clear();
+    if (this.showForces) this._forces(k);
+    this._impulses(t, event, speed);
+    this.controls.update();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  _forces(k) {
+    const run = this.run;
+    if (k + 1 >= run.force_first.length) return;
+    for (let i = run.force_first[k]; i < run.force_first[k + 1]; i++) {
+      const place = vector(run.force_point, i);
+      this.arrows.add(place, vector(run.force_push, i).multiplyScalar(this.perForce).clampLength(0, 3 * this.unit), COLOURS.push, 0.8);
+      const colour = run.force_mode[i] === SLIDE ? COLOURS.slip : COLOURS.stick;
+      this.arrows.add(place, vector(run.force_rub, i).multiplyScalar(this.perForce).clampLength(0, 3 * this.unit), colour, 0.9);
+    }
+  }
+
+  _impulses(t, event, speed) {
+    const run = this.run;
+    const show = (e, opacity) => {
+      for (let i = run.event_first[e]; i < run.event_first[e + 1]; i++) {
+        const along = vector(run.event_push, i).add(vector(run.event_rub, i)).multiplyScalar(this.perImpulse);
+        this.arrows.add(vector(run.event_point, i), along, COLOURS.impulse, opacity);
+      }
+    };
+    if (event >= 0) return show(event, 1);
+    for (let e = run.event(t); e >= 0; e--) {
+      const age = (t - run.event_time[e]) / speed;
+      if (age > FADING) break;
+      show(e, 1 - age / FADING);
+    }
+  }
+}
+
+const BAR = new THREE.CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0);
+const DOT = new THREE.SphereGeometry(1, 16, 12);
+const COIL = new THREE.TubeGeometry(
+  new (class extends THREE.Curve {
+    getPoint(s) {
+      const part = Math.min(Math.max((s - 0.08) / 0.84, 0), 1);
+      const radius = s < 0.08 || s > 0.92 ? 0 : 1;
+      return new THREE.Vector3(radius * Math.cos(50 * part), s, radius * Math.sin(50 * part));
+    }
+  })(),
+  240, 0.012, 6,
+);
+const UP = new THREE.Vector3(0, 1, 0);
+
+function vector(array, i) {
+  return new THREE.Vector3(array[3 * i], array[3 * i + 1], array[3 * i + 2]);
+}
+
+/** Lays a mesh of unit length from one point to another. */
+function span(mesh, from, to, width) {
+  const along = to.clone().sub(from);
+  const length = along.length();
+  mesh.visible = length > 0;
+  if (!mesh.visible) return;
+  mesh.position.copy(from);
+  mesh.quaternion.setFromUnitVectors(UP, along.divideScalar(length));
+  mesh.scale.set(width, length, width);
+}
+
+function solid(points, index, colour) {
+  // creases are looked for on a grid of a hundredth
+  const size = points.reduce((most, x) => Math.max(most, Math.abs(x)), 0) / GRID || 1;
+  let shape = new THREE.BufferGeometry();
+  shape.setAttribute("position", new THREE.BufferAttribute(points.map((x) => x / size), 3));
+  shape.setIndex(new THREE.BufferAttribute(new Uint32Array(index), 1));
+  shape = toCreasedNormals(shape, 0.6);
+  const n = index.length / 3;
+  const base = new THREE.Color(colour);
+  const shade = base.clone().multiplyScalar(0.62);
+  const places = shape.getAttribute("position");
+  shape.computeBoundingBox();
+  const middle = shape.boundingBox.getCenter(new THREE.Vector3());
+  const colours = new Float32Array(9 * n);
+  for (let i = 0; i < n; i++) {
+    const at = new THREE.Vector3();
+    for (let j = 0; j < 3; j++) at.add(new THREE.Vector3().fromBufferAttribute(places, 3 * i + j));
+    at.divideScalar(3).sub(middle);
+    const used = n >= ROUND && at.x * at.y * at.z > 0 ? shade : base;
+    for (let j = 0; j < 3; j++) used.toArray(colours, 9 * i + 3 * j);
+  }
+  shape.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+  const mesh = new THREE.Mesh(shape, new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide }));
+  mesh.scale.setScalar(size);
+  return mesh;
+}

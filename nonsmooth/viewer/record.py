@@ -1,0 +1,141 @@
+"""Everything of a run that the player shows, as words and arrays."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory.modes import CAUSES
+from nonsmooth.histories.visitor import visitor
+from nonsmooth.scene.knots import knots
+from nonsmooth.scene.scene import Scene
+from nonsmooth.viewer.events import event_arrays, event_words, sides
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+Floats = NDArray[np.float64]
+Arrays = dict[str, tuple[str, NDArray[Any]]]
+
+FORMAT = "nonsmooth-view/1"
+_WHOLE = 32767
+"""What stands for 1 in the components of a quaternion."""
+_ROOM = 250_000
+"""Poses at most; with more bodies there are fewer knots between events."""
+
+
+def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, Any], Arrays]:
+    """Return the words and the arrays of a run."""
+    system, scene = solution.system, Scene.of(solution.system)
+    times = knots(solution, max(2, min(most_knots, _ROOM // max(1, scene.n_frames))))
+    states = solution.at(times)
+    origin, axes = scene.places(times, states.q, states.u)
+    geometry, parts, low, high = _geometry(scene, origin)
+    words, numbers = event_words(solution.events)
+    arrays: Arrays = {
+        "time": ("f8", times),
+        "origin": ("f4", origin),
+        "turn": ("i2", np.rint(_WHOLE * _turns(axes))),
+        **geometry,
+        **_energies(solution, times),
+        **event_arrays(solution, times, sides(system)),
+        "event_words": ("i4", numbers),
+        **_forces(solution, times),
+    }
+    names = system.names
+    told = {
+        "format": FORMAT,
+        "version": version("nonsmooth"),
+        "title": title,
+        "status": solution.status,
+        "message": solution.message,
+        "bodies": [
+            {"name": name, "moves": body.n_u > 0} for name, body in zip(names.bodies, system.bodies, strict=True)
+        ],
+        "contacts": [{"name": name} for name in names.contacts],
+        "guards": list(names.guards),
+        "causes": list(CAUSES),
+        "words": words,
+        "parts": parts,
+        "strokes": [
+            {"kind": one.kind, "name": one.name, "frames": one.frames, "ends": one.ends.tolist()}
+            for one in scene.strokes
+        ],
+        "low": low,
+        "high": high,
+        "gravity": list(system.gravity),
+    }
+    return told, arrays
+
+
+def _turns(axes: Floats) -> Floats:
+    """Return unit quaternions, scalar last, shape [n, n_frames, 4]."""
+    from scipy.spatial.transform import Rotation
+
+    n, n_frames = axes.shape[:2]
+    return np.asarray(Rotation.from_matrix(axes.reshape(-1, 3, 3)).as_quat()).reshape(n, n_frames, 4)
+
+
+def _geometry(scene: Scene, origin: Floats) -> tuple[Arrays, list[dict[str, Any]], list[float], list[float]]:
+    """Return the arrays of all looks, where in them each part stands, and the box that all of them stay in."""
+    looks = [part.look for part in scene.parts]
+    firsts = np.cumsum([0, *(len(look.vertices) for look in looks)])
+    parts = list[dict[str, Any]]()
+    low, high = origin.min(axis=(0, 1)), origin.max(axis=(0, 1))
+    counts = {"triangles": 0, "lines": 0}
+    for part, first, last in zip(scene.parts, firsts[:-1].tolist(), firsts[1:].tolist(), strict=True):
+        look, here = part.look, origin[:, part.frame]
+        told = {"frame": part.frame, "body": part.body, "sheet": look.sheet, "vertices": [first, last]}
+        for name, rows in (("triangles", look.triangles), ("lines", look.lines)):
+            told[name] = [counts[name], counts[name] + len(rows)]
+            counts[name] += len(rows)
+        parts.append(told)
+        if not look.sheet:
+            reach = float(np.max(np.linalg.norm(look.vertices, axis=1), initial=0.0))
+            low, high = np.minimum(low, here.min(axis=0) - reach), np.maximum(high, here.max(axis=0) + reach)
+    arrays: Arrays = {
+        "vertices": ("f4", np.concatenate([np.zeros((0, 3)), *(look.vertices for look in looks)])),
+        "triangles": ("i4", np.concatenate([np.zeros((0, 3)), *(look.triangles for look in looks)])),
+        "lines": ("i4", np.concatenate([np.zeros((0, 2)), *(look.lines for look in looks)])),
+    }
+    return arrays, parts, low.tolist(), high.tolist()
+
+
+def _energies(solution: Solution, times: Floats) -> Arrays:
+    """Return the account at the knots, and what it was before the events of each instant."""
+    found, events = solution.energies(times), solution.events
+    after = np.column_stack(
+        [
+            found.kinetic,
+            found.potential,
+            found.restitution_loss,
+            found.friction_loss + found.closing_loss,
+            found.driven_work + found.load_work,
+        ]
+    )
+    instants, number = np.unique(events.time, return_inverse=True)
+    lost = events.restitution_loss, events.friction_loss + events.closing_loss, events.driven_work
+    restitution, friction, work = (np.bincount(number, one, len(instants)) for one in lost)
+    knot = np.searchsorted(times, instants)
+    before = after[knot] - np.column_stack([work - restitution - friction, 0.0 * work, restitution, friction, work])
+    return {"energy": ("f4", after), "instant_knot": ("i4", knot), "energy_before": ("f4", before)}
+
+
+def _forces(solution: Solution, times: Floats) -> Arrays:
+    """Return the forces of closed contacts at the knots, none where the engine cannot be asked for them."""
+    if not visitor(solution).solves:
+        times = times[:0]
+    found = solution.contact_forces(times)
+    side = sides(solution.system)[found.contact]
+    first = found.first if len(times) else np.zeros(2, dtype=np.int64)
+    return {
+        "force_first": ("i4", first),
+        "force_contact": ("i4", found.contact),
+        "force_mode": ("u1", found.mode),
+        "force_point": ("f4", found.points.mean(axis=1)),
+        "force_push": ("f4", (side * found.normal_force)[:, None] * found.normal),
+        "force_rub": ("f4", side[:, None] * found.friction_force),
+    }
