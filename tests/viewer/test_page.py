@@ -47,7 +47,7 @@ def test_events_are_those_of_the_run(run: ns.Solution) -> None:
 def test_bodies_are_where_they_were(run: ns.Solution) -> None:
     told, arrays = decoded(page(run, "", 4000))
     frame = 0
-    span = np.linalg.norm(np.subtract(told["high"], told["low"]))
+    span = float(np.linalg.norm(np.subtract(told["high"], told["low"])))
     for body in run.system.bodies:
         poses = run.poses(body, arrays["time"])
         for offset in range(len(body.frames)):
@@ -121,7 +121,7 @@ def test_a_page_is_written_where_it_is_told_and_refused_in_words(tmp_path: Path)
     with pytest.raises(ns.InvalidInput, match="most_knots"):
         run.to_html(path, most_knots=1)
     (tmp_path / "file").write_text("")
-    with pytest.raises(OSError, match="file/x.html could not be written"):
+    with pytest.raises(OSError, match=r"file/x\.html could not be written"):
         run.to_html(tmp_path / "file" / "x.html")
 
 
