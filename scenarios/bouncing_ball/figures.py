@@ -96,7 +96,8 @@ def _flights(scenario: BouncingBall, solution: Solution) -> str:
     repeats = (
         "no flight repeats" if after is None else "each is as the last" if after == 1 else f"each {after}th repeats"
     )
-    return f"The last flight lasts {last:.3g} of the periods of the table, {repeats} {words}"
+    long = f"{last:.3g}"
+    return f"The last flight lasts {long} table period{'s' * (long != '1')}, {repeats} {words}"
 
 
 def branches(owner: type[BouncingBall], progress: Progress | None) -> Figure:

@@ -77,6 +77,17 @@ def test_they_are_those_of_forces_and_change_none() -> None:
     np.testing.assert_allclose(motion.slip_speed[entries], slip, rtol=0, atol=1e-9)
 
 
+def test_contacts_of_a_mesh_keep_their_features() -> None:
+    """Closed ones are those that forces are told of."""
+    scenario = registry.load("scenarios", "mesh_drop")()
+    solution = ns.simulate(scenario.build(), scenario.t_end)
+    times = np.linspace(0.1, scenario.t_end, 40)
+    forces, motion = solution.contact_forces(times), solution.contact_motion(times)
+    assert len(forces.contact) > 40
+    entries = np.repeat(np.arange(len(times)), np.diff(forces.first)), forces.contact
+    np.testing.assert_allclose(motion.gap[entries], forces.gap, rtol=0, atol=1e-12)
+
+
 def test_rates_of_coordinates_are_their_slopes() -> None:
     """Of a box that tumbles, whose quaternion has rates that are no velocities."""
     box = BoxBody(0.1, 0.2, 0.3, density=100.0)

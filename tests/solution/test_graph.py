@@ -15,7 +15,7 @@ from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.interfaces import Guard
 from nonsmooth.solution.draw_graph import draw
-from nonsmooth.solution.graph import TransitionGraph
+from nonsmooth.solution.graph import Mode, TransitionGraph
 from nonsmooth.solution.graph_groups import grouped
 from nonsmooth.solution.graph_layout import places_of
 
@@ -189,6 +189,22 @@ def test_modes_of_many_contacts_are_grouped(shaken: ns.Solution) -> None:
             assert int(low) <= n <= int(high or low)
     struck = sum(one.startswith("impact") for one, _ in between)
     assert struck == sum(n for (one, _, _), n in graph.counts.items() if one in graph.passing)
+
+
+def test_a_mode_that_gets_other_features_right_away_is_in_the_group_of_its_kind() -> None:
+    """It is no mode that lasted, but one that was left."""
+    rests: Mode = ((0, 1),)
+    other: Mode = ((1, 1),)
+    struck: Mode = ((1, 3),)
+    edges: dict[tuple[Mode, Mode, str], int] = {
+        (other, struck, "impact"): 2,
+        (struck, rests, "impact"): 2,
+        (((1, 5),), rests, "slip to stick"): 1,
+    }
+    graph = TransitionGraph(("a", "b"), rests, {rests: 1.0, struck: 0.0}, frozenset([struck]), edges)
+    whole, words = grouped(graph)
+    assert words == {rests: "1 closed, none slip", struck: "impact, 1 strike"}
+    assert whole.counts == {(rests, struck, "impact"): 2, (struck, rests, "impact"): 2}
 
 
 def test_the_list_of_groups_has_the_commonest_first(shaken: ns.Solution) -> None:
