@@ -55,10 +55,10 @@ def _lowest(scenario: RollingDisc, solution: Solution) -> tuple[Floats, str]:
     """Return the path of the lowest point [m, 2], and which part of it, where all of it would be a grey disc."""
     rates = scenario.precession(solution)
     turns = float(np.sum(np.diff(solution.t) * (rates[1:] + rates[:-1]))) / (4.0 * np.pi)
-    if turns <= _MOST_TURNS:
+    if turns <= _MOST_TURNS or rates[-1] <= 0.0:
         return scenario.contact_points(solution), ""
-    last = _TURNS * 2.0 * np.pi / float(rates[-1])
-    states = solution.at(np.linspace(solution.t_end - last, solution.t_end, _POINTS))
+    start = max(float(solution.t[0]), solution.t_end - _TURNS * 2.0 * np.pi / float(rates[-1]))
+    states = solution.at(np.linspace(start, solution.t_end, _POINTS))
     return scenario.contact_points(states), f", last {_TURNS:g} turns"
 
 

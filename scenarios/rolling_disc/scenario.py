@@ -183,8 +183,8 @@ class RollingDisc(Scenario):
         return {
             "settling": settling(
                 {"run": (self, solution)},
-                f"From {tilts[0]:.3g} to {tilts[-1]:.3g} rad of tilt the contact comes to run round "
-                f"{rates[-1] / rates[0]:.3g} times as fast ({words})",
+                f"As the tilt goes from {tilts[0]:.3g} to {tilts[-1]:.3g} rad the contact runs round "
+                f"at {rates[0]:.3g} to {rates[-1]:.3g} rad/s ({words})",
             ),
             "paths": paths(
                 {"run": (self, solution)}, f"The centre strays by {strayed:.2g} mm from where it started\n({words})"
