@@ -13,7 +13,8 @@ import nonsmooth as ns
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 _START, _END, _TIMES = 0.12, 0.2, 4000
-_COLOURS = ("black", "tab:red")
+_LOOKS = (("black", 12.0, 1.0), ("tab:red", 24.0, 2.5))
+"""Colour of a contact, and length and width of the strokes of its impacts."""
 
 
 def main() -> None:
@@ -22,15 +23,18 @@ def main() -> None:
     solution = ns.simulate(scenario.build(), _END)
     times = np.linspace(_START, _END, _TIMES)
     forces = solution.contact_forces(times)
-    figure, (normal, friction) = make_axes("Dumbbell on the vibrating plate, drift: forces between events", 2)
+    figure, (normal, friction) = make_axes(
+        "Drift of the dumbbell: where the slip turns round, friction does, and the plate presses more", 2
+    )
     events = solution.events
-    for number, (name, colour) in enumerate(zip(solution.system.names.contacts, _COLOURS, strict=True)):
+    for number, (name, (colour, long, wide)) in enumerate(zip(solution.system.names.contacts, _LOOKS, strict=True)):
         history = forces.history(number)
         closed = np.where(history.mode > 0, 1.0, math.nan)
         normal.plot(1e3 * times, 1e3 * closed * history.normal_force, color=colour, label=name)
         friction.plot(1e3 * times, 1e3 * closed * history.friction_force[:, 1], color=colour)
         struck = (events.time > _START) & (events.impulse[:, number, 0] > 0.0)
-        normal.plot(1e3 * events.time[struck], np.zeros(np.count_nonzero(struck)), "|", color=colour, markersize=12)
+        hits, look = 1e3 * events.time[struck], {"color": colour, "markersize": long, "markeredgewidth": wide}
+        normal.plot(hits, np.zeros(len(hits)), "|", zorder=3 - number, **look)
     normal.set_ylabel("normal force [mN]")
     friction.set_ylabel("friction [mN]")
     for axis in (normal, friction):

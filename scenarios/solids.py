@@ -21,7 +21,13 @@ _LIGHT = np.array([0.3, -0.5, 0.81])
 
 
 def draw_solids(
-    axis: Axes, solids: Sequence[Polyhedron], poses: Floats, azimuth: float, elevation: float, shades: Sequence[str]
+    axis: Axes,
+    solids: Sequence[Polyhedron],
+    poses: Floats,
+    azimuth: float,
+    elevation: float,
+    shades: Sequence[str],
+    marks: Sequence[tuple[Floats, Floats]] = (),
 ) -> None:
     """Draw polyhedra where they are; those behind first.
 
@@ -37,6 +43,8 @@ def draw_solids(
         Where the eye is, from x towards y and over the ground [rad].
     shades : sequence of str
         Colours, one each.
+    marks : sequence of tuple of array
+        White flat pieces on the faces of every solid: outward normal, shape [3], and corners [m], shape [n, 3].
     """
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import to_rgb
@@ -55,6 +63,11 @@ def draw_solids(
             pieces.append(1e3 * (corners[number] @ axes.T + poses[i, :3]) @ np.column_stack([across, up]))
             colours.append(colour)
             lines.append((0.0, 0.0, 0.0) if number < edged else colour)
+        for normal, mark in marks:
+            if axes @ normal @ towards > 0.0:
+                pieces.append(1e3 * (mark @ axes.T + poses[i, :3]) @ np.column_stack([across, up]))
+                colours.append((1.0, 1.0, 1.0))
+                lines.append((1.0, 1.0, 1.0))
     axis.add_collection(PolyCollection(pieces, facecolors=colours, edgecolors=lines, linewidths=0.6))
     axis.set_aspect("equal")
     axis.autoscale_view()

@@ -106,9 +106,12 @@ def _save_solution(scenario: Scenario, solution: Solution, folder: Path, trouble
 
 def _save_figures(job: request.Job, solution: Solution, folder: Path, troubles: list[str]) -> None:
     results.without_display()
-    if len(solution.events) > 0:
+    graph = solution.transition_graph()
+    if len(graph.shares) > 1:
         with results.noting(troubles, "drawing the transitions"):
-            results.save_figures({"transitions": draw(solution.transition_graph())}, folder, troubles)
+            results.save_figures({"transitions": draw(graph)}, folder, troubles)
+    else:
+        tell("no picture of transitions: the run has one mode")
     with results.noting(troubles, f"{type(job.scenario).__name__}.figures"):
         # titles and captions may speak of the laws that were replaced
         note = f"In place of the scenario's own:\n{chr(10).join(map(repr, job.laws.values()))}" if job.laws else ""

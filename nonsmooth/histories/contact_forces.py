@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
-from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.contact_history import ContactHistory, contacts_dataset
 from nonsmooth.histories.times import read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.system.asked import number_of
+from nonsmooth.system.asked import contact_number
 from nonsmooth.system.contact import Contact
 
 if TYPE_CHECKING:
@@ -119,19 +118,10 @@ class ContactForces:
         InvalidInput
             If it is not of the system.
         """
-        number = self._number(contact)
+        number = contact_number("ContactForces.history", contact, self.contacts)
         times = np.repeat(np.arange(len(self.first) - 1), np.diff(self.first))
         entries = np.flatnonzero(self.contact == number)
         return ContactHistory.spread(self, entries, times[entries], self.contacts[number].name)
-
-    def _number(self, contact: Contact | str | int) -> int:
-        if not isinstance(contact, (int, np.integer)):
-            names = [one.name for one in self.contacts]
-            return number_of("ContactForces.history", "contact", contact, self.contacts, lambda: names)
-        if contact not in range(len(self.contacts)):
-            rule = f"must be below {len(self.contacts)}, the number of contacts"
-            raise InvalidInput("ContactForces.history: contact", rule, contact, "Count from 0.")
-        return int(contact)
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the histories of all contacts that are closed at any of the times, as one dataset with units."""

@@ -135,6 +135,25 @@ class Visitor:
                     watch.call("evaluate_forces", 0)
                 look(i)
 
+    def visit_listed(self, times: Floats, look: Callable[[int], None]) -> None:
+        """Call ``look(i)`` while all contacts that are near at ``times[i]`` are listed and evaluated.
+
+        Raises
+        ------
+        InvalidInput, RunFailed
+            As :meth:`visit`, without forces.
+        """
+        found, memory = self.states(times), self.laid.memory
+        y = memory.array("y", self.laid.n_y)
+        with self._alone:
+            # the contacts that are listed here are not those that an event left
+            self._put_event = -2
+            for i, row in enumerate(self._row(times).tolist()):
+                memory.scalars["t"], y[:] = times[i], found[i]
+                self._put_modes(int(self._event[row]))
+                self.laid.evaluate()
+                look(i)
+
     def _visit_stored(self, rows: Integers, look: Callable[[int], None]) -> None:
         with self._alone:
             # the modes that an earlier visit left are not those of these states

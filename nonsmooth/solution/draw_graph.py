@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.solution.graph import Mode, TransitionGraph
+from nonsmooth.solution.graph_groups import grouped
 from nonsmooth.solution.graph_layout import Point, places_of
 
 if TYPE_CHECKING:
@@ -16,8 +17,11 @@ if TYPE_CHECKING:
 _MOST_MODES = 14
 _LONGEST_WORD, _FEW = 16, 8
 """Characters of a word that fits into its node, and how many modes may show it; else they are numbered and listed."""
-_LONGEST_ROW = 46
+_MOST_CONTACTS = 14
+"""Contacts of which a mode word can be read; modes of more are grouped."""
 _LONGEST_LINE = 110
+_FOOT = 0.62
+"""Height of the caption [inches]."""
 _COLOURS = (
     "#000000",
     "#d55e00",
@@ -34,27 +38,32 @@ _COLOURS = (
     "#44aa99",
     "#332288",
 )
-"""One for each cause, told apart by the colour-blind as well."""
+"""One for each cause, with letters besides, as nobody tells so many apart."""
+_LETTERS = "abcdefghijklmn"
 _BEND = 0.16
 
 
 def draw(graph: TransitionGraph, most: int = _MOST_MODES) -> Figure:
     """Return a figure of the modes visited most and the transitions between them.
 
-    Modes that last stand inside, impacts around them; the wider an arrow, the more often its transition.
+    Modes that last stand inside, impacts around them; the wider an arrow, the more often its transition.  Modes of more
+    contacts than a word can be read of are grouped (:func:`nonsmooth.solution.graph_groups.grouped`).
 
     Parameters
     ----------
     graph : TransitionGraph
         The graph.
     most : int
-        How many modes to show; the title tells how many are left out.
+        How many modes, or groups of them, to show; the title tells how many are left out.
     """
     from matplotlib.figure import Figure
 
-    shown = graph.most_visited(most)
-    numbered = 3 * len(shown.contacts) + 4 > _LONGEST_WORD or len(shown.shares) > _FEW
-    places = places_of(shown)
+    many = len(graph.contacts) > _MOST_CONTACTS
+    whole, words = grouped(graph) if many else (graph, {mode: graph.word(mode) for mode in graph.shares})
+    shown = whole.most_visited(most)
+    numbered = max(len(words[mode]) for mode in shown.shares) > _LONGEST_WORD or len(shown.shares) > _FEW
+    visits, found = whole.visits, places_of(shown)
+    places = {mode: found[mode] for mode in sorted(found, key=lambda mode: -visits[mode])}
     margin = 0.3
     left, right = min(x for x, _ in places.values()) - 2.0 * margin, max(x for x, _ in places.values()) + 2.0 * margin
     low, high = min(y for _, y in places.values()) - margin, max(y for _, y in places.values()) + margin
@@ -64,48 +73,60 @@ def draw(graph: TransitionGraph, most: int = _MOST_MODES) -> Figure:
         (0.8 if numbered else 0.62) * width,
     )
     inch = max((right - left) / width, (high - low) / height)
-    figure = Figure(figsize=(width + 4.6 * numbered, height + 1.4), layout="constrained")
-    panels = figure.subplots(1, 2, width_ratios=(7.2, 4.6)) if numbered else [figure.subplots()]
+    whole_height = height + 0.8 + _FOOT
+    figure = Figure(figsize=(width + 4.6 * numbered, whole_height), layout="constrained")
+    body, foot = figure.subfigures(2, 1, squeeze=False, height_ratios=[whole_height - _FOOT, _FOOT])[:, 0]
+    panels = body.subplots(1, 2, width_ratios=(7.2, 4.6)) if numbered else [body.subplots()]
     axis = panels[0]
     axis.set_aspect("equal")
-    nodes = _draw_nodes(axis, shown, places, numbered, inch)
+    nodes = _draw_nodes(axis, shown, places, words, numbered, inch)
     _draw_edges(axis, shown, places, nodes)
     if numbered:
-        _list_words(panels[1], shown, places)
+        _list_words(panels[1], shown, words, {mode: visits[mode] for mode in places})
     for panel in panels:
         panel.set_axis_off()
     axis.set_xlim(left, right)
     axis.set_ylim(low, high)
-    figure.suptitle(_title(graph, shown), fontsize=11)
-    figure.supxlabel(
-        "Mode word {closed, approaching, slipping}, first contact rightmost; share of the time. Dashed: impacts,\n"
-        f"which take no time. Bold: the start. Numbers at the arrows: how often.{_named(graph)}",
-        fontsize=7.5,
-        color="0.3",
-    )
+    body.suptitle(_title(graph, whole, shown), fontsize=11)
+    foot.text(0.5, 0.5, _caption(graph, many), fontsize=7.5, color="0.3", ha="center", va="center")
     return figure
 
 
-def _named(graph: TransitionGraph) -> str:
-    """Return a line that names the contacts of the words, or, where they are too many, what numbers mean."""
-    text = f"From the right: {', '.join(graph.contacts)}."
-    if len(text) > _LONGEST_LINE:
-        text = "Contacts go by their indices in solution.system.contacts, from 0."
-    return f"\n{text}" if graph.contacts else ""
+def _caption(graph: TransitionGraph, many: bool) -> str:
+    what = "Mode word {closed, approaching, slipping}, first contact rightmost"
+    if many:
+        what = f"How many of {len(graph.contacts)} contacts are closed and slip; changes within a group are left out"
+    text = (
+        f"{what}; share of the time. Dashed: impacts,\nwhich take no time. Bold: the start. At the arrows: how often."
+    )
+    if many or not graph.contacts:
+        return text
+    names = f"From the right: {', '.join(graph.contacts)}."
+    if len(names) > _LONGEST_LINE:
+        names = "Contacts stand in the order of solution.system.contacts."
+    return f"{text}\n{names}"
 
 
-def _title(graph: TransitionGraph, shown: TransitionGraph) -> str:
+def _title(graph: TransitionGraph, whole: TransitionGraph, shown: TransitionGraph) -> str:
     modes, changes = (
         len(graph.shares),
         sum(graph.counts.values()) - sum(n for (one, _, _), n in graph.counts.items() if one in graph.passing),
     )
     title = f"Modes of the run: {modes} visited, {changes} transition{'s' * (changes != 1)}"
-    left_out = modes - len(shown.shares)
-    return title + (f"; the {left_out} modes visited least are left out" if left_out else "")
+    what = "modes"
+    if whole is not graph:
+        what, title = "groups", f"{title}; in {len(whole.shares)} groups"
+    left_out = len(whole.shares) - len(shown.shares)
+    return title + (f"; the {left_out} {what} visited least are left out" if left_out else "")
 
 
 def _draw_nodes(
-    axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], numbered: bool, inch: float
+    axis: Axes,
+    graph: TransitionGraph,
+    places: dict[Mode, Point],
+    words: dict[Mode, str],
+    numbered: bool,
+    inch: float,
 ) -> dict[Mode, Any]:
     """Draw the nodes; an inch is so many units of the places."""
     from matplotlib.patches import Ellipse
@@ -113,7 +134,7 @@ def _draw_nodes(
     nodes = {}
     for number, (mode, (x, y)) in enumerate(places.items(), 1):
         share, passes = graph.shares[mode], mode in graph.passing
-        label = str(number) if numbered else graph.word(mode)
+        label = str(number) if numbered else words[mode]
         width = 0.36 if numbered else 0.42 + 0.074 * len(label)
         node = Ellipse(
             (x, y),
@@ -140,6 +161,8 @@ def _draw_edges(axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], n
     from matplotlib.patches import FancyArrowPatch
 
     most = max(graph.counts.values(), default=1)
+    seen = [cause for cause in CAUSES if any(edge[2] == cause for edge in graph.counts)]
+    letters = dict(zip(seen, _LETTERS, strict=False)) if len(seen) > 1 else {}
     parallel: dict[tuple[Mode, Mode], int] = {}
     for (one, other, cause), n in sorted(graph.counts.items(), key=lambda item: -item[1]):
         bend = _BEND * (1 + parallel.get((one, other), 0))
@@ -171,31 +194,35 @@ def _draw_edges(axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], n
         if one == other:
             x, y = places[one][0], places[one][1] + 0.06 + 0.07 * (1.6 + 6.0 * (bend - _BEND))
         box = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
-        axis.text(x, y, str(n), fontsize=7.5, color=colour, ha="center", va="center", zorder=5, bbox=box)
-    seen = [cause for cause in CAUSES if any(edge[2] == cause for edge in graph.counts)]
-    lines = [Line2D([], [], color=_COLOURS[CAUSES.index(cause)], linewidth=2.5, label=cause) for cause in seen]
+        axis.text(
+            x,
+            y,
+            f"{n} {letters.get(cause, '')}".strip(),
+            fontsize=7.5,
+            color=colour,
+            ha="center",
+            va="center",
+            zorder=5,
+            bbox=box,
+        )
+    lines = [
+        Line2D(
+            [],
+            [],
+            color=_COLOURS[CAUSES.index(cause)],
+            linewidth=2.5,
+            label=f"{letters.get(cause, '')} {cause}".strip(),
+        )
+        for cause in seen
+    ]
     if lines:
-        axis.legend(handles=lines, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=4, fontsize=8, frameon=False)
+        axis.figure.legend(handles=lines, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
 
 
-def _list_words(panel: Axes, graph: TransitionGraph, places: dict[Mode, Point]) -> None:
-    """Write out what the numbers in the nodes stand for."""
+def _list_words(panel: Axes, graph: TransitionGraph, words: dict[Mode, str], visits: dict[Mode, int]) -> None:
+    """Write out what the numbers in the nodes stand for, and how often the run came there."""
     rows = []
-    for number, mode in enumerate(places, 1):
+    for number, (mode, n) in enumerate(visits.items(), 1):
         share = "impact" if mode in graph.passing else _percent(graph.shares[mode])
-        rows.append(f"{number:>2}  {share:>7}  {_described(graph, mode)}")
+        rows.append(f"{number:>2}  {n:>5} x  {share:>7}  {words[mode]}")
     panel.text(0.0, 0.5, "\n".join(rows), fontsize=7.5, family="monospace", va="center", linespacing=1.7)
-
-
-def _described(graph: TransitionGraph, mode: Mode) -> str:
-    """Return the mode word, or, where it is too long, which contacts are not open, by their indices."""
-    if 3 * len(graph.contacts) + 4 <= _LONGEST_ROW:
-        return graph.word(mode)
-    names = ("closed", "approaching", "slipping")
-    parts = []
-    for i, name in enumerate(names):
-        numbers = [str(contact) for contact, bits in mode if bits >> i & 1]
-        if numbers:
-            parts.append(f"{name} {' '.join(numbers)}")
-    text = "; ".join(parts) or "all open"
-    return text if len(text) <= _LONGEST_ROW else text[: _LONGEST_ROW - 1] + "…"

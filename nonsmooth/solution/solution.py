@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
@@ -20,13 +20,16 @@ from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.state import State
 from nonsmooth.solution.track import Track
 from nonsmooth.system.asked import body_number
+from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
     from nonsmooth.histories.contact_forces import ContactForces
     from nonsmooth.histories.contact_impulses import ContactImpulses
+    from nonsmooth.histories.contact_motion import ContactMotion
     from nonsmooth.histories.energies import Energies
     from nonsmooth.histories.joint_forces import JointForces
     from nonsmooth.histories.poses import Poses
@@ -91,8 +94,8 @@ class Solution:
     """The result of a run.
 
     What held at any time of it, next to events on the side after them, is told by :meth:`at`, :meth:`poses`,
-    :meth:`contact_forces`, :meth:`joint_forces` and :meth:`energies`.  All of it is read from what the run recorded
-    and left when it is first asked for.
+    :meth:`contact_motion`, :meth:`contact_forces`, :meth:`joint_forces` and :meth:`energies`.  All of it is read from
+    what the run recorded and left when it is first asked for.
 
     Attributes
     ----------
@@ -318,6 +321,27 @@ class Solution:
 
         return ContactImpulses.of(self)
 
+    def contact_motion(
+        self, times: ArrayLike | None = None, contacts: Sequence[Contact | str | int] | None = None
+    ) -> ContactMotion:
+        """Return gaps, normal velocities and slip of contacts, open ones too, at times, those of :meth:`at`.
+
+        Parameters
+        ----------
+        times : float or array, optional
+            Times within the run [s]; those of the samples by default.
+        contacts : sequence of Contact, str or int, optional
+            Which contacts, by themselves, their names or numbers; all by default.
+
+        Raises
+        ------
+        InvalidInput
+            As :meth:`at`, or if the system has no such contact.
+        """
+        from nonsmooth.histories.contact_motion import ContactMotion
+
+        return ContactMotion.of(self, times, contacts)
+
     def joint_forces(self, times: ArrayLike | None = None) -> JointForces:
         """Return forces and moments that the joints bear at times, which are those of :meth:`at`.
 
@@ -390,6 +414,21 @@ class Solution:
         from nonsmooth.solution.pages import framed
 
         return framed(self)
+
+    def plot(self) -> Figure:
+        """Return a figure with an overview of the run, which has the panels that it has something for.
+
+        Modes, gaps, forces and impulses of the contacts that are busiest, energies, and the path of the body that goes
+        farthest.  Each panel is a function of :mod:`nonsmooth.plot`, to be composed otherwise.
+
+        Raises
+        ------
+        MissingPackagesError
+            If matplotlib is not installed.
+        """
+        from nonsmooth.plot.overview import overview
+
+        return overview(self)
 
     def to_xarray(self) -> xarray.Dataset:
         """Return samples and events as one dataset with units and labels.

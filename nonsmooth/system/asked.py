@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+import numpy as np
+
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Body
+from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
 
@@ -35,3 +38,13 @@ def number_of(where: str, kind: str, asked: object, parts: Sequence[object], nam
 def body_number(where: str, asked: Body | str, system: System) -> int:
     """Return the number of a body, counted from 0; errors as :func:`number_of`."""
     return number_of(where, "body", asked, system.bodies, lambda: system.names.bodies)
+
+
+def contact_number(where: str, asked: Contact | str | int, contacts: Sequence[Contact]) -> int:
+    """Return the number of a contact, which may be asked for by it, counted from 0; errors as :func:`number_of`."""
+    if not isinstance(asked, (int, np.integer)):
+        return number_of(where, "contact", asked, contacts, lambda: [one.name for one in contacts])
+    if asked not in range(len(contacts)):
+        rule = f"must be below {len(contacts)}, the number of contacts"
+        raise InvalidInput(f"{where}: contact", rule, asked, "Count from 0.")
+    return int(asked)

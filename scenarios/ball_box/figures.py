@@ -13,7 +13,7 @@ from scenarios.ball_box.scenario import BallBox
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_COLOURS = ("black", "tab:red", "tab:blue")
+_LOOKS = (("black", "-"), ("tab:red", "--"), ("tab:blue", "-."))
 
 
 def pile(scenario: BallBox, solution: Solution) -> Figure:
@@ -25,6 +25,7 @@ def pile(scenario: BallBox, solution: Solution) -> Figure:
     places = scenario.positions(solution)
     half, top = 500.0 * scenario.box_width, 1e3 * (np.max(places[0, :, 2]) + 1.5 * scenario.radius)
     axes = figure.subplots(2, 2, sharex=True, height_ratios=[top, 2.0 * half])
+    closed = int(scenario.closed_contacts(solution)[-1])
     for column, (centres, name) in enumerate(((places[0], "start"), (places[-1], f"t = {solution.t[-1]:g} s"))):
         for axis, up, towards in ((axes[0, column], 2, -1), (axes[1, column], 1, 2)):
             # the nearest to the eye is drawn last
@@ -49,6 +50,9 @@ def pile(scenario: BallBox, solution: Solution) -> Figure:
         axes[1, column].set_xlabel("x [mm]")
     axes[0, 0].set_ylabel("z [mm]")
     axes[1, 0].set_ylabel("y [mm]")
+    share = float(scenario.kinetic_energy(solution)[-1]) / scenario.fall_energy
+    title = f"{places.shape[1]} balls have {share:.1e} of the energy of their fall left, and {closed} closed contacts"
+    figure.suptitle(title, fontsize=11)
     return figure
 
 
@@ -59,12 +63,14 @@ def history(runs: Mapping[str, tuple[BallBox, Solution]]) -> Figure:
 
     figure = Figure(figsize=(7.2, 5.6), layout="constrained")
     axes = figure.subplots(2, 1, sharex=True)
-    for colour, (name, (scenario, solution)) in zip(_COLOURS, runs.items(), strict=False):
+    for (colour, line), (name, (scenario, solution)) in zip(_LOOKS, runs.items(), strict=False):
         share = scenario.kinetic_energy(solution) / scenario.fall_energy
-        axes[0].semilogy(solution.t, share, color=colour, linewidth=1.2, label=name)
+        axes[0].semilogy(solution.t, share, color=colour, linestyle=line, linewidth=1.2, label=name)
         times = np.append(solution.events.time, solution.t_end)
         closed = scenario.closed_contacts(solution)
-        axes[1].step(times, np.append(closed, closed[-1]), where="post", color=colour, linewidth=1.2, label=name)
+        axes[1].step(
+            times, np.append(closed, closed[-1]), where="post", color=colour, linestyle=line, linewidth=1.2, label=name
+        )
     axes[0].set_title("Collisions take the energy; what rolls on keeps it", fontsize=11)
     axes[0].set_ylabel("kinetic energy / energy of the fall")
     axes[1].set_ylabel("closed contacts")

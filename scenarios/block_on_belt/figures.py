@@ -33,7 +33,9 @@ def portrait(runs: Mapping[str, tuple[BlockOnBelt, Solution]], title: str) -> Fi
     phase.set_ylabel("velocity of the block [m/s]")
     phase.set_title("grey: speed of the belt", fontsize=9)
     phase.xaxis.set_major_locator(MaxNLocator(5))
-    figure.legend(*phase.get_legend_handles_labels(), fontsize=8, frameon=False, ncols=2, loc="outside lower center")
+    if len(runs) > 1:
+        found = phase.get_legend_handles_labels()
+        figure.legend(*found, fontsize=8, frameon=False, ncols=2, loc="outside lower center")
     time.set_xlabel("time [s]")
     time.set_ylabel("elongation of the spring q [m]")
     time.set_title("grey: where static friction ends, q = F_s / k", fontsize=9)

@@ -156,7 +156,9 @@ class BlockOnBelt(Scenario):
         from scenarios.block_on_belt.figures import portrait
 
         words = f"δ = {self.decay:g} s/m, belt {self.belt_speed:g} m/s"
-        return {"portrait": portrait({"run": (self, solution)}, f"Block on a belt ({words})")}
+        share = self.summarise(solution)["stick_share"]
+        said = "The block slides on" if share is None else f"Of each period the block sticks {100.0 * share:.0f} %"
+        return {"portrait": portrait({"run": (self, solution)}, f"{said} ({words})")}
 
     @classmethod
     def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:

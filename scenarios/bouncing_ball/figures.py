@@ -78,10 +78,26 @@ def motion(scenario: BouncingBall, solution: Solution) -> Figure:
     figure = Figure(figsize=(7.2, 4.0), layout="constrained")
     axis = figure.subplots()
     _paths(axis, scenario, solution)
-    axis.set_title(f"Γ = {scenario.gamma:g}, e = {scenario.restitution:g}", fontsize=11)
+    axis.set_title(_flights(scenario, solution), fontsize=11)
     axis.set_xlabel("time [s]" if scenario.gamma == 0.0 else "time [table periods]")
-    axis.legend(fontsize=8, frameon=False, loc="upper right")
+    figure.legend(loc="outside lower center", ncols=3, fontsize=8, frameon=False)
     return figure
+
+
+def _flights(scenario: BouncingBall, solution: Solution) -> str:
+    """Return a title: what the last flights are like."""
+    words = f"(Γ = {scenario.gamma:g}, e = {scenario.restitution:g})"
+    summary = scenario.summarise(solution)
+    if summary["resting_share"] > 0.0:
+        return f"The ball comes to rest on the table at {summary['first_rest']:.3g} s {words}"
+    if scenario.gamma == 0.0 or summary["last_flight"] is None:
+        return f"The ball strikes {summary['impacts']} times {words}"
+    last, after = summary["last_flight"], summary["repeats_after"]
+    repeats = (
+        "no flight repeats" if after is None else "each is as the last" if after == 1 else f"each {after}th repeats"
+    )
+    long = f"{last:.3g}"
+    return f"The last flight lasts {long} table period{'s' * (long != '1')}, {repeats} {words}"
 
 
 def branches(owner: type[BouncingBall], progress: Progress | None) -> Figure:

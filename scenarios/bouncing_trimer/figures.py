@@ -96,26 +96,33 @@ def path(scenario: BouncingTrimer, solution: Solution) -> Figure:
     axis = figure.subplots()
     place = 1e3 * scenario.motion(solution).place
     axis.plot(*place.T, color="black", linewidth=0.8, label="mass centre")
-    for q, colour, label in ((solution.q[0], "tab:blue", "start"), (solution.q_end, "tab:red", "end")):
-        _triangle(axis, scenario, q, colour, label)
+    looks: tuple[dict[str, Any], ...] = (
+        {"color": "tab:blue", "linestyle": "--"},
+        {"color": "tab:red", "linestyle": "-"},
+    )
+    for q, look, label in zip((solution.q[0], solution.q_end), looks, ("start", "end"), strict=True):
+        _triangle(axis, scenario, q, look, label)
     axis.set_aspect("equal")
     axis.set_xlabel("x [mm]")
     axis.set_ylabel("y [mm]")
     axis.grid(color="0.9", linewidth=0.6)
     axis.set_axisbelow(True)
-    axis.set_title(f"Γ = {scenario.gamma:g}, {scenario.frequency:g} Hz, {solution.t_end:g} s", fontsize=11)
-    axis.legend(fontsize=8, frameon=False)
+    apart = float(np.hypot(*(place[-1] - place[0])))
+    way = float(np.sum(np.hypot(*np.diff(place, axis=0).T)))
+    words = f"Γ = {scenario.gamma:g}, {scenario.frequency:g} Hz"
+    axis.set_title(f"A way of {way:.0f} mm in {solution.t_end:g} s leads {apart:.0f} mm away ({words})", fontsize=11)
+    figure.legend(loc="outside lower center", ncols=3, fontsize=8, frameon=False)
     return figure
 
 
-def _triangle(axis: Axes, scenario: BouncingTrimer, q: Floats, colour: str, label: str) -> None:
+def _triangle(axis: Axes, scenario: BouncingTrimer, q: Floats, look: Mapping[str, Any], label: str) -> None:
     from matplotlib.patches import Circle
 
     corners = 1e3 * scenario.centres(q)
     closed = np.vstack([corners, corners[:1]])
-    axis.plot(closed[:, 0], closed[:, 1], color=colour, linewidth=1.0, label=label)
+    axis.plot(closed[:, 0], closed[:, 1], linewidth=1.0, label=label, **look)
     for x, y, _ in corners:
-        axis.add_patch(Circle((x, y), 1e3 * scenario.radius, fill=False, edgecolor=colour, linewidth=1.0))
+        axis.add_patch(Circle((x, y), 1e3 * scenario.radius, fill=False, linewidth=1.0, **look))
         axis.update_datalim([(x - 1e3 * scenario.radius, y), (x + 1e3 * scenario.radius, y)])
         axis.update_datalim([(x, y - 1e3 * scenario.radius), (x, y + 1e3 * scenario.radius)])
 

@@ -5,18 +5,45 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bodies import Box
 from nonsmooth.solution.solution import Solution
-from scenarios.dice_throw.scenario import DiceThrow
+from scenarios.dice_throw.scenario import EYES, DiceThrow
 from scenarios.solids import draw_solids
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+Floats = NDArray[np.float64]
+
 _COLOURS = ("#e69f00", "#56b4e9", "#009e73", "#cc79a7", "#d55e00", "#0072b2")
+_DASHES = "-", "--", "-.", ":"
+_PIPS = {
+    1: ((0, 0),),
+    2: ((-1, -1), (1, 1)),
+    3: ((-1, -1), (0, 0), (1, 1)),
+    4: ((-1, -1), (-1, 1), (1, -1), (1, 1)),
+    5: ((-1, -1), (-1, 1), (0, 0), (1, -1), (1, 1)),
+    6: ((-1, -1), (-1, 0), (-1, 1), (1, -1), (1, 0), (1, 1)),
+}
+"""Places of the pips on a face, across and along."""
+_PIP, _APART, _SIDES = 0.16, 0.5, 16
+"""Radius of a pip and how far they are apart, in halves of the edge; sides of its polygon."""
 _SHOWN = (0.0, 0.1, 0.2, 1.0)
 """Parts of the run."""
+
+
+def _pips(half: float) -> list[tuple[Floats, Floats]]:
+    """Return the pips of a die of half an edge [m]: normal of the face, and corners."""
+    turn = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
+    ring, found = _PIP * np.column_stack([np.cos(turn), np.sin(turn)]), []
+    for (side, axis), eyes in np.ndenumerate(EYES):
+        normal = np.roll([2.0 * side - 1.0, 0.0, 0.0], axis)
+        for place in _PIPS[int(eyes)]:
+            flat = np.column_stack([np.ones(_SIDES) * (2.0 * side - 1.0), ring + _APART * np.array(place)])
+            found.append((normal, half * np.roll(flat, axis, axis=1)))
+    return found
 
 
 def throw(scenario: DiceThrow, solution: Solution) -> Figure:
@@ -31,7 +58,8 @@ def throw(scenario: DiceThrow, solution: Solution) -> Figure:
     for axis, share in zip(panels, _SHOWN, strict=True):
         sample = min(int(share * len(solution.t)), len(solution.t) - 1)
         poses = solution.q[sample].reshape(-1, 7)
-        draw_solids(axis, [Box(half, half, half, rounding=scenario.rounding)] * n, poses, -1.2, 0.45, shades)
+        dice = [Box(half, half, half, rounding=scenario.rounding)] * n
+        draw_solids(axis, dice, poses, -1.2, 0.45, shades, _pips(half))
         axis.set_title(f"t = {1e3 * solution.t[sample]:.0f} ms", fontsize=9)
         axis.set_xticks([])
         axis.set_yticks([])
@@ -43,13 +71,13 @@ def throw(scenario: DiceThrow, solution: Solution) -> Figure:
         axis.set_ylim(0.5 * (low + high - width[1]), 0.5 * (low + high + width[1]))
     axis = figure.add_subplot(grid[2, :])
     for i, height in enumerate(scenario.heights(solution).T):
-        axis.plot(1e3 * solution.t, 1e3 * height, color=shades[i], linewidth=1.2, label=f"die {i + 1}")
+        axis.plot(1e3 * solution.t, 1e3 * height, _DASHES[i % 4], color=shades[i], linewidth=1.4, label=f"die {i + 1}")
     axis.axhline(1e3 * half, color="0.5", linewidth=0.8, linestyle="--", label="on a face")
     axis.set_xlabel("time [ms]")
     axis.set_ylabel("height of the centre [mm]")
     axis.set_ylim(bottom=0.0)
     axis.grid(color="0.9", linewidth=0.6)
-    axis.legend(fontsize=8, frameon=False)
+    axis.legend(fontsize=8, frameon=False, loc="upper right")
     kind = "Rounded" if scenario.rounding > 0.0 else "Sharp"
     eyes = " + ".join(str(e) for e in scenario.eyes(solution))
     figure.suptitle(

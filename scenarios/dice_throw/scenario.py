@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 _SAMPLES = 500
 _GRAVITY = 9.81
-_EYES = np.array([[5, 3, 1], [2, 4, 6]])
+EYES = np.array([[5, 3, 1], [2, 4, 6]])
 """Eyes on the faces against and along the three axes of a die; opposite ones make seven."""
 _AT_REST = 1e-6
 """Speeds below which a die has come to rest [m/s and rad/s]."""
@@ -117,7 +117,7 @@ class DiceThrow(Scenario):
         """Return the eyes that each die shows at the end: of the face that looks up most."""
         upright = self.upright(solution)
         axes = np.argmax(np.abs(upright), axis=1)
-        return [int(_EYES[int(up[axis] > 0.0), axis]) for axis, up in zip(axes, upright, strict=True)]
+        return [int(EYES[int(up[axis] > 0.0), axis]) for axis, up in zip(axes, upright, strict=True)]
 
     def on_a_face(self, solution: Solution) -> bool:
         """Whether all dice have come to rest on the table."""

@@ -53,7 +53,11 @@ def strike(scenario: DiscBall, solution: Solution) -> Figure:
     axis.set_aspect("equal")
     axis.set_xlabel("x [mm]")
     axis.set_ylabel("y [mm]")
-    axis.set_title(f"e = {scenario.restitution:g}, stiffness ratio {scenario.stiffness_ratio:g}", fontsize=11)
+    back = "bounces back" if float(after[0] @ scenario.direction) < 0.0 else "goes on"
+    left, right = np.hypot(*after[1:].T)
+    alike = "leave equally fast" if abs(left - right) < 1e-3 else "leave at different speeds"
+    words = f"(e = {scenario.restitution:g}, stiffness ratio {scenario.stiffness_ratio:g})"
+    axis.set_title(f"The balls {alike}, the disc {back}\n{words}", fontsize=11)
     figure.legend(loc="outside lower center", ncols=2, fontsize=8, frameon=False)
     return figure
 

@@ -22,6 +22,8 @@ _AZIMUTH, _ELEVATION = math.radians(30.0), math.radians(25.0)
 """Where the eye is."""
 _LIGHT = np.array([-0.48, 0.6, 0.64])
 """Where the light is, as seen: right, up, towards the eye."""
+_STILL = 1e-9
+"""Share of the energy of the fall that counts as no motion."""
 _SHARP = math.cos(math.radians(20.0))
 """Edges at which the surface turns by more are drawn."""
 
@@ -55,7 +57,15 @@ def poses(scenario: MeshDrop, solution: Solution) -> Figure:
         axis.set_xlabel("across [mm]")
     for axis in axes[::3]:
         axis.set_ylabel("up [mm]")
+    figure.suptitle(_said(scenario, solution), fontsize=11)
     return figure
+
+
+def _said(scenario: MeshDrop, solution: Solution) -> str:
+    """Return a title: what the part is, how often it struck, and whether it lies still."""
+    summary, mesh = scenario.summarise(solution), scenario.body.mesh
+    rests = "lies still" if summary["kinetic_share"] < _STILL else "still moves"
+    return f"The {mesh.name} of {len(mesh.faces)} triangles strikes {summary['impacts']} times and {rests} at the end"
 
 
 def history(scenario: MeshDrop, solution: Solution) -> Figure:
@@ -65,17 +75,24 @@ def history(scenario: MeshDrop, solution: Solution) -> Figure:
     figure = Figure(figsize=(7.2, 5.2), layout="constrained")
     axes = figure.subplots(2, 1, sharex=True)
     axes[0].plot(solution.t, 1e3 * solution.q[:, 2], color="black", linewidth=1.2, label="mass centre")
-    axes[0].plot(solution.t, 1e3 * scenario.lowest(solution), color="tab:red", linewidth=1.2, label="lowest point")
+    axes[0].plot(
+        solution.t,
+        1e3 * scenario.lowest(solution),
+        color="tab:red",
+        linewidth=1.2,
+        linestyle="--",
+        label="lowest point",
+    )
     axes[0].set_ylabel("height [mm]")
     axes[0].set_ylim(bottom=0.0)
-    axes[0].legend(fontsize=9, frameon=False)
+    axes[0].legend(fontsize=9, frameon=False, loc="upper right")
     weight = scenario.body.total_mass * 9.81
     share = scenario.kinetic_energy(solution.u) / (weight * scenario.height)
     axes[1].semilogy(solution.t, np.maximum(share, 1e-12), color="black", linewidth=1.2)
     axes[1].set_ylabel("kinetic energy / energy of the fall")
     axes[1].set_ylim(1e-9, 10.0)
     axes[1].set_xlabel("time [s]")
-    axes[0].set_title(f"{scenario.body.mesh.name}: {len(scenario.body.mesh.faces)} triangles", fontsize=11)
+    figure.suptitle(_said(scenario, solution), fontsize=11)
     for axis in axes:
         axis.grid(color="0.9", linewidth=0.6)
         axis.set_axisbelow(True)

@@ -13,7 +13,7 @@ from scenarios.mesh_dumbbell.scenario import MeshDumbbell
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_COLOURS = "#d55e00", "#0072b2"
+_LOOKS = ({"color": "#d55e00", "linestyle": "--"}, {"color": "#0072b2", "linestyle": "-"})
 
 
 def gaps(runs: Sequence[tuple[MeshDumbbell, Solution]], beside: Solution) -> Figure:
@@ -26,16 +26,19 @@ def gaps(runs: Sequence[tuple[MeshDumbbell, Solution]], beside: Solution) -> Fig
     for ball in range(2):
         axes[ball].plot(1e3 * beside.t, 1e3 * exact[:, ball], color="0.7", linewidth=4.0, label="balls")
         axes[ball].set_ylabel(f"gap of ball {ball + 1} [mm]")
+    worst = []
     for i, (scenario, solution) in enumerate(runs):
-        colour = _COLOURS[i % len(_COLOURS)]
+        look = _LOOKS[i % len(_LOOKS)]
         own = scenario.gaps(solution.t, solution.q, meshes=True)
         label = f"{20 * 4 ** int(scenario.subdivisions)} triangles each"
         for ball in range(2):
-            axes[ball].plot(1e3 * solution.t, 1e3 * own[:, ball], color=colour, linewidth=1.2, label=label)
+            axes[ball].plot(1e3 * solution.t, 1e3 * own[:, ball], linewidth=1.2, label=label, **look)
         n = min(len(own), len(exact))
         apart = np.max(np.abs(own[:n] - exact[:n]), axis=1)
-        axes[2].semilogy(1e3 * solution.t[:n], 1e3 * np.maximum(apart, 1e-9), color=colour, linewidth=1.2)
-    axes[0].legend(loc="upper right", fontsize=9)
+        axes[2].semilogy(1e3 * solution.t[:n], 1e3 * np.maximum(apart, 1e-9), linewidth=1.2, **look)
+        worst.append(f"{1e3 * float(np.max(apart)):.2g} mm with {label}")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8, frameon=False)
+    figure.suptitle(f"Gaps differ from those of balls by up to\n{', '.join(worst)}", fontsize=11)
     axes[2].set_ylabel("largest difference [mm]")
     axes[2].set_xlabel("time [ms]")
     for axis in axes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +17,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_COLOURS = ("black", "tab:red", "tab:blue", "tab:orange")
+_LOOKS: tuple[dict[str, Any], ...] = (
+    {"color": "black", "linestyle": "-"},
+    {"color": "tab:red", "linestyle": "--"},
+    {"color": "tab:blue", "linestyle": "-."},
+    {"color": "tab:orange", "linestyle": ":"},
+)
 
 
 def _clean(axis: Axes) -> None:
@@ -33,7 +38,7 @@ def corners(scenario: RockingBlock, solution: Solution, title: str) -> Figure:
     axis = figure.subplots()
     heights = scenario.corner_heights(solution)
     for i, word in enumerate(("left corner, on the ground at the start", "right corner")):
-        axis.plot(solution.t, heights[:, i], color=_COLOURS[i], linewidth=1.2, label=word)
+        axis.plot(solution.t, heights[:, i], linewidth=1.2, label=word, **_LOOKS[i])
     axis.set_title(title, fontsize=11)
     axis.set_xlabel("time [s]")
     axis.set_ylabel("height over the ground [m]")
@@ -122,8 +127,8 @@ def spatial(scenario: RockingBlock3D, solution: Solution) -> Figure:
     plan.set_ylabel("y component [1]")
     plan.legend(fontsize=8, frameon=False)
     names = ("-x -y", "-x +y", "+x -y", "+x +y")
-    for height, name, colour in zip(scenario.corner_heights(solution).T, names, _COLOURS, strict=True):
-        time.plot(solution.t, 1e3 * height, color=colour, linewidth=1.0, label=f"corner {name}")
+    for height, name, look in zip(scenario.corner_heights(solution).T, names, _LOOKS, strict=True):
+        time.plot(solution.t, 1e3 * height, linewidth=1.2, label=f"corner {name}", **look)
     time.set_title("lower corners", fontsize=10)
     time.set_xlabel("time [s]")
     time.set_ylabel("height over the ground [mm]")

@@ -139,7 +139,7 @@ class RockingBlock(Scenario):
         from scenarios.rocking_block.figures import corners
 
         words = f"e = {self.restitution:g}, η = {self.exponent:g}, μ = {self.friction:g}"
-        return {"corners": corners(self, solution, f"Rocking block: its lower corners ({words})")}
+        return {"corners": corners(self, solution, f"Its corners strike {solution.counters.impacts} times ({words})")}
 
     @classmethod
     def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.solution.solution import Solution
 from scenarios.rolling_disc import steady
@@ -13,9 +14,11 @@ from scenarios.rolling_disc.scenario import RollingDisc
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
+Floats = NDArray[np.float64]
 
 _STYLES = (("black", "-"), ("tab:blue", "-."))
+_MOST_TURNS, _TURNS, _POINTS = 8.0, 3.0, 1500
+"""Turns of the lowest point that a picture of its path can hold, those that are drawn of more, by so many points."""
 
 
 def settling(runs: Mapping[str, tuple[RollingDisc, Solution]], title: str) -> Figure:
@@ -48,6 +51,17 @@ def settling(runs: Mapping[str, tuple[RollingDisc, Solution]], title: str) -> Fi
     return figure
 
 
+def _lowest(scenario: RollingDisc, solution: Solution) -> tuple[Floats, str]:
+    """Return the path of the lowest point [m, 2], and which part of it, where all of it would be a grey disc."""
+    rates = scenario.precession(solution)
+    turns = float(np.sum(np.diff(solution.t) * (rates[1:] + rates[:-1]))) / (4.0 * np.pi)
+    if turns <= _MOST_TURNS or rates[-1] <= 0.0:
+        return scenario.contact_points(solution), ""
+    start = max(float(solution.t[0]), solution.t_end - _TURNS * 2.0 * np.pi / float(rates[-1]))
+    states = solution.at(np.linspace(start, solution.t_end, _POINTS))
+    return scenario.contact_points(states), f", last {_TURNS:g} turns"
+
+
 def paths(runs: Mapping[str, tuple[RollingDisc, Solution]], title: str) -> Figure:
     """Draw the paths of the lowest point and of the centre, seen from above."""
     from matplotlib.figure import Figure
@@ -55,8 +69,9 @@ def paths(runs: Mapping[str, tuple[RollingDisc, Solution]], title: str) -> Figur
     figure = Figure(figsize=(3.4 * max(len(runs), 2), 4.2), layout="constrained")
     axes = np.ravel(figure.subplots(1, len(runs), sharex=True, sharey=True))
     for axis, (name, (scenario, solution)) in zip(axes, runs.items(), strict=True):
-        contact, centre = 1e3 * scenario.contact_points(solution), 1e3 * solution.q[:, :2]
-        axis.plot(*contact.T, color="0.6", linewidth=0.7, label="lowest point")
+        contact, words = _lowest(scenario, solution)
+        centre = 1e3 * solution.q[:, :2]
+        axis.plot(*(1e3 * contact).T, color="0.6", linewidth=0.9, linestyle="--", label=f"lowest point{words}")
         axis.plot(*centre.T, color="tab:red", linewidth=1.2, label="centre")
         axis.plot(*centre[0], color="tab:red", marker="o", markersize=4, linestyle="none")
         axis.set_aspect("equal")

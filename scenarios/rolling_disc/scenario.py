@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from bodies import DiscBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.states import States
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
@@ -107,7 +108,7 @@ class RollingDisc(Scenario):
         )
         return system
 
-    def axis(self, solution: Solution) -> tuple[Floats, Floats]:
+    def axis(self, solution: Solution | States) -> tuple[Floats, Floats]:
         """Return the disc's axis and its rate [1/s] in world axes over the samples, shapes [n_samples, 3]."""
         return _axis(solution.q, solution.u)
 
@@ -119,7 +120,7 @@ class RollingDisc(Scenario):
         """Return the rate at which the lowest point runs round over the samples [rad/s]."""
         return _tilt_and_precession(solution.q, solution.u)[1]
 
-    def contact_points(self, solution: Solution) -> Floats:
+    def contact_points(self, solution: Solution | States) -> Floats:
         """Return where the lowest point is over the samples [m], shape [n_samples, 2]."""
         axis, _ = self.axis(solution)
         flat = axis[:, :2] / np.hypot(axis[:, 0], axis[:, 1])[:, None]
@@ -177,9 +178,17 @@ class RollingDisc(Scenario):
         from scenarios.rolling_disc.figures import paths, settling
 
         words = f"μ = {self.friction:g}, viscosity {self.viscosity:g} Pa s"
+        tilts, rates = self.tilts(solution), self.precession(solution)
+        strayed = 1e3 * float(np.max(np.hypot(*(solution.q[:, :2] - solution.q[0, :2]).T)))
         return {
-            "settling": settling({"run": (self, solution)}, f"Euler's disk ({words})"),
-            "paths": paths({"run": (self, solution)}, f"Euler's disk: paths on the table ({words})"),
+            "settling": settling(
+                {"run": (self, solution)},
+                f"As the tilt goes from {tilts[0]:.3g} to {tilts[-1]:.3g} rad the contact runs round "
+                f"at {rates[0]:.3g} to {rates[-1]:.3g} rad/s ({words})",
+            ),
+            "paths": paths(
+                {"run": (self, solution)}, f"The centre strays by {strayed:.2g} mm from where it started\n({words})"
+            ),
         }
 
     @classmethod

@@ -155,7 +155,9 @@ class SliderCrank(Scenario):
         """Return the slider's height in its guide."""
         from scenarios.slider_crank.figures import heights
 
-        return {"height": heights({self.law: (self, solution)}, "The slider in its guide")}
+        said = self.summarise(solution)
+        title = f"The slider strikes its guide {said['impacts']} times in {said['turns']:.3g} turns of the crank"
+        return {"height": heights({self.law: (self, solution)}, title)}
 
     @classmethod
     def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:

@@ -16,7 +16,7 @@ from scenarios.two_link_arm.scenario import TwoLinkArm
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_COLOURS = ("black", "tab:red", "tab:blue")
+_LOOKS = (("black", "-"), ("tab:red", "--"), ("tab:blue", "-."))
 
 
 def critical_friction(scenario: TwoLinkArm) -> Figure:
@@ -61,9 +61,11 @@ def gaps(runs: Mapping[str, Sequence[tuple[TwoLinkArm, Solution]]], title: str) 
     figure = Figure(figsize=(7.2, 1.2 + 2.2 * len(runs)), layout="constrained")
     axes = figure.subplots(len(runs), sharex=True, sharey=True, squeeze=False)[:, 0]
     for axis, (name, pairs) in zip(axes, runs.items(), strict=True):
-        for colour, (scenario, solution) in zip(_COLOURS, pairs, strict=False):
+        for (colour, line), (scenario, solution) in zip(_LOOKS, pairs, strict=False):
             label = f"spring {scenario.spring:g} N m/rad"
-            axis.plot(solution.t, 1e3 * scenario.gap(solution), color=colour, linewidth=1.2, label=label)
+            axis.plot(
+                solution.t, 1e3 * scenario.gap(solution), color=colour, linestyle=line, linewidth=1.2, label=label
+            )
             times = solution.events.time[solution.events.cause == PAINLEVE]
             axis.plot(times, np.zeros(len(times)), "x", color=colour, markersize=8, clip_on=False, zorder=3)
         axis.set_title(name, fontsize=9, loc="right")

@@ -174,11 +174,12 @@ class TwoLinkArm(Scenario):
         from scenarios.two_link_arm.figures import gaps
 
         runs = {f"damper {self.damping:g} N m s/rad": [(self, solution)]}
-        return {
-            "gap": gaps(
-                runs, f"Height of the tip over the belt, e = {self.restitution:g} (x: impact without collision)"
-            )
-        }
+        said = self.summarise(solution)
+        title = (
+            f"{said['impacts']} impacts, and {said['impacts_without_collision']} without collision (x), "
+            f"with e = {self.restitution:g}"
+        )
+        return {"gap": gaps(runs, title)}
 
     @classmethod
     def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:

@@ -36,10 +36,10 @@ def cycles(scenario: Woodpecker, solution: Solution) -> Figure:
     height.plot(t, 1e3 * (q[:, 0] - q[0, 0]), color="black", linewidth=1.4)
     height.set_ylabel("height of the sleeve [mm]")
     angle.plot(t, q[:, 2], color="tab:red", linewidth=1.4, label="bird")
-    angle.plot(t, q[:, 1], color="black", linewidth=1.4, label="sleeve")
+    angle.plot(t, q[:, 1], color="black", linewidth=1.4, linestyle="--", label="sleeve")
     angle.set_ylabel("angle [rad]")
     angle.set_xlabel("time [ms]")
-    angle.legend(fontsize=8, frameon=False, loc="lower left", ncols=2)
+    figure.legend(fontsize=8, frameon=False, loc="outside lower center", ncols=2)
     for axis in (height, angle):
         for peck in 1e3 * (scenario.pecks(solution)[0] - solution.t[shown][0]):
             if -1.0 <= peck <= t[-1] + 1.0:

@@ -88,7 +88,8 @@ def test_a_failed_run_reports_what_was_computed(
     assert "NotANumber" in report["message"]
     assert f"error: {report['message']}\n" in errors
     assert "Traceback" not in errors
-    kept = ["events.csv", "height.png", "solution.zarr", "summary.json", "transitions.png"] if extra else []
+    # of the one mode that it came to there is no picture of transitions
+    kept = ["events.csv", "height.png", "solution.zarr", "summary.json"] if extra else []
     assert sorted(path.name for path in tmp_path.glob("results/*")) == kept
 
 

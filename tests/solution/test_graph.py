@@ -15,7 +15,8 @@ from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.interfaces import Guard
 from nonsmooth.solution.draw_graph import draw
-from nonsmooth.solution.graph import TransitionGraph
+from nonsmooth.solution.graph import Mode, TransitionGraph
+from nonsmooth.solution.graph_groups import grouped
 from nonsmooth.solution.graph_layout import places_of
 
 
@@ -126,7 +127,15 @@ def test_the_most_visited_part(driven: ns.Solution) -> None:
 def _labels(graph: TransitionGraph, most: int = 14) -> list[str]:
     figure = draw(graph, most)
     found = [text.get_text() for axis in figure.axes for text in axis.texts]
-    return [*found, figure._supxlabel.get_text()]  # type: ignore[attr-defined]
+    return [*found, figure.subfigs[1].texts[0].get_text()]
+
+
+def _title(graph: TransitionGraph, most: int = 14) -> str:
+    return str(draw(graph, most).subfigs[0].get_suptitle())
+
+
+def _legend(graph: TransitionGraph) -> list[str]:
+    return [text.get_text() for text in draw(graph).subfigs[0].legends[0].get_texts()]
 
 
 def test_the_drawing_names_modes_and_numbers(sliding: ns.Solution, driven: ns.Solution) -> None:
@@ -135,18 +144,77 @@ def test_the_drawing_names_modes_and_numbers(sliding: ns.Solution, driven: ns.So
     labels = "\n".join(_labels(graph))
     for node in graph.nodes:
         assert node in labels
-    for number in graph.counts.values():
-        assert f"\n{number}\n" in labels
-    legend = draw(graph).axes[0].get_legend()
-    assert legend is not None
-    assert {text.get_text() for text in legend.get_texts()} == {cause for _, _, cause in graph.edges}
+    letters = {cause: letter for letter, cause in (text.split(" ", 1) for text in _legend(graph))}
+    assert {*letters} == {cause for _, _, cause in graph.edges}
+    for (_, _, cause), number in graph.counts.items():
+        assert f"\n{number} {letters[cause]}\n" in labels
     many = driven.transition_graph()
     listed = "\n".join(_labels(many, 6))
     assert sum(node in listed for node in many.nodes) == 6
-    title = draw(many, 6).get_suptitle()
+    title = _title(many, 6)
     assert f"{len(many.nodes)} visited" in title
     assert f"the {len(many.nodes) - 6} modes visited least are left out" in title
-    assert "left out" not in draw(graph).get_suptitle()
+    assert "left out" not in _title(graph)
+
+
+@pytest.fixture(scope="module")
+def shaken(build: Any) -> ns.Solution:
+    """Return twenty balls on a vibrating plate, with two hundred and ten contacts."""
+    plate, balls = Plate(Harmonic(4e-4, 25.0)), [Ball(0.005) for _ in range(20)]
+    system = ns.System([plate, *balls])
+    for i, ball in enumerate(balls):
+        for other in [plate, *balls[:i]]:
+            system.contact(other, ball, **build.laws(restitution=0.5))
+        system.place(ball, position=(0.012 * i, 0.0, 0.006 + 2e-4 * i))
+    return ns.simulate(system, 0.3)
+
+
+def test_modes_of_many_contacts_are_grouped(shaken: ns.Solution) -> None:
+    """By how many are closed, strike and slip: shares and transitions from group to group are those of the run."""
+    graph = shaken.transition_graph()
+    assert len(graph.contacts) == 210
+    assert len(graph.shares) > 100
+    whole, words = grouped(graph)
+    assert words.keys() == whole.shares.keys()
+    assert len(words) < 30
+    assert sum(whole.shares.values()) == pytest.approx(1.0)
+    open_ = sum(share for mode, share in graph.shares.items() if not mode)
+    assert open_ == pytest.approx(next(whole.shares[mode] for mode, word in words.items() if word == "all open"))
+    between = [(words[one], words[other]) for (one, other, _), n in whole.counts.items() for _ in range(n)]
+    assert all(one != other for one, other in between)
+    closed = [len([bits for _, bits in mode if bits & 1]) for mode in whole.shares]
+    for n, word in zip(closed, words.values(), strict=True):
+        low, _, high = word.split()[0].partition("-")
+        if word.endswith("slip"):
+            assert int(low) <= n <= int(high or low)
+    struck = sum(one.startswith("impact") for one, _ in between)
+    assert struck == sum(n for (one, _, _), n in graph.counts.items() if one in graph.passing)
+
+
+def test_a_mode_that_gets_other_features_right_away_is_in_the_group_of_its_kind() -> None:
+    """It is no mode that lasted, but one that was left."""
+    rests: Mode = ((0, 1),)
+    other: Mode = ((1, 1),)
+    struck: Mode = ((1, 3),)
+    edges: dict[tuple[Mode, Mode, str], int] = {
+        (other, struck, "impact"): 2,
+        (struck, rests, "impact"): 2,
+        (((1, 5),), rests, "slip to stick"): 1,
+    }
+    graph = TransitionGraph(("a", "b"), rests, {rests: 1.0, struck: 0.0}, frozenset([struck]), edges)
+    whole, words = grouped(graph)
+    assert words == {rests: "1 closed, none slip", struck: "impact, 1 strike"}
+    assert whole.counts == {(rests, struck, "impact"): 2, (struck, rests, "impact"): 2}
+
+
+def test_the_list_of_groups_has_the_commonest_first(shaken: ns.Solution) -> None:
+    graph = shaken.transition_graph()
+    rows = next(text for text in _labels(graph) if "\n" in text and " x " in text).splitlines()
+    visits = [int(row.split()[1]) for row in rows]
+    assert visits == sorted(visits, reverse=True)
+    assert len(rows) <= 14
+    assert max(map(len, rows)) < 60
+    assert "groups" in _title(graph)
 
 
 def test_modes_stand_apart(sliding: ns.Solution, driven: ns.Solution) -> None:

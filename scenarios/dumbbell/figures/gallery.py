@@ -10,8 +10,8 @@ from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.dumbbell.figures.laws import drift_by_law, drifts_of_all
 from scenarios.dumbbell.figures.motions import normal_motion
-from scenarios.dumbbell.figures.paths import Run, paths
-from scenarios.dumbbell.figures.portraits import portrait
+from scenarios.dumbbell.figures.paths import Run, goes, paths
+from scenarios.dumbbell.figures.portraits import portrait, turns
 from scenarios.dumbbell.figures.trace import Trace
 from scenarios.dumbbell.figures.velocities import normal_velocity, tangential_velocity
 from scenarios.dumbbell.scenario import DumbbellScenario
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _ACROSS = {"transverse_velocity": 1.0}
 _ONE_DEGREE = {"mode": "jump", "beta0": math.radians(1.0)}
-_REFERENCE = {"radius": 5e-3, "rod_mass_fraction": 0.0, "restitution": 0.6, "friction": 0.15, "t_end": 4.0}
+_TURNED = {"radius": 5e-3, "rod_mass_fraction": 0.0, "restitution": 0.6, "friction": 0.15, "t_end": 4.0}
 _RUNS: dict[str, dict[str, Any]] = {
     "drift": {"mode": "drift"},
     "jump": {"mode": "jump"},
@@ -31,12 +31,16 @@ _RUNS: dict[str, dict[str, Any]] = {
     # the level orbit is not stable: in a long run round-off tilts it
     "jump 3D": {"mode": "jump", "t_end": 0.5} | _ACROSS,
     "flutter 3D": {"mode": "flutter", "t_end": 8.0} | _ACROSS,
-    "energetic": _REFERENCE | {"impact": "energetic"},
-    "newton": _REFERENCE | {"impact": "newton"},
+    "newton": {"mode": "drift", "impact": "newton"},
+    "energetic turned": _TURNED | {"impact": "energetic"},
+    "newton turned": _TURNED | {"impact": "newton"},
 }
 _ANGLES = {
-    "theta": ("fig08_theta", "the heading: drift turns about the vertical, jump does not turn, flutter swings"),
-    "beta": ("fig09_beta", "the tilt: closed in all three modes, the normal motion is periodic"),
+    "theta": (
+        "fig08_theta",
+        "the heading: drift turns about the vertical, flutter swings; jump, not shown, does not turn",
+    ),
+    "beta": ("fig09_beta", "the tilt: closed, as the normal motion is periodic; jump, not shown, stays level"),
     "gamma": ("fig10_gamma", "the roll: open in all three modes, the dumbbell rolls along"),
 }
 _SPANS = {"drift": 600.0, "jump": 8.0, "flutter": 8.0}
@@ -62,15 +66,16 @@ def all_figures(kind: type[DumbbellScenario], progress: Progress | None) -> dict
     figures |= _portraits(across, ("theta", "beta", "gamma"))
     sight = "Paths from above: drift circles, jump goes straight, flutter zigzags"
     figures["fig11_paths"] = paths(across, _SPANS, sight)
-    laws = {"energetic (compliant limit)": runs["energetic"], "Newton, in one step": runs["newton"]}
-    figures["fig12_impact_laws"] = drift_by_law(laws, "The impact law decides even the direction of the drift")
+    laws = [(runs["drift"], runs["newton"]), (runs["energetic turned"], runs["newton turned"])]
+    title = "The impact law decides how fast the dumbbell drifts, and with some parameters even where to"
+    figures["fig12_impact_laws"] = drift_by_law(laws, title)
     title = "Laws that follow the slip through the impact drift as springs do, maps the other way"
-    figures["fig13_all_impact_laws"] = drifts_of_all(scenarios["energetic"], title)
+    figures["fig13_all_impact_laws"] = drifts_of_all(scenarios["energetic turned"], title)
     return figures
 
 
 def of_run(scenario: DumbbellScenario, solution: Solution) -> dict[str, Figure]:
-    """Draw the figures of one run's mode; none of a run without samples."""
+    """Draw the figures of one run's mode; none of a run without samples, and none of what stays as it is."""
     if len(solution.t) < 2:
         return {}
     mode = scenario.mode
@@ -79,8 +84,15 @@ def of_run(scenario: DumbbellScenario, solution: Solution) -> dict[str, Figure]:
     figures = _motions({"jump 1" if tilted else mode: (scenario, solution)})
     figures |= _portraits(runs, ("theta", "beta", "gamma") if scenario.transverse_velocity else ("beta",))
     periods = {mode: _SPANS["flutter"] if mode == "flutter" else scenario.t_end * scenario.frequency}
-    figures["fig11_path"] = paths(runs, periods, f"{mode.capitalize()}: path of the mass centre from above")
+    if goes(runs[mode]):
+        figures["fig11_path"] = paths(runs, periods, _way(scenario, solution))
     return figures
+
+
+def _way(scenario: DumbbellScenario, solution: Solution) -> str:
+    summary = scenario.summarise(solution)
+    speed = 1e3 * math.hypot(*summary["drift_velocity"])
+    return f"From above: settled, the mass centre goes on at {speed:.3g} mm/s (attractor: {summary['attractor']})"
 
 
 def _motions(runs: Mapping[str, Run]) -> dict[str, Figure]:
@@ -106,8 +118,8 @@ _PLOTS: dict[str, tuple[tuple[str, Callable[[Trace, str], Figure], str, str], ..
         (
             "fig03_drift_tangential_velocity",
             tangential_velocity,
-            "Drift: the slip at A is not symmetric, so that friction moves the dumbbell",
-            "Slip at A at the end of the run",
+            "Drift: the slip of ball 1 is not symmetric, so that friction moves the dumbbell",
+            "Slip of ball 1 at the end of the run",
         ),
     ),
     "jump": (
@@ -124,7 +136,7 @@ _PLOTS: dict[str, tuple[tuple[str, Callable[[Trace, str], Figure], str, str], ..
             "fig06_jump_tilted_normal_velocity",
             normal_velocity,
             "Jump from a tilt: two single impacts per plate period instead of a double one",
-            "Normal velocity of A at the end of the run",
+            "Normal velocity of ball 1 at the end of the run",
         ),
     ),
     "flutter": (
@@ -146,5 +158,8 @@ def _portraits(runs: Mapping[str, Run], angles: tuple[str, ...]) -> dict[str, Fi
     for angle in angles:
         stem, sight = _ANGLES[angle]
         single = f"Phase portrait of {angle} at the end of the run"
-        figures[stem] = portrait(angle, traces, f"Phase portraits of {angle}, {sight}" if len(runs) > 1 else single)
+        turning = {mode: trace for mode, trace in traces.items() if turns(angle, trace)}
+        if turning:
+            title = f"Phase portraits of {angle},\n{sight}" if len(runs) > 1 else single
+            figures[stem] = portrait(angle, turning, title)
     return figures

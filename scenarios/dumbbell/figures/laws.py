@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,15 +19,16 @@ from laws import (
 )
 from nonsmooth.interfaces import ImpactLaw
 from nonsmooth.simulate import simulate
-from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.dumbbell.figures import style
+from scenarios.dumbbell.figures.paths import Run
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LOOKS = (style.CURVE, style.OTHER)
+_NAMES = "energetic (compliant limit)", "Newton, in one step"
 _STRIKE = 0.25
 """Speed at which ball 2 strikes in the drift [m/s]; there the laws that depend on it have the e of the others."""
 _VISCOELASTIC = 33.8
@@ -108,17 +109,29 @@ def drifts_of_all(scenario: DumbbellScenario, title: str) -> Figure:
     return figure
 
 
-def drift_by_law(runs: Mapping[str, tuple[DumbbellScenario, Solution]], title: str) -> Figure:
-    """Draw the displacement of the mass centre along the rod's first direction (y) for each impact law."""
-    figure, axes = style.new_figure(title, style.footnote(*(scenario for scenario, _ in runs.values())))
-    axis = axes[0]
-    axis.axhline(0.0, color="0.6", linewidth=0.8)
-    for look, (name, (scenario, solution)) in zip(_LOOKS, runs.items(), strict=True):
-        motion = scenario.motion(solution)
-        speed = 1e3 * scenario.summarise(solution)["drift_velocity"][1]
-        moved = 1e3 * (motion.centre[:, 1] - motion.centre[0, 1])
-        axis.plot(motion.t, moved, label=f"{name}: {speed:+.1f} mm/s when settled", **look)
-    axis.set_xlabel("time [s]")
-    axis.set_ylabel("displacement of the mass centre along y [mm]")
+def drift_by_law(pairs: Sequence[tuple[Run, Run]], title: str) -> Figure:
+    """Draw the displacement of the mass centre along the rod's first direction (y) by both laws, a panel for each pair.
+
+    The first run of a pair is by the energetic law, the second one by Newton's; other parameters are the same.
+    """
+    note = style.footnote(*(scenario for pair in pairs for scenario, _ in pair))
+    figure, axes = style.new_figure(title, note, len(pairs), width=10.0)
+    for axis, pair in zip(axes, pairs, strict=True):
+        axis.axhline(0.0, color="0.6", linewidth=0.8)
+        for look, name, (scenario, solution) in zip(_LOOKS, _NAMES, pair, strict=True):
+            motion = scenario.motion(solution)
+            speed = 1e3 * scenario.summarise(solution)["drift_velocity"][1]
+            moved = 1e3 * (motion.centre[:, 1] - motion.centre[0, 1])
+            axis.plot(motion.t, moved, label=name, **look)
+            half = len(moved) // 2
+            axis.annotate(
+                f"{speed:+.1f} mm/s", (motion.t[half], moved[half]), xytext=(6, -12 if speed > 0.0 else 6),
+                textcoords="offset points", fontsize=8, color=look["color"],
+            )  # fmt: skip
+        used = pair[0][0].resolved()
+        words = (f"e = {used['restitution']:g}", f"µ = {used['friction']:g}", f"rod mass {used['rod_mass_fraction']:g}")
+        axis.set_title(", ".join(words), fontsize=10)
+        axis.set_xlabel("time [s]")
+    axes[0].set_ylabel("displacement of the mass centre along y [mm]")
     style.legend(axes)
     return figure

@@ -21,27 +21,30 @@ Flags = NDArray[np.bool_]
 
 _SYMBOL = {"theta": "θ", "beta": "β", "gamma": "\N{GREEK SMALL LETTER GAMMA}"}
 _TURN = 1e-9
-"""Angle [rad] and rate [rad/s] below which a portrait is a point."""
+"""Angle [rad] and rate [rad/s] below which nothing turns."""
 _ARROWS = 4
 _JUMP: dict[str, Any] = {"color": "0.5", "linestyle": ":", "linewidth": 1.0}
 _DIAMOND = style.IMPACT | {"marker": "D"}
 _CIRCLE = style.IMPACT | {"color": "black"}
-_BEFORE_A: dict[str, Any] = {"color": "tab:red", "linestyle": "-", "linewidth": 1.3}
-_BEFORE_B: dict[str, Any] = {"color": "black", "linestyle": "--", "linewidth": 1.3}
+_BEFORE_1: dict[str, Any] = {"color": "tab:red", "linestyle": "-", "linewidth": 1.3}
+_BEFORE_2: dict[str, Any] = {"color": "black", "linestyle": "--", "linewidth": 1.3}
+
+
+def turns(angle: str, trace: Trace) -> bool:
+    """Tell whether an angle changes at all: a portrait of one that does not is a point."""
+    column = NAMES.index(angle)
+    return bool(max(np.ptp(trace.q[:, column]), np.ptp(trace.u[:, column])) >= _TURN)
 
 
 def portrait(angle: str, traces: Mapping[str, Trace], title: str) -> Figure:
     """Draw rate over angle, one panel per mode."""
     note = style.footnote(*(trace.scenario for trace in traces.values()))
-    figure, axes = style.new_figure(title, note, len(traces), width=max(7.2, 3.7 * len(traces)), height=5.2)
+    figure, axes = style.new_figure(title, note, len(traces), width=max(8.6, 3.7 * len(traces)), height=5.2)
     column = NAMES.index(angle)
     for axis, (mode, trace) in zip(axes, traces.items(), strict=True):
         x, y = trace.q[:, column], trace.u[:, column]
-        if np.ptp(x) < _TURN and np.ptp(y) < _TURN:
-            _point(axis, x, y)
-        else:
-            _DRAW.get(mode, _drift)(axis, trace, x, y)
-            _arrows(axis, x, y, trace)
+        _DRAW.get(mode, _drift)(axis, trace, x, y)
+        _arrows(axis, x, y, trace)
         axis.set_title(mode, fontsize=10)
         axis.set_xlabel(f"{_SYMBOL[angle]} [rad]")
         axis.tick_params(labelsize=8)
@@ -51,17 +54,12 @@ def portrait(angle: str, traces: Mapping[str, Trace], title: str) -> Figure:
     return figure
 
 
-def _point(axis: Axes, x: Floats, y: Floats) -> None:
-    axis.plot([x[-1]], [y[-1]], "k*", markersize=11, label="fixed point")
-    axis.set_xlim(x[-1] - 0.1, x[-1] + 0.1)
-    axis.set_ylim(y[-1] - 0.1, y[-1] + 0.1)
-
-
 def _drift(axis: Axes, trace: Trace, x: Floats, y: Floats) -> None:
-    """Black: free flight and single impacts; blue, dashed: one ball on the plate; red circles: double impacts."""
+    """Black: free flight; blue, dashed: one ball on the plate; dotted: impacts, red circles at double ones."""
     double, hit = _struck(trace)
     standing = np.asarray(trace.touching.any(axis=1)) & ~hit
-    _steps(axis, x, y, ~standing & ~double, "free flight, single impacts", style.CURVE)
+    _steps(axis, x, y, ~standing & ~hit, "free flight", style.CURVE)
+    _steps(axis, x, y, hit & ~double, "change in an impact", _JUMP)
     _steps(axis, x, y, standing, "single contact", style.OTHER)
     _marks(axis, x, y, double, "double impact", style.IMPACT)
 
@@ -71,21 +69,21 @@ def _jump(axis: Axes, trace: Trace, x: Floats, y: Floats) -> None:
     double, hit = _struck(trace)
     _steps(axis, x, y, ~hit, "free flight", style.CURVE)
     _marks(axis, x, y, double, "double impact", style.IMPACT)
-    _marks(axis, x, y, trace.struck[:, 0] & ~double, "single impact at A", _DIAMOND)
-    _marks(axis, x, y, trace.struck[:, 1] & ~double, "single impact at B", _CIRCLE)
+    _marks(axis, x, y, trace.struck[:, 0] & ~double, "single impact of ball 1", _DIAMOND)
+    _marks(axis, x, y, trace.struck[:, 1] & ~double, "single impact of ball 2", _CIRCLE)
 
 
 def _flutter(axis: Axes, trace: Trace, x: Floats, y: Floats) -> None:
-    """Red: flight before an impact of A (diamond); black, dashed: flight before one of B (circle)."""
+    """Red: flight before an impact of ball 1 (diamond); black, dashed: flight before one of ball 2 (circle)."""
     _, hit = _struck(trace)
     hits = np.flatnonzero(hit)
     following = np.searchsorted(hits, np.arange(len(x)))
     known = following < len(hits)
     first = known & trace.struck[hits[np.minimum(following, len(hits) - 1)], 0] if len(hits) else known
-    _steps(axis, x, y, ~hit & known & first, "free flight before A strikes", _BEFORE_A)
-    _steps(axis, x, y, ~hit & known & ~first, "free flight before B strikes", _BEFORE_B)
-    _marks(axis, x, y, trace.struck[:, 0], "single impact at A", _DIAMOND)
-    _marks(axis, x, y, trace.struck[:, 1], "single impact at B", _CIRCLE)
+    _steps(axis, x, y, ~hit & known & first, "free flight before ball 1 strikes", _BEFORE_1)
+    _steps(axis, x, y, ~hit & known & ~first, "free flight before ball 2 strikes", _BEFORE_2)
+    _marks(axis, x, y, trace.struck[:, 0], "single impact of ball 1", _DIAMOND)
+    _marks(axis, x, y, trace.struck[:, 1], "single impact of ball 2", _CIRCLE)
 
 
 _DRAW = {"drift": _drift, "jump": _jump, "flutter": _flutter}

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.quiver import Quiver
+from matplotlib.text import Text
 
 from scenarios.dumbbell.figures.trace import Trace
 from scenarios.dumbbell.scenario import DumbbellScenario
@@ -51,13 +53,33 @@ def test_lines_differ_without_colour(gallery: dict[str, Any]) -> None:
     ("start", "stems"),
     [
         ({"mode": "drift"}, {"fig02_drift_motion", "fig03_drift_tangential_velocity", "fig09_beta", "fig11_path"}),
-        ({"mode": "jump"}, {"fig04_jump_motion", "fig09_beta", "fig11_path"}),
+        # what stays as it is, or comes back to where it was, has no picture
+        ({"mode": "jump"}, {"fig04_jump_motion"}),
+        ({"mode": "flutter", "t_end": 8.0}, {"fig07_flutter_motion", "fig09_beta"}),
         ({"mode": "free"}, {"free_motion", "fig09_beta", "fig11_path"}),
     ],
 )
 def test_a_run_draws_the_figures_of_its_mode(dumbbell: Runner, start: dict[str, Any], stems: set[str]) -> None:
     run = dumbbell(**start)
     assert set(run.scenario.figures(run.solution)) == stems
+
+
+def test_arrows_of_a_path_are_mean_velocities(dumbbell: Runner) -> None:
+    """Those of a drift point where it goes, all of them, and not to and fro within a period."""
+    run = dumbbell(mode="drift")
+    (axis,) = run.scenario.figures(run.solution)["fig11_path"].subfigs[0].axes
+    (arrows,) = (found for found in axis.collections if isinstance(found, Quiver))
+    x, y = run.scenario.summarise(run.solution)["drift_velocity"]
+    across, along = np.asarray(arrows.U, dtype=float), np.asarray(arrows.V, dtype=float)
+    assert len(along) == 6
+    np.testing.assert_allclose(along[1:], y, rtol=0.05)
+    np.testing.assert_allclose(across, x, atol=1e-9)
+
+
+def test_balls_have_one_name_each(gallery: dict[str, Any]) -> None:
+    for figure in gallery.values():
+        words = " ".join(text.get_text() for text in figure.findobj(Text))
+        assert not re.search(r"\b(at|of|before) [AB]\b", words)
 
 
 def test_titles_do_not_promise_what_did_not_happen(dumbbell: Runner) -> None:

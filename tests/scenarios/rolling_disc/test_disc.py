@@ -187,3 +187,15 @@ def test_reports_and_figures(tmp_path: Path) -> None:
         assert figure.axes[0].get_xlabel()
         assert figure.axes[0].get_ylabel()
         figure.savefig(tmp_path / f"{name}.png")
+
+
+def test_a_long_path_is_its_last_turns() -> None:
+    """All of it would be a grey disc; three turns of steady rolling are a circle that is gone round three times."""
+    scenario = RollingDisc(viscosity=0.0, t_end=2.0)
+    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
+    (axis,) = scenario.figures(solution)["paths"].axes
+    x, y = np.asarray(axis.lines[0].get_data())
+    assert "last 3 turns" in str(axis.lines[0].get_label())
+    np.testing.assert_allclose(np.hypot(x, y), 1e3 * scenario.radius * math.cos(scenario.tilt), rtol=1e-6)
+    angles = np.unwrap(np.arctan2(y, x))
+    assert abs(angles[-1] - angles[0]) == pytest.approx(6.0 * math.pi, rel=1e-6)

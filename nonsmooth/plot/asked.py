@@ -1,0 +1,109 @@
+"""What a picture is asked to show: axes, times, contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import ModuleType
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.errors import InvalidInput, MissingPackagesError
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.histories.times import read_times
+from nonsmooth.system.asked import contact_number
+from nonsmooth.system.contact import Contact
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from nonsmooth.solution.solution import Solution
+
+OneContact: TypeAlias = Contact | str | int
+Contacts: TypeAlias = OneContact | Sequence[OneContact]
+"""A contact, by itself, its name or its number, or several of them."""
+
+MOST = 8
+"""Contacts that are told apart by their lines."""
+_MOST_EVENTS = 2000
+"""Events whose two sides are both drawn: of more, none would be seen for itself."""
+
+
+def pyplot() -> ModuleType:
+    """Return matplotlib's pyplot.
+
+    Raises
+    ------
+    MissingPackagesError
+        If it is not installed.
+    """
+    try:
+        import matplotlib.pyplot
+    except ImportError as error:
+        raise MissingPackagesError('Pictures need matplotlib: pip install "nonsmooth[full]"') from error
+    return matplotlib.pyplot
+
+
+def axes_of(ax: Axes | None, height: float = 3.6) -> Axes:
+    """Return the axes given, or those of a new figure [inches]."""
+    if ax is not None:
+        return ax
+    made: Axes = pyplot().subplots(layout="constrained", figsize=(7.2, height))[1]
+    return made
+
+
+def times_of(where: str, solution: Solution, times: ArrayLike | None, *, before: bool = True) -> Floats:
+    """Return the times to draw [s]: those given, else of the samples and both sides of events, in order, shape [n].
+
+    Without ``before`` the side after events only.
+
+    Raises
+    ------
+    InvalidInput
+        If the run was not there.
+    """
+    if times is not None:
+        return np.atleast_1d(read_times(where, solution, times))
+    events = solution.events.time
+    if len(events) > _MOST_EVENTS:
+        return solution.t
+    found = np.unique(np.concatenate([solution.t, events, [solution.t_end]]))
+    if before:
+        last = np.nextafter(events, -np.inf)
+        found = np.union1d(found, last[last >= solution.track.time[0]])
+    return found
+
+
+def contacts_of(where: str, solution: Solution, contacts: Contacts | None, most: int = MOST) -> list[int]:
+    """Return the numbers of the contacts to draw: those given, else the busiest, in the order of the system.
+
+    Raises
+    ------
+    InvalidInput, UnknownName
+        If there is none, or the system has no such contact.
+    """
+    declared = solution.system.contacts
+    if contacts is None:
+        events = np.bincount(solution.events.listed, minlength=len(declared))
+        found = sorted(np.argsort(-events, kind="stable")[:most].tolist())
+    else:
+        several = [contacts] if isinstance(contacts, (Contact, str, int, np.integer)) else contacts
+        found = [contact_number(where, one, declared) for one in several]
+    if not found:
+        raise InvalidInput(f"{where}: contacts", "must be some", found, "Take a system and a run that have contacts.")
+    return found
+
+
+def part_of(where: str, part: str, parts: Sequence[str]) -> int:
+    """Return which of the parts is asked for.
+
+    Raises
+    ------
+    InvalidInput
+        If it is none of them.
+    """
+    if part not in parts:
+        rule = f"must be {' or '.join(map(repr, parts))}"
+        raise InvalidInput(f"{where}: part", rule, part, "One call draws one of them.")
+    return parts.index(part)

@@ -1,0 +1,68 @@
+"""Energies over time, with what was lost stacked on them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.plot.asked import axes_of, times_of
+from nonsmooth.plot.lines import beside, over_time
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from nonsmooth.solution.solution import Solution
+
+_LAYERS = (
+    ("potential", "potential, over its least", "#56b4e9", ""),
+    ("kinetic", "kinetic", "#0072b2", ""),
+    ("friction_loss", "lost to friction", "#e69f00", "////"),
+    ("restitution_loss", "lost to restitution", "#d55e00", "...."),
+    ("closing_loss", "lost in closings", "#7f7f7f", "xxxx"),
+)
+"""Field of Energies, words, colour and hatch, from below."""
+_SEEN = 1e-3
+"""Part of the largest sum that a layer must have once to be seen, and named."""
+
+
+def energies(solution: Solution, ax: Axes | None = None, *, times: ArrayLike | None = None) -> Axes:
+    """Draw energies [J] and all losses since the start over time [s], stacked.
+
+    The line is what they have to add up to: the energy at the start and the work of driven bodies, loads and compliant
+    contacts since.  Where the stack leaves it, the account is open.
+
+    Parameters
+    ----------
+    solution, ax, times
+        As for :func:`nonsmooth.plot.gaps`.
+
+    Returns
+    -------
+    Axes
+        The axes.
+
+    Raises
+    ------
+    InvalidInput
+        If a time is not within the run.
+    """
+    told = solution.energies(times_of("nonsmooth.plot.energies", solution, times))
+    least = float(np.min(told.potential))
+    total = told.start - least + told.driven_work + told.load_work
+    parts = {name: getattr(told, name) for name, *_ in _LAYERS} | {"potential": told.potential - least}
+    ax, below = axes_of(ax), np.zeros_like(total)
+    some = _SEEN * float(np.max(np.abs(total)))
+    for name, label, colour, hatch in _LAYERS:
+        above, seen = below + parts[name], np.max(np.abs(parts[name])) > some
+        ax.fill_between(
+            told.time, below, above, label=label if seen else None, facecolor=colour, hatch=hatch, edgecolor="white",
+            linewidth=0.0,
+        )  # fmt: skip
+        below = above
+    ax.plot(told.time, total, color="black", linewidth=1.4, linestyle="--", label="at the start, and work since")
+    over_time(ax, solution)
+    ax.set_ylabel("energy [J]")
+    beside(ax)
+    return ax

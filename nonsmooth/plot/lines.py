@@ -1,0 +1,51 @@
+"""Lines over time, one for each contact, told apart by their dashes as well as by their colours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from nonsmooth.histories.arrays import Floats
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from nonsmooth.solution.solution import Solution
+
+COLOURS = ("#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7f7f7f")
+_DASHES = ("-", "--", "-.", ":", (0, (6, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
+
+
+def look(place: int) -> dict[str, Any]:
+    """Return how the line at a place of the legend looks."""
+    turn, which = divmod(place, len(COLOURS))
+    return {"color": COLOURS[which], "linestyle": _DASHES[which], "linewidth": 1.3 + 0.9 * turn}
+
+
+def draw_lines(ax: Axes, solution: Solution, numbers: Sequence[int], times: Floats, values: Floats) -> None:
+    """Draw values [n, one for each contact] over time, with a legend; what is not a number is left out."""
+    for place, (number, line) in enumerate(zip(numbers, values.T, strict=True)):
+        ax.plot(times, line, label=solution.system.contacts[number].name, **look(place))
+    over_time(ax, solution)
+    beside(ax, title_of(numbers, solution))
+
+
+def over_time(ax: Axes, solution: Solution) -> None:
+    """Let the axes be those of the time of a run."""
+    ax.set_xlabel("time [s]")
+    ax.set_xlim(float(solution.track.time[0]), solution.t_end)
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+
+
+def beside(ax: Axes, title: str = "") -> None:
+    """Put the legend beside the axes, where it covers no curve."""
+    ax.legend(
+        loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8, frameon=False, title=title or None, title_fontsize=8
+    )
+
+
+def title_of(numbers: Sequence[int], solution: Solution) -> str:
+    """Return what a legend says where it has not all contacts."""
+    total = len(solution.system.contacts)
+    return f"{len(numbers)} of {total} contacts" if len(numbers) < total else ""

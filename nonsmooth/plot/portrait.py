@@ -1,0 +1,72 @@
+"""The phase portrait of a coordinate."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.errors import UnknownName
+from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.histories.coordinate_rates import coordinate_rates
+from nonsmooth.plot.asked import axes_of, times_of
+from nonsmooth.plot.lines import beside
+from nonsmooth.system.labels import labels
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from nonsmooth.solution.solution import Solution
+
+_WHERE = "nonsmooth.plot.phase_portrait"
+
+
+def phase_portrait(
+    solution: Solution, coordinate: str, ax: Axes | None = None, *, times: ArrayLike | None = None
+) -> Axes:
+    """Draw the rate of a coordinate over the coordinate; what it jumps by in events is dotted.
+
+    Parameters
+    ----------
+    solution, ax, times
+        As for :func:`nonsmooth.plot.gaps`.
+    coordinate : str
+        Its name with that of the body, as ``solution.at().to_xarray()["coordinate"]`` lists them: "ball z".
+
+    Returns
+    -------
+    Axes
+        The axes.
+
+    Raises
+    ------
+    UnknownName, InvalidInput
+        If the system has no such coordinate, or a time is not within the run.
+    """
+    known = {name: (number, unit) for number, (_, name, unit) in enumerate(labels(solution.system).coordinates)}
+    if coordinate not in known:
+        raise UnknownName(f"{_WHERE}: coordinate", coordinate, known)
+    number, unit = known[coordinate]
+    row = times_of(_WHERE, solution, times)
+    x, y, ax = solution.at(row).q[:, number], coordinate_rates(solution, row)[:, number], axes_of(ax)
+    jumps = np.flatnonzero(np.isin(row[1:], solution.events.time) & (row[:-1] == np.nextafter(row[1:], -np.inf)))
+    ax.plot(np.insert(x, jumps + 1, np.nan), np.insert(y, jumps + 1, np.nan), color="black", linewidth=1.2)
+    if len(jumps) > 0:
+        ax.plot(_ways(x, jumps), _ways(y, jumps), color="#d55e00", linewidth=1.0, linestyle=":", label="event")
+    ax.plot(*_first(x, y), linestyle="none", marker="o", fillstyle="none", color="black", label="start")
+    ax.set_xlabel(f"{coordinate} [{unit}]")
+    ax.set_ylabel(f"its rate [{'1/s' if unit == '1' else f'{unit}/s'}]")
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    beside(ax)
+    return ax
+
+
+def _ways(values: Floats, jumps: Integers) -> Floats:
+    """Return the values before and after jumps, apart by what is not a number."""
+    return np.column_stack([values[jumps], values[jumps + 1], np.full(len(jumps), np.nan)]).ravel()
+
+
+def _first(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    return x[:1], y[:1]
