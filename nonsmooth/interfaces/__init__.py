@@ -11,6 +11,7 @@ from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
 from nonsmooth.interfaces.joint import Joint
 from nonsmooth.interfaces.load import Load
+from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.motion import Motion
 from nonsmooth.interfaces.normal_law import CompliantNormalLaw, NormalLaw, RigidNormalLaw
 from nonsmooth.interfaces.scenario import Scenario
@@ -35,6 +36,7 @@ __all__ = [
     "ImpactProcess",
     "Joint",
     "Load",
+    "Look",
     "Motion",
     "NormalLaw",
     "RigidNormalLaw",

@@ -1,0 +1,84 @@
+"""``nonsmooth view`` and ``run --view``: the page, and what they refuse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from urllib.parse import unquote, urlparse
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from tests.viewer.decoded import decoded
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Return the addresses that a browser was to open."""
+    addresses: list[str] = []
+    monkeypatch.setattr("webbrowser.open", addresses.append)
+    return addresses
+
+
+def _page(address: str) -> str:
+    return Path(unquote(urlparse(address).path)).read_text(encoding="utf-8")
+
+
+def test_a_scenario_is_run_and_opened(call: Call, opened: list[str]) -> None:
+    status, output, errors = call("view", "tiny", "--set", "t_end=0.05")
+    assert (status, output) == (0, "")
+    told, arrays = decoded(_page(opened[0]))
+    assert told["status"] == "done"
+    assert arrays["time"][-1] == 0.05
+    assert "plays in the browser" in errors
+
+
+def test_a_run_may_be_opened_too(call: Call, opened: list[str]) -> None:
+    status, output, _ = call("run", "tiny", "--view")
+    assert status == 0
+    assert output.startswith("tiny: done at t = 0.1 s")
+    assert decoded(_page(opened[0]))[0]["title"] == "A ball on a vibrating plate"
+
+
+def test_a_folder_of_results_is_opened_as_it_ran(call: Call, opened: list[str], tmp_path: Path) -> None:
+    folder = tmp_path / "results"
+    call("run", "tiny", "--set", "t_end=0.1", "--out", str(folder))
+    path = tmp_path / "page.html"
+    status, _, errors = call("view", str(folder), "--html", str(path))
+    assert status == 0
+    assert opened == []
+    assert f"the page is {path}" in errors
+    _, arrays = decoded(path.read_text(encoding="utf-8"))
+    np.testing.assert_array_equal(arrays["event_time"], ns.open_solution(folder).events.time)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("no_such",), "no_such"),
+        (("tiny", "--set", "no=1"), "no"),
+        (("{folder}",), "solution.zarr"),
+        (("{folder}", "--set", "t_end=1"), "--set"),
+    ],
+)
+def test_what_is_wrong_is_said_by_name(call: Call, tmp_path: Path, words: tuple[str, ...], said: str) -> None:
+    status, _, errors = call("view", *(word.format(folder=tmp_path) for word in words))
+    assert status == 2
+    assert said in errors
+
+
+def test_a_page_that_cannot_be_written_is_an_error_with_its_path(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    status, _, errors = call("view", "tiny", "--html", str(tmp_path / "file" / "page.html"))
+    assert status == 1
+    assert "page.html could not be written" in errors
+
+
+def test_of_a_run_that_fails_what_was_computed_is_shown(call: Call, opened: list[str]) -> None:
+    status, _, errors = call("view", "tiny", "--set", "mode=nan law")
+    assert status == 1
+    assert "not finite" in errors
+    assert decoded(_page(opened[0]))[0]["status"] == "failed"
