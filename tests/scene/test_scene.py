@@ -99,7 +99,7 @@ def test_links_of_a_mechanism_end_where_its_frames_are() -> None:
 
 def test_frames_are_where_poses_say() -> None:
     box = HullBody([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    system = ns.System([Plate(), box, RigidBody(1.0, np.eye(3), (Point(),))])
+    system = ns.System([Plate(), box, RigidBody(1.0, np.eye(3).tolist(), (Point(),))])
     system.place(box, position=(0.0, 0.0, 3.0), angular_velocity=(1.0, 2.0, 3.0))
     run = ns.simulate(system, 0.2)
     scene, states = Scene.of(system), run.at()

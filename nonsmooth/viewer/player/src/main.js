@@ -170,7 +170,7 @@ class Player {
   }
 
   stepTo(e) {
-    if (e < 0) return;
+    if (!(e >= 0 && e < this.run.nEvents)) return;
     this.event = e;
     this.t = this.run.event_time[e];
     this.draw();
@@ -244,7 +244,7 @@ class Player {
     scrub.value = String(Math.round((1000 * (t - run.t0)) / (run.t1 - run.t0 || 1)));
     scrub.setAttribute("aria-valuetext", `${t.toFixed(6)} s`);
     this.at("clock").textContent = `${t.toPrecision(10)} s`;
-    this.at("word").textContent = e >= 0 ? run.words(e).after : "";
+    this.at("word").textContent = run.told.contacts.length === 0 ? "no contacts" : e >= 0 ? run.words(e).after : "";
     if (this.event < 0) this.at("event").textContent = "";
     run.energies(t).forEach((value, i) => (this.cells[i].textContent = value.toExponential(4)));
     this._closed(e);

@@ -27,7 +27,6 @@ export class World {
     this.high = new THREE.Vector3(...run.told.high);
     this.span = Math.max(this.high.distanceTo(this.low), 1e-9);
     this.reach = this._reach();
-    this.follow = this.span > 8 * this.reach;
     this.showForces = true;
     this.frames = Array.from({ length: run.nFrames }, () => new THREE.Group());
     this.frames.forEach((frame) => this.scene.add(frame));
@@ -42,7 +41,7 @@ export class World {
     const strongest = Math.max(...run.strength, 1e-300);
     this.perImpulse = arm / strongest;
     this.perForce = (0.6 * arm) / this._typicalForce();
-    this.marks = [];
+    this.follow = this.span > 6 * this.group().radius;
     this.theme(dark);
     this.view("iso");
   }
@@ -113,7 +112,7 @@ export class World {
     const group = new THREE.Group();
     const face = new THREE.Mesh(
       new THREE.PlaneGeometry(2 * half, 2 * half),
-      new THREE.MeshLambertMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide, depthWrite: false }),
+      new THREE.MeshLambertMaterial({ transparent: true, opacity: 0.35, depthWrite: false }),
     );
     const grid = new THREE.GridHelper(2 * half, n).rotateX(Math.PI / 2);
     group.add(face, grid);
@@ -158,19 +157,21 @@ export class World {
     return knot;
   }
 
-  /** Middle of what moves [m]. */
-  middle() {
-    const seen = this.run.told.parts.filter((part) => this.run.told.bodies[part.body].moves);
-    const found = new THREE.Vector3();
-    if (seen.length === 0) return this.low.clone().add(this.high).multiplyScalar(0.5);
-    seen.forEach((part) => found.add(this.frames[part.frame].position));
-    return found.divideScalar(seen.length);
+  /** Middle of what moves and the radius of a ball round it [m]. */
+  group() {
+    const { parts, bodies } = this.run.told;
+    const seen = parts.filter((part) => bodies[part.body].moves).map((part) => this.frames[part.frame].position);
+    if (seen.length === 0) return { middle: this.low.clone().add(this.high).multiplyScalar(0.5), radius: 0.5 * this.span };
+    const box = new THREE.Box3().setFromPoints(seen);
+    const middle = box.getCenter(new THREE.Vector3());
+    return { middle, radius: 0.5 * box.min.distanceTo(box.max) + this.reach };
   }
 
   view(name) {
     const away = new THREE.Vector3(...VIEWS[name]).normalize();
-    this.controls.target.copy(this.follow ? this.middle() : this.low.clone().add(this.high).multiplyScalar(0.5));
-    const size = this.follow ? 4 * this.reach : 1.1 * this.span;
+    const { middle, radius } = this.group();
+    this.controls.target.copy(this.follow ? middle : this.low.clone().add(this.high).multiplyScalar(0.5));
+    const size = this.follow ? 3 * radius : 1.1 * this.span;
     const distance = size / (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.min(1, this.camera.aspect);
     this.camera.position.copy(this.controls.target).addScaledVector(away, distance);
     this.camera.near = distance / 1000;
@@ -188,10 +189,10 @@ export class World {
 
   /** Draws time t [s]; of impulses those of one event, or, of none, those of the last moments watched. */
   draw(t, event, speed) {
-    const before = this.follow ? this.middle() : null;
+    const before = this.follow ? this.group().middle : null;
     const [k] = this.put(t);
     if (before) {
-      const moved = this.middle().sub(before);
+      const moved = this.group().middle.sub(before);
       this.camera.position.add(moved);
       this.controls.target.add(moved);
     }
@@ -199,6 +200,9 @@ export class World {
     if (this.showForces) this._forces(k);
     this._impulses(t, event, speed);
     this.controls.update();
+    // from behind a sheet one looks through it
+    for (const [face, grid] of this.sheets ?? [])
+      face.visible = grid.visible = face.worldToLocal(this.camera.position.clone()).z > 0;
     this.renderer.render(this.scene, this.camera);
   }
 
