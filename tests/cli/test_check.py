@@ -146,7 +146,7 @@ def test_a_built_in_of_every_kind_is_checked(call: Call, name: str) -> None:
 
 def test_an_example_takes_parameters(call: Call) -> None:
     """Those that are set come before those of the example."""
-    status, output, _ = call("check", "rod", "--set", "length=0.3", "--json")
+    status, output, _ = call("check", "rod", "--set", "centre_distance=0.3", "--json")
     assert status == 0
     assert json.loads(output)["status"] == "holds"
     assert "no principal moment" in call("check", "rod", "--set", "radius=0.5")[2]
