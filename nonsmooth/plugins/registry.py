@@ -62,7 +62,8 @@ _LAWS = {NormalLaw: "normal law", TangentialLaw: "friction law", ImpactLaw: "imp
 """What a law is called where the laws of another kind are asked for."""
 
 _HOME = Path(__file__).resolve().parents[2]
-_BUILT_IN = ("bodies", "laws", "scenarios")
+_IMPORTED = ("bodies", "laws")
+_BUILT_IN = (*_IMPORTED, "scenarios")
 
 
 class BrokenPlugin(NonsmoothWarning):
@@ -221,15 +222,15 @@ def load_all(group: str) -> dict[str, Any]:
 
 
 def check_hidden() -> None:
-    """Warn of files that hide packages that come with nonsmooth; the import that fails for it would name neither."""
-    for said in _hidden():
+    """Warn of files that hide packages that scripts import; the import that fails for it names no cause."""
+    for said in _hidden(_IMPORTED):
         warnings.warn(said, HiddenPackage, stacklevel=3)
 
 
-def _hidden() -> list[str]:
+def _hidden(packages: tuple[str, ...] = _BUILT_IN) -> list[str]:
     """Say which files of the user hide packages that come with nonsmooth, as a laws.py in the working folder does."""
     found = {}
-    for package in _BUILT_IN:
+    for package in packages:
         try:
             spec = importlib.util.find_spec(package)
         except ValueError:  # a module put together by hand, without a specification

@@ -47,6 +47,7 @@ def test_the_file_that_hides_a_package_is_named(
 def test_a_script_is_told_when_it_imports_nonsmooth(tmp_path: Path) -> None:
     own = tmp_path / "bodies.py"
     own.touch()
+    (tmp_path / "scenarios.py").touch()  # which no script imports
     (tmp_path / "script.py").write_text("import nonsmooth\nfrom bodies import Ball\n")
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     words = [sys.executable, "script.py"]
