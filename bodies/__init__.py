@@ -62,6 +62,7 @@ from bodies.motions.function_motion import FunctionMotion
 from bodies.motions.harmonic import Harmonic
 from bodies.motions.rest import Rest
 from bodies.motions.table import Table
+from bodies.open_box import OpenBox
 from bodies.planar_body import PlanarBody
 from bodies.plate import Plate
 from bodies.rigid_body import RigidBody
@@ -88,6 +89,7 @@ from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.superellipsoid_body import SuperellipsoidBody
 from bodies.support_body import SupportBody
+from bodies.wall import Wall
 
 __all__ = [
     "Ball",
@@ -144,6 +146,7 @@ __all__ = [
     "MeshSphere",
     "MeshSwept",
     "MovedShape",
+    "OpenBox",
     "Part",
     "PlanarBody",
     "Plane",
@@ -182,4 +185,5 @@ __all__ = [
     "TriangleMesh",
     "Triangles",
     "TurningFrame",
+    "Wall",
 ]

@@ -5,19 +5,16 @@ from __future__ import annotations
 from abc import ABC
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
-
-import numpy as np
 
 from bodies.motions.rest import Rest
+from bodies.prescribed import Prescribed
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body, Motion
-from nonsmooth.interfaces.body import NamesAndUnits, Vector
+from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import Value
 
 
 @dataclass(frozen=True)
-class Driven(Body, ABC):
+class Driven(Prescribed, ABC):
     """A body without coordinates whose frame moves as ``motion`` says; subclasses are final and give shapes."""
 
     motion: Motion = field(default_factory=Rest)
@@ -37,42 +34,11 @@ class Driven(Body, ABC):
         return self.motion.parameters()
 
     @property
-    def q_labels(self) -> NamesAndUnits:
-        """0: driven."""
-        return ()
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """0: driven."""
-        return ()
-
-    @property
-    def quaternion(self) -> int:
-        """None."""
-        return -1
-
-    @property
     def evaluator(self) -> Callable[..., None]:
         """The motion's."""
         return self.motion.evaluator
 
     @property
-    def scales(self) -> tuple[Vector, Vector]:
-        """Empty."""
-        return np.zeros(0), np.zeros(0)
-
-    @property
     def time_scale(self) -> float:
         """The motion's [s]."""
         return self.motion.time_scale
-
-    def state(self, **start: Any) -> tuple[Vector, Vector]:
-        """Return empty vectors; a driven body cannot be placed."""
-        if start:
-            raise InvalidInput(
-                f"start of a {type(self).__name__}",
-                "must not be given",
-                sorted(start),
-                "Its motion says where it is at t = 0.",
-            )
-        return np.zeros(0), np.zeros(0)

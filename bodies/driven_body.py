@@ -10,7 +10,6 @@ from bodies.carried import check_carried
 from bodies.driven import Driven
 from bodies.motions.harmonic import Harmonic
 from bodies.shapes.sphere import Sphere
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 
 
@@ -24,7 +23,7 @@ class DrivenBody(Driven):
     motion : Motion
         The motion of its frame.
     carried : tuple of Shape
-        Its shapes, at least one, in the axes of the frame.
+        Its shapes in the axes of the frame; without any it is a place to hang joints, springs and dampers on.
     """
 
     carried: tuple[Shape, ...] = ()
@@ -36,10 +35,6 @@ class DrivenBody(Driven):
 
     def _check(self) -> None:
         object.__setattr__(self, "carried", check_carried("DrivenBody.carried", self.carried))
-        if not self.carried:
-            raise InvalidInput(
-                "DrivenBody.carried", "must hold at least one shape", self.carried, "Without one nothing can touch it."
-            )
 
     @property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:

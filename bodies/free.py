@@ -11,10 +11,12 @@ from typing import Any
 import numpy as np
 
 from bodies.blocks import put
+from bodies.carried import check_carried
 from bodies.inertia import Triple, check_inertia, tensor_of
 from bodies.values import Word, read_start, unit_quaternion
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
 from nonsmooth.types import Floats
@@ -202,8 +204,12 @@ class FreeBody(Body):
 
     def parameters(self) -> dict[str, float]:
         """Return mass, inertia tensor and its inverse (the mobility), checked."""
+        name = type(self).__name__
         mass, moments, products = self.total_mass, tuple(self.inertia), tuple(self.products)
-        mobility = _mobility(type(self).__name__, mass, moments, products)
+        for part, values in (("inertia", moments), ("products", products)):
+            if len(values) != 3:
+                raise InvalidInput(f"{name}.{part}", "must be three numbers", values, "Give them in [kg m^2].")
+        mobility = _mobility(name, mass, moments, products)
         names = ("x", "y", "z", "yz", "xz", "xy")
         return {
             "mass": mass,
@@ -219,7 +225,7 @@ class FreeBody(Body):
     @functools.cached_property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """One frame with all shapes, which are made once."""
-        return (self.shapes,)
+        return (check_carried(f"{type(self).__name__}.shapes", self.shapes),)
 
     @property
     def q_labels(self) -> NamesAndUnits:

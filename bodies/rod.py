@@ -24,8 +24,8 @@ class Rod(FreeBody):
 
     Attributes
     ----------
-    length : float
-        Length l between the centres of the rounded ends [m].
+    centre_distance : float
+        Distance l of the centres of the rounded ends [m]; the whole is longer by 2 r.
     radius : float
         Radius r of the rod and of its ends [m].
     density : float, optional
@@ -39,8 +39,8 @@ class Rod(FreeBody):
         If a size is not positive, or both mass and density are given.
     """
 
-    length: float = parameter(
-        doc="length l between the centres of the rounded ends", unit="m", above=0.0, usual=(1e-5, 10.0)
+    centre_distance: float = parameter(
+        doc="distance l of the centres of the rounded ends", unit="m", above=0.0, usual=(1e-5, 10.0)
     )
     radius: float = parameter(doc="radius r of the rod and of its ends", unit="m", above=0.0, usual=(1e-5, 10.0))
     density: float | None = parameter(
@@ -51,7 +51,7 @@ class Rod(FreeBody):
     @classmethod
     def example(cls) -> Mapping[str, Any]:
         """Return a slender one."""
-        return {"length": 0.2, "radius": 0.005}
+        return {"centre_distance": 0.2, "radius": 0.005}
 
     def _check(self) -> None:
         check_mass("Rod", self.mass, self.density)
@@ -59,16 +59,16 @@ class Rod(FreeBody):
     @property
     def total_mass(self) -> float:
         """As given, or density times pi r^2 l [kg]."""
-        return mass_of(self.mass, self.density, math.pi * self.radius**2 * self.length)
+        return mass_of(self.mass, self.density, math.pi * self.radius**2 * self.centre_distance)
 
     @property
     def inertia(self) -> tuple[float, float, float]:
         """Moments m r^2 / 2 about the axis, m l^2 / 12 across [kg m^2]."""
         mass = self.total_mass
-        across = mass * self.length**2 / 12.0
+        across = mass * self.centre_distance**2 / 12.0
         return mass * self.radius**2 / 2.0, across, across
 
     @property
     def shapes(self) -> tuple[Shape, ...]:
         """A capsule along the first axis."""
-        return (Capsule(self.radius, 0.5 * self.length, axis_x=1.0, axis_z=0.0),)
+        return (Capsule(self.radius, 0.5 * self.centre_distance, axis_x=1.0, axis_z=0.0),)

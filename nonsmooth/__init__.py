@@ -9,6 +9,7 @@ from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.interfaces import Criterion
 from nonsmooth.placing.starts import at_height, resting, touching
+from nonsmooth.plugins import registry as _registry
 from nonsmooth.queries.distance import distance
 from nonsmooth.queries.proximity import proximity
 from nonsmooth.restitution import restitution
@@ -62,6 +63,9 @@ __all__ = [
     "touching",
     "with_laws",
 ]
+
+
+_registry.check_hidden()
 
 
 def __getattr__(name: str) -> str:

@@ -38,7 +38,7 @@ def _shortened(said: str) -> str:
 
 
 class UnknownName(InvalidInput):
-    """A name that nothing answers to, with the nearest known ones.
+    """A name that nothing answers to, with the nearest known one.
 
     Parameters
     ----------
@@ -48,12 +48,14 @@ class UnknownName(InvalidInput):
         The name asked for.
     known : iterable of str
         The names that exist.
+    other : str
+        What else has that name, where something has ("a friction law").
     """
 
-    def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
+    def __init__(self, kind: str, name: str, known: Iterable[str], other: str = "") -> None:
         known = sorted(known)
-        near = difflib.get_close_matches(name, known, n=2, cutoff=0.5)
-        hint = f"Did you mean {' or '.join(repr(n) for n in near)}? " if near else ""
+        near = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+        hint = f"That is {other}. " if other else f"Did you mean {near[0]!r}? " if near else ""
         listing = _shortened(", ".join(known)) if known else "none"
         super().__init__(f"{kind} name", "must be a known one", name, f"{hint}Known: {listing}.")
 

@@ -94,9 +94,9 @@ def _row(prop: Any) -> dict[str, Any]:
 def _as_text(part: dict[str, Any]) -> str:
     rows = part["properties"]
     table = lines([(row["outcome"], row["property"], row["says"]) for row in rows])
-    notes = [
-        f"  {row['message']}" for outcome in (_OPEN, _DEPARTS, _FAILS) for row in rows if row["outcome"] == outcome
-    ]
+    told = [row["message"] for outcome in (_OPEN, _DEPARTS, _FAILS) for row in rows if row["outcome"] == outcome]
+    # what is not looked at for one reason says so once
+    notes = [f"  {message}" for message in dict.fromkeys(told)]
     counts = ", ".join(f"{sum(row['outcome'] == o for row in rows)} {w}" for o, w in _WORDS.items())
     title = f"{part['name']}: {part['kind']} of {part['source']}"
     return "\n".join([title, "", *table, *([""] if notes else []), *notes, "", f"  {counts}"])

@@ -6,20 +6,20 @@ import argparse
 from collections.abc import Mapping
 from typing import Any
 
-from nonsmooth.cli import extras, results
+from nonsmooth.cli import extras, outputs, results
 from nonsmooth.cli.interrupt import Interrupt
 from nonsmooth.cli.messages import complain, say
 from nonsmooth.cli.progress import on_standard_error
 from nonsmooth.plugins import registry
 from nonsmooth.results.output import Output
-from nonsmooth.solution import files
 
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("figures", help="draw all figures of a scenario", allow_abbrev=False)
     command.add_argument("scenario", metavar="SCENARIO", help="see `nonsmooth list scenarios`")
-    command.add_argument("--out", metavar="DIR", required=True, help="save them there")
+    command.add_argument("--out", metavar="DIR", required=True, help="save them there, in an empty or new folder")
+    outputs.add_to(command)
     command.set_defaults(execute=execute)
 
 
@@ -28,7 +28,7 @@ def execute(arguments: argparse.Namespace) -> bool:
     owner = registry.load("scenarios", arguments.scenario)
     extras.require(extras.PICTURES)
     folder = Output.to(arguments.out).folder
-    files.prepare(folder)
+    outputs.prepare_folder(folder, arguments.overwrite)
     results.without_display()
     drawn = _draw(owner)
     if drawn is None:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import importlib.util
 import keyword
 import re
 import sys
-from importlib import resources
+from importlib import metadata, resources
 from pathlib import Path
 from string import Template
 from typing import Any
 
+from nonsmooth.cli import outputs
 from nonsmooth.cli.messages import say
 from nonsmooth.errors import InvalidInput
 from nonsmooth.plugins import registry
@@ -45,8 +48,7 @@ def execute(arguments: argparse.Namespace) -> bool:
     name = arguments.name
     _check_name(name)
     folder = arguments.dir or Path(name)
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise InvalidInput("new plugin", "must be given a folder that is empty or new", str(folder), "Add --dir DIR.")
+    outputs.prepare_folder(folder, overwrite=False, remedy="Add --dir DIR.")
     words = {"name": name, "title": "".join(part.capitalize() for part in name.split("_"))}
     texts = resources.files("nonsmooth.templates") / "plugin"
     for place, source in _FILES.items():
@@ -62,9 +64,23 @@ def _check_name(name: str) -> None:
     remedy = "Take small letters, digits and underscores, a letter first: rubber_friction."
     if re.fullmatch(r"[a-z][a-z0-9_]*[a-z0-9]", name) is None or keyword.iskeyword(name):
         raise InvalidInput("new plugin: name", "must be that of a Python package", name, remedy)
-    if (
-        name in registry.names("laws")
-        or name in sys.stdlib_module_names
-        or name in ("bodies", "laws", "scenarios", "tests")
-    ):
-        raise InvalidInput("new plugin: name", "must not be taken already", name, "Take another one.")
+    holder = _holder(name)
+    if holder:
+        raise InvalidInput(
+            "new plugin: name", "must not be taken already", name, f"It is that of {holder}: take another."
+        )
+
+
+def _holder(name: str) -> str:
+    """Return what has the name already, that the package would hide or replace; nothing where it is free."""
+    if name in registry.names("laws"):
+        return f"a law of {registry.source('laws', name)}"
+    if name == "tests":
+        return "the folder of its tests"
+    if name in sys.stdlib_module_names:
+        return "a module of Python"
+    with contextlib.suppress(metadata.PackageNotFoundError):
+        return f"the installed package {name} {metadata.version(name)}"
+    found = importlib.util.find_spec(name)
+    # a folder without __init__.py has a specification, too, but no origin, and is hidden by anything
+    return f"the module {found.origin}" if found is not None and found.origin is not None else ""

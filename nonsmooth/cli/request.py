@@ -10,7 +10,6 @@ from typing import Any
 from nonsmooth.cli import engine, law
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
-from nonsmooth.files.formats import SUFFIXES
 from nonsmooth.files.reading import read
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Engine, Scenario
@@ -89,10 +88,14 @@ def job(name: str, words: Iterable[str], laws: Iterable[str] = (), asked: str | 
     values = assignments(words)
     replaced = law.laws(laws)
     other = None if asked is None else engine.engine(asked)
-    if name.endswith(SUFFIXES):
+    if file.is_file(name) or name.endswith(".py"):
+        owner = file.load("scenario", (Scenario,), name)
+    # what looks like a file is one, of a known format or not
+    elif Path(name).suffix and name not in registry.names("scenarios"):
         setup = read(Path(name), values)
         return Job(FileScenario(setup), other or setup.engine, replaced)
-    owner = file.load("run", (Scenario,), name) if file.is_file(name) else registry.load("scenarios", name)
+    else:
+        owner = registry.load("scenarios", name)
     law.check_not_ignored(owner, values, replaced)
     made: Scenario = from_all_words(owner, values, name, "--set {name}=VALUE")
     return Job(made, other or EventDriven(), replaced)

@@ -8,13 +8,12 @@ import json
 import sys
 from typing import Any
 
-from nonsmooth.cli import acceptance, engine, extras, law, report, request, view
+from nonsmooth.cli import acceptance, engine, extras, law, outputs, report, request, view
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.perform import Told, perform
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import check_free
 from nonsmooth.simulate import assemble
-from nonsmooth.solution import files
 from nonsmooth.solution.solution import Solution
 
 
@@ -35,7 +34,8 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
-    command.add_argument("--out", metavar="DIR", help="save results and figures there")
+    command.add_argument("--out", metavar="DIR", help="save results and figures there, an empty or new folder")
+    outputs.add_to(command)
     command.add_argument(
         "--accept", action="store_true", help="judge the run by the scenario's own criteria; exit status 1 if one fails"
     )
@@ -67,7 +67,7 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
         folder = Output.to(arguments.out).folder
         output = Output(folder, view.title_of(scenario), asked, json.loads(report.as_json(head)))
         check_free(output)
-        files.prepare(folder)
+        outputs.prepare_folder(folder, arguments.overwrite)
 
     def compute(told: Told) -> Solution:
         model = assemble(system, job.engine)

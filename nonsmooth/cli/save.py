@@ -6,8 +6,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import engine, law, request
+from nonsmooth.cli import engine, law, outputs, request, view
 from nonsmooth.cli.messages import tell
+from nonsmooth.files import formats
 from nonsmooth.files.writing import save_system
 
 
@@ -19,6 +20,7 @@ def add_to(commands: Any) -> None:
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
+    outputs.add_to(command)
     command.set_defaults(execute=execute)
 
 
@@ -26,13 +28,15 @@ def execute(arguments: argparse.Namespace) -> bool:
     """Write the file; tell where it is."""
     job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine)
     scenario = job.scenario
+    formats.of(arguments.file)
+    outputs.prepare_file(arguments.file, arguments.overwrite)
     save_system(
         job.build(),
         arguments.file,
         t_end=scenario.t_end,
         sample_interval=scenario.sample_interval,
         engine=job.engine,
-        title=str(scenario.resolved().get("title", type(scenario).title)),
+        title=view.title_of(scenario),
     )
     tell(f"the system is in {arguments.file}")
     return True

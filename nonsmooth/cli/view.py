@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import engine, law, request, resume
+from nonsmooth.cli import engine, law, outputs, request, resume
 from nonsmooth.cli.messages import tell
 from nonsmooth.cli.perform import computed
 from nonsmooth.errors import InvalidInput
@@ -31,11 +31,14 @@ def add_to(commands: Any) -> None:
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
     command.add_argument("--html", type=Path, metavar="FILE", help="write the page there and open nothing")
+    outputs.add_to(command)
     command.set_defaults(execute=execute)
 
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Write the page and open it; tell whether the run came to its end."""
+    if arguments.html is not None:
+        outputs.prepare_file(arguments.html, arguments.overwrite)
     with contextlib.redirect_stdout(sys.stderr):
         stored = Path(arguments.run).is_dir()
         title, solution = _stored(arguments) if stored else _computed(arguments)

@@ -42,8 +42,7 @@ def system(tables: Table, path: Path) -> System:
         if material is not None:
             made_of.setdefault(material, []).append(made)
     with naming(f"{path}"):
-        gravity = number("gravity", tables.get("gravity", 9.81), "m/s^2")
-        made_system = System(list(reader.bodies.values()), gravity)
+        made_system = System(list(reader.bodies.values()), tables.get("gravity", 9.81))
     for name, body in reader.bodies.items():
         with naming(f"{path}: bodies"):
             made_system.name(body, name)

@@ -54,5 +54,6 @@ def of(path: Path) -> Format:
         If its name ends in none of those known.
     """
     if path.suffix not in _FORMATS:
-        raise InvalidInput("scenario file", f"must end in {', '.join(SUFFIXES)}", str(path), "Rename it.")
+        remedy = "Scenario files are TOML or YAML; rename one that is: JSON text is YAML, too."
+        raise InvalidInput("scenario file", f"must end in {', '.join(SUFFIXES)}", str(path), remedy)
     return _FORMATS[path.suffix]

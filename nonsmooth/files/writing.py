@@ -85,7 +85,8 @@ def _tables(
             if not is_finite(value):
                 raise InvalidInput(f"save_system: {name}", "must be a finite number", value, "Give it in [s].")
             tables[name] = float(value)
-    tables["gravity"] = 0.0 - system.gravity[2]
+    x, y, z = system.gravity
+    tables["gravity"] = 0.0 - z if x == y == 0.0 and z <= 0.0 else [x, y, z]
     if engine is not None and engine != EventDriven():
         tables["engine"] = table_of(engine, "engine", EventDriven)
     known = dict(zip(map(id, system.bodies), system.names.bodies, strict=True))

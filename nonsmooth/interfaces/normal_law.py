@@ -43,7 +43,7 @@ class CompliantNormalLaw(NormalLaw, ABC):
        x' = -g' [m/s] and the rate at which the contact closed [m/s] (0 if it was closed from the start); its further
        arguments are parameters of the law.  A positive force [N] presses, a negative one pulls.
     2. A contact closes when its gap falls to zero, and opens when its gap grows to ``reach`` [m]: zero, but for laws
-       that pull.  What the force is at other gaps is never asked.
+       that pull.  A step may end past that: the force must be finite there, best what it is at the end.
     3. Round a cycle of compression and expansion the force takes energy out, or none.
     """
 

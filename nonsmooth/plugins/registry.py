@@ -58,12 +58,20 @@ KINDS = {
 }
 """What one member of a group is called."""
 
+_LAWS = {NormalLaw: "normal law", TangentialLaw: "friction law", ImpactLaw: "impact law"}
+"""What a law is called where the laws of another kind are asked for."""
+
 _HOME = Path(__file__).resolve().parents[2]
-_BUILT_IN = ("bodies", "laws", "scenarios")
+_IMPORTED = ("bodies", "laws")
+_BUILT_IN = (*_IMPORTED, "scenarios")
 
 
 class BrokenPlugin(NonsmoothWarning):
     """An installed plug-in that cannot be used."""
+
+
+class HiddenPackage(NonsmoothWarning):
+    """A package that comes with nonsmooth and that a file of the user hides."""
 
 
 @functools.cache
@@ -134,7 +142,7 @@ def load(group: str, name: str) -> Any:
         If it cannot be imported or is not what the group asks for.
     """
     if name not in _points(group):
-        raise UnknownName(KINDS[group], name, names(group))
+        raise UnknownName(KINDS[group], name, names(group), said_of(name))
     point = _points(group)[name]
     try:
         loaded = point.load()
@@ -155,6 +163,16 @@ INTERFACES = tuple(base for bases in GROUPS.values() for base in bases)
 def kind_of(owner: type) -> str:
     """Return in words what a class is."""
     return next(KINDS[group] for group, bases in GROUPS.items() if issubclass(owner, bases))
+
+
+def said_of(name: str) -> str:
+    """Return in words what is installed under a name, in whichever group; nothing where nothing is."""
+    found: dict[str, None] = {}
+    for group in GROUPS:
+        if name in names(group) and (owner := _loaded(group, name)) is not None:
+            kind = next((words for base, words in _LAWS.items() if issubclass(owner, base)), KINDS[group])
+            found[f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"] = None
+    return " and ".join(found)
 
 
 def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:
@@ -203,10 +221,16 @@ def load_all(group: str) -> dict[str, Any]:
     return loaded
 
 
-def _hidden() -> list[str]:
+def check_hidden() -> None:
+    """Warn of files that hide packages that scripts import; the import that fails for it names no cause."""
+    for said in _hidden(_IMPORTED):
+        warnings.warn(said, HiddenPackage, stacklevel=3)
+
+
+def _hidden(packages: tuple[str, ...] = _BUILT_IN) -> list[str]:
     """Say which files of the user hide packages that come with nonsmooth, as a laws.py in the working folder does."""
     found = {}
-    for package in _BUILT_IN:
+    for package in packages:
         try:
             spec = importlib.util.find_spec(package)
         except ValueError:  # a module put together by hand, without a specification

@@ -24,15 +24,14 @@ from nonsmooth.interfaces import (
     TangentialLaw,
 )
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.parameters import Rule, check_number
 from nonsmooth.system.contact import Contact, Declaration, Tie, Watched
+from nonsmooth.system.gravity import gravity_of
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws
 from nonsmooth.system.names import Names, Naming, between, kind_word
 from nonsmooth.system.pairing import Geometries
 from nonsmooth.system.selection import Side, select
 from nonsmooth.system.sharing import check_sharing
 
-_LARGEST_GRAVITY = 1e4
 _Pair: TypeAlias = frozenset[int]
 _ShapePair: TypeAlias = frozenset[tuple[int, int]]
 _Facing: TypeAlias = tuple[Side, Side, ContactKinematics]
@@ -45,16 +44,16 @@ class System:
     ----------
     bodies : sequence of Body
         The bodies; each object once.
-    gravity : float
-        Gravity along -z [m/s^2].
+    gravity : float or sequence of float
+        Gravity [m/s^2]: a number counts along -z, a vector of shape [3] has any direction.
 
     Raises
     ------
     InvalidInput
-        If there is no body, one is listed twice or is not a Body, or gravity is not finite.
+        If there is no body, one is listed twice or is not a Body, or gravity is not finite or a number below 0.
     """
 
-    def __init__(self, bodies: Sequence[Body], gravity: float = 9.81) -> None:
+    def __init__(self, bodies: Sequence[Body], gravity: float | Sequence[float] = 9.81) -> None:
         check_kind("System.bodies", bodies, Collection, "Write System([ball, plate]).")
         for body in bodies:
             check_kind("System.bodies: each", body, Body, "Give Body objects.")
@@ -65,9 +64,8 @@ class System:
                 [type(b).__name__ for b in bodies],
                 "Make a new object for another body of the same kind.",
             )
-        check_number("System.gravity", gravity, Rule("gravity along -z", "m/s^2", -_LARGEST_GRAVITY, _LARGEST_GRAVITY))
         self._bodies = tuple(bodies)
-        self._gravity = float(gravity)
+        self._gravity = gravity_of(gravity)
         self._contacts: list[Contact] = []
         self._declared: list[Declaration] = []
         self._paired: set[_ShapePair] = set()
@@ -132,7 +130,7 @@ class System:
     @property
     def gravity(self) -> tuple[float, float, float]:
         """Gravity vector [m/s^2]."""
-        return 0.0, 0.0, -self._gravity
+        return self._gravity
 
     @property
     def contacts(self) -> tuple[Contact, ...]:

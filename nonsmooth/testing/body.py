@@ -15,6 +15,7 @@ from nonsmooth.testing.block import state, state_space, written
 from nonsmooth.testing.body_flight import compiled_flight, flight_rows, flown, plain_flight
 from nonsmooth.testing.body_frames import frame_rows
 from nonsmooth.testing.body_free import free_rows
+from nonsmooth.testing.budget import where
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.draws import Case, draws
 from nonsmooth.testing.examine import examine
@@ -89,6 +90,10 @@ def _words(case: Case) -> str:
 
 def _check_start(body: Body) -> None:
     q, u = body.state()
+    for name, once, again in zip(("q", "u"), (q, u), body.state(), strict=True):
+        if not np.array_equal(once, again):
+            told = f"{np.asarray(once).tolist()} and {np.asarray(again).tolist()}"
+            raise Broken(f"`state` gives another start each time: {where(type(body).state)}", name, told)
     for name, given, size in (("q", q, body.n_q), ("u", u, body.n_u)):
         if np.shape(given) != (size,) or not np.all(np.isfinite(given)):
             raise Broken(f"`state` must give {size} finite numbers", name, given)

@@ -28,6 +28,8 @@ _SPEED = Variable("closing_rate", 1e-3, 10.0, 1.0, log=True)
 _SHARE = Variable("share", 0.01, 1.0, 1.0)
 _NEAREST, _FARTHEST = 1e-15, 1e3
 """Where the indentation under 1 N is looked for [m]."""
+_PAST = 1e-6
+"""How far past its reach a force is asked for [m]."""
 _NOTHING = 1e-9
 """A force that counts as none [N]."""
 _POINTS = 2048
@@ -100,7 +102,8 @@ def compliant_properties(law: CompliantNormalLaw) -> list[Property]:
 
 def _force(law: CompliantNormalLaw) -> Function:
     name, offered = type(law).__name__, law.parameters()
-    places = (0.0, 1e-300, *np.geomspace(1e-12, 1e-1, 6).tolist())
+    # steps end past the reach before it is located
+    places = (0.0, 1e-300, *np.geomspace(1e-12, 1e-1, 6).tolist(), -_PAST - max(law.reach, 0.0))
     if 0.0 < law.reach < math.inf:
         places += (-0.5 * law.reach, -law.reach)
     inputs = [
@@ -148,6 +151,8 @@ def _nothing(law: CompliantNormalLaw, case: Case) -> str:
 
 def _rises(law: CompliantNormalLaw, case: Case) -> str:
     unit = _unit(law)
+    if not math.isfinite(unit) and _pulling(law, case):
+        raise NotChecked("not checked, as it pulls where it is pressed")
     if not math.isfinite(unit):
         return f"it is {_plain(law)(_FARTHEST, 0.0, case['closing_rate']):g} N at {_FARTHEST:g} m"
     x, deeper = case["depth"] * unit, case["factor"] * case["depth"] * unit
@@ -157,7 +162,17 @@ def _rises(law: CompliantNormalLaw, case: Case) -> str:
     return ""
 
 
+def _pulling(law: CompliantNormalLaw, case: Case) -> str:
+    """Return what is wrong where the force pulls however far the contact is pressed."""
+    force = _plain(law)(_FARTHEST, 0.0, case["closing_rate"])
+    if force >= 0.0:
+        return ""
+    return f"it is {force:g} N at an indentation of {_FARTHEST:g} m, and a negative force pulls: it has the wrong sign"
+
+
 def _pulls(law: CompliantNormalLaw, case: Case) -> str:
+    if not math.isfinite(_unit(law)) and (found := _pulling(law, case)):
+        return found
     inside, first = _depth(law, case), case["closing_rate"]
     pressed = _plain(law)(inside, 0.0, first)
     if pressed < -_NOTHING:

@@ -12,6 +12,8 @@ import numpy as np
 
 Case = dict[str, float]
 """Numbers by name."""
+_LEAST = 1e-3
+"""Part of its range by which a number differs from the simplest one at least: nearer to it all is as it is there."""
 MOST_TRIALS = 300
 """Inputs that are tried to make a failing one smaller."""
 
@@ -63,7 +65,8 @@ class Variable:
                 rounded = float(f"{between:.{digits}e}")
                 nearer = abs(rounded - self.simplest) < abs(value - self.simplest)
                 shorter = share == 1.0 and rounded != value
-                if (nearer or shorter) and self.low <= rounded <= self.high:
+                apart = self.log or abs(rounded - self.simplest) >= _LEAST * (self.high - self.low)
+                if (nearer or shorter) and apart and self.low <= rounded <= self.high:
                     yield rounded
 
     def _between(self, value: float, share: float) -> float:

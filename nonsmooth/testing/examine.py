@@ -11,6 +11,7 @@ from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import UnusualValue, rules
 from nonsmooth.testing.draws import Case, Space, draws, shrink
+from nonsmooth.testing.places import told
 from nonsmooth.testing.property import Broken, NotChecked
 
 Trial = Callable[[Any, Case], str]
@@ -37,7 +38,7 @@ def attempt(trial: Trial, component: Any, case: Case) -> str:
     except NotChecked:
         raise
     except (NonsmoothError, ArithmeticError, LookupError, TypeError, ValueError) as error:
-        return f"it raises {type(error).__name__}: {error}"
+        return told(error)
 
 
 def _fails(trial: Trial, component: Any, case: Case) -> bool:
@@ -57,6 +58,8 @@ def examine(
     count = fewest if PLAIN and fewest is not None else count
     for component in components:
         for case in draws(space, count, name):
-            if attempt(trial, component, case):
+            found = attempt(trial, component, case)
+            if found:
                 smallest = shrink(case, space, functools.partial(_fails, trial, component))
-                raise Broken(attempt(trial, component, smallest), *described(component), smallest)
+                again = attempt(trial, component, smallest) or f"{found}; tried again, it holds: something is random"
+                raise Broken(again, *described(component), smallest)

@@ -205,8 +205,14 @@ def _finite(function: Function) -> None:
                 f"{title} raises {type(error).__name__}: {error}, in {where(function.function)}{line}",
                 *described(function.owner),
             ) from error
-        if isinstance(result, bool) or (not isinstance(result, np.ndarray) and not isinstance(result, (int, float))):
-            raise Broken(f"{title} returns {result!r}, in {where(function.function)}", *described(function.owner))
+        # what is written comes as an array
+        kinds = (int, float) if FORMS[function.form].returns else (np.ndarray,)
+        if isinstance(result, bool) or not isinstance(result, kinds):
+            cause = " (a power of a negative number)" if isinstance(result, complex) else ""
+            raise Broken(
+                f"{title} returns {result!r}{cause}, in {where(function.function)}, and not one number",
+                *described(function.owner),
+            )
         if not np.all(np.isfinite(result)):
             raise Broken(f"{title} is {_short(result)}, in {where(function.function)}", *described(function.owner))
 

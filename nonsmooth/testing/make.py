@@ -8,8 +8,9 @@ import warnings
 from collections.abc import Mapping
 from typing import Any
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
+from nonsmooth.testing.places import told
 
 
 def make(owner: Any, name: str, words: Mapping[str, str]) -> Any:
@@ -19,6 +20,8 @@ def make(owner: Any, name: str, words: Mapping[str, str]) -> Any:
     ------
     InvalidInput
         If a value is wrong, or a field without default is no declared number and not in the example.
+    PluginError
+        If the class raises anything else.
     """
     values = {**owner.example(), **from_words(owner, words, name)}
     for field in dataclasses.fields(owner):
@@ -35,7 +38,12 @@ def make(owner: Any, name: str, words: Mapping[str, str]) -> Any:
         values[field.name] = rule.choices[0] if rule.choices else _typical(rule)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnusualValue)
-        return owner(**values)
+        try:
+            return owner(**values)
+        except NonsmoothError:
+            raise
+        except Exception as error:
+            raise PluginError(f"{name} cannot be made with {values}: {told(error)}.") from error
 
 
 def _typical(rule: Rule) -> float:

@@ -10,6 +10,7 @@ from typing import Any, final
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import Component
+from nonsmooth.testing.places import place_of, told
 
 
 class PropertyFailed(NonsmoothError, AssertionError):
@@ -29,19 +30,30 @@ class PropertyFailed(NonsmoothError, AssertionError):
         Their values.
     case : mapping of str to float
         The smallest failing input that was found; empty where the property has no inputs.
+    place : str
+        Name, file and line of the class, told where the reason names no line.
     """
 
     def __init__(
-        self, thing: str, prop: str, reason: str, parameter: str, value: object, case: Mapping[str, float]
+        self,
+        thing: str,
+        prop: str,
+        reason: str,
+        parameter: str,
+        value: object,
+        case: Mapping[str, float],
+        place: str = "",
     ) -> None:
         self.thing, self.prop, self.reason = thing, prop, reason
         self.parameter, self.value, self.case = parameter, value, dict(case)
-        parts = [f"{thing}: {prop!r} does not hold: {reason}."]
+        parts = [f"{thing}: {prop!r} does not hold: {reason.rstrip('.')}."]
         if parameter:
             parts.append(f"With {parameter} = {value}.")
         if case:
             inputs = ", ".join(f"{name} = {number:.6g}" for name, number in case.items())
             parts.append(f"Smallest failing input: {inputs}.")
+        if place and ", line " not in reason:
+            parts.append(f"See {place}.")
         super().__init__(" ".join(parts))
 
 
@@ -82,7 +94,7 @@ class Property:
         A few words.
     says : str
         The statement in full.
-    subject : str
+    owner : type
         The class of the component.
     check : callable
         Looks at it; call the property instead, which turns whatever goes wrong into PropertyFailed.
@@ -92,9 +104,14 @@ class Property:
 
     name: str
     says: str
-    subject: str
+    owner: type
     check: Callable[[], None]
     departure: str = ""
+
+    @property
+    def subject(self) -> str:
+        """The name of the class."""
+        return self.owner.__name__
 
     def __str__(self) -> str:
         return f"{self.subject}: {self.name}"
@@ -128,11 +145,10 @@ class Property:
             raise
         except Broken as found:
             raise PropertyFailed(
-                self.subject, self.name, found.reason, found.parameter, found.value, found.case
+                self.subject, self.name, found.reason, found.parameter, found.value, found.case, place_of(self.owner)
             ) from None
         except Exception as error:
-            reason = f"it raises {type(error).__name__}: {error}"
-            raise PropertyFailed(self.subject, self.name, reason, "", "", {}) from error
+            raise PropertyFailed(self.subject, self.name, told(error), "", "", {}, place_of(self.owner)) from error
 
 
 Row = tuple[str, str, Callable[[], None]]
@@ -149,4 +165,4 @@ def properties(component: Any, rows: list[Row]) -> list[Property]:
             raise Broken("there are no such properties", "departures", unknown)
 
         rows = [*rows, ("departures", "they name properties", refuse)]
-    return [Property(name, says, owner.__name__, check, owner.departures.get(name, "")) for name, says, check in rows]
+    return [Property(name, says, owner, check, owner.departures.get(name, "")) for name, says, check in rows]

@@ -36,6 +36,7 @@ from nonsmooth.testing.load import check_load
 from nonsmooth.testing.make import make
 from nonsmooth.testing.motion import check_motion
 from nonsmooth.testing.normal import check_normal_law
+from nonsmooth.testing.places import place_of
 from nonsmooth.testing.property import Property
 from nonsmooth.testing.scenario import check_scenario
 from nonsmooth.testing.shape import check_shape
@@ -80,7 +81,11 @@ def check_class(owner: Any, name: str, words: Mapping[str, str]) -> list[Propert
     if issubclass(owner, ContactKinematics):
         return _of_pair(owner, name, words)
     component = make(owner, name, words)
-    found = [prop for base, check in _CHECKS if isinstance(component, base) for prop in check(component)]
+    try:
+        found = [prop for base, check in _CHECKS if isinstance(component, base) for prop in check(component)]
+    except InvalidInput as error:
+        remedy = f"{error.remedy} See {place_of(owner)}."
+        raise InvalidInput(error.thing, error.rule, error.value, remedy) from error
     if not found:
         kind = registry.kind_of(owner)
         raise InvalidInput(f"check {name}", "must be of a kind that the kit knows", kind, "Nothing would be looked at.")

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import rules
@@ -24,6 +25,7 @@ from nonsmooth.simulate import simulate
 from nonsmooth.solution.events_table import save_events
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
+from nonsmooth.testing.budget import where
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.property import Broken, NotChecked, Property, properties
 
@@ -125,11 +127,14 @@ class _Look:
 
     def twice(self) -> None:
         one, other = self._scenario.build(), self._scenario.build()
+        build = where(type(self._scenario).build)
+        if not isinstance(one, System):
+            raise Broken(f"`build` returns no System: {build}", "build()", one)
         if one is other or any(a is b for a, b in zip(one.bodies, other.bodies, strict=False)):
             raise Broken("`build` returns objects of the build before")
         for name, a, b in zip(_PARTS, _parts(one), _parts(other), strict=True):
             if a != b:
-                raise Broken("two builds differ", name, f"{a} and {b}")
+                raise Broken(f"two builds differ: {build}", name, f"{a} and {b}")
 
     def runs(self) -> None:
         if isinstance(self._solution, Exception):
@@ -145,8 +150,9 @@ class _Look:
     def repeatable(self) -> None:
         again, _ = self._again
         for name in ("t", "q", "u", "q_end", "u_end"):
-            if not np.array_equal(getattr(self.solution, name), getattr(again, name), equal_nan=True):
-                raise Broken("two runs differ", name, "")
+            one, other = getattr(self.solution, name), getattr(again, name)
+            if not np.array_equal(one, other, equal_nan=True):
+                raise Broken("two runs differ", name, _first_difference(one, other))
 
     def summary(self) -> None:
         one, other = (self._summary() for _ in range(2))
@@ -227,6 +233,13 @@ class _Look:
         for name, then, now in zip("tqu", before, (self.solution.t, self.solution.q, self.solution.u), strict=True):
             if not np.array_equal(then, now, equal_nan=True):
                 raise Broken("the solution is changed", name, "")
+
+
+def _first_difference(one: NDArray[np.float64], other: NDArray[np.float64]) -> str:
+    if one.shape != other.shape:
+        return f"{len(one)} and {len(other)} times"
+    place = np.unravel_index(np.argmax(one != other), one.shape)
+    return f"{one[place]:.17g} and {other[place]:.17g}, at {[int(i) for i in place]}"
 
 
 def _is_default(scenario: Scenario) -> bool:

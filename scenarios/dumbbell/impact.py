@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ImpactLaw
 from nonsmooth.parameters import rules
-from nonsmooth.plugins import registry
+from nonsmooth.plugins.file import find
 
 
 def impact_law(name: str, offered: Mapping[str, float], given: set[str]) -> ImpactLaw:
@@ -16,7 +16,7 @@ def impact_law(name: str, offered: Mapping[str, float], given: set[str]) -> Impa
     Parameters
     ----------
     name : str
-        Its name in the registry.
+        Its name in the registry, or FILE.py:CLASS.
     offered : mapping of str to float
         Parameters that the scenario has for it; those that the law declares are passed on.
     given : set of str
@@ -29,10 +29,8 @@ def impact_law(name: str, offered: Mapping[str, float], given: set[str]) -> Impa
     InvalidInput
         If the law does not know a parameter that the user set.
     """
-    known = {n: law for n, law in registry.load_all("laws").items() if issubclass(law, ImpactLaw)}
-    if name not in known:
-        raise UnknownName("impact law", name, known)
-    declared = rules(known[name])
+    owner = find("impact law", "laws", ImpactLaw, name)
+    declared = rules(owner)
     for parameter in sorted(given - set(declared)):
         raise InvalidInput(
             f"DumbbellScenario.{parameter}",
@@ -40,5 +38,5 @@ def impact_law(name: str, offered: Mapping[str, float], given: set[str]) -> Impa
             offered[parameter],
             "Leave it out.",
         )
-    law: ImpactLaw = known[name](**{n: value for n, value in offered.items() if n in declared})
+    law: ImpactLaw = owner(**{n: value for n, value in offered.items() if n in declared})
     return law

@@ -329,7 +329,7 @@ BAD: list[tuple[Any, dict[str, Any], tuple[str, ...]]] = [
     (CapsuleBody, {"radius": 1.0, "half_length": -1.0}, ("CapsuleBody.half_length", "> 0")),
     (EllipsoidBody, {"semi_x": 1.0, "semi_y": 1.0, "semi_z": math.inf}, ("EllipsoidBody.semi_z", "finite")),
     (DiscBody, {"radius": 1.0, "mass": 1.0, "surface_density": 1.0}, ("DiscBody.mass", "together")),
-    (Rod, {"length": 1.0, "radius": 0.0}, ("Rod.radius", "> 0")),
+    (Rod, {"centre_distance": 1.0, "radius": 0.0}, ("Rod.radius", "> 0")),
     (Compound, {"parts": ()}, ("Compound.parts", "at least one part")),
     (Compound, {"parts": (Ball(0.1),)}, ("Compound.parts", "parts only")),
     (Part, {"body": Plate()}, ("Part.body", "free body")),

@@ -317,7 +317,6 @@ BAD: list[tuple[Any, dict[str, Any], tuple[str, ...]]] = [
     (ConstantVelocity, {"rate": math.inf}, ("ConstantVelocity.rate", "finite", "rad/s")),
     (ConstantVelocity, {"axis": (0.0, 0.0, 2.0)}, ("ConstantVelocity.axis", "unit length", "Divide it")),
     (ConstantVelocity, {"centre": ("a", "b", "c")}, ("ConstantVelocity.centre", "3 finite numbers")),
-    (DrivenBody, {"carried": ()}, ("DrivenBody.carried", "at least one shape")),
     (DrivenBody, {"carried": (Rest(),)}, ("DrivenBody.carried", "shapes only")),
     (DrivenBody, {"motion": 3.0, "carried": (Plane(),)}, ("DrivenBody.motion", "must be a Motion", "3.0")),
     (Table, {"times": [0, 1, 1, 2], "positions": ROWS}, ("Table.times[2]", "above 1", "1.0")),

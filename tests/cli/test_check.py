@@ -53,6 +53,20 @@ class Lone(ImpactMap):
 """
 
 
+_ONE_SHAPE = """
+from dataclasses import dataclass
+
+from bodies import FreeBody, Sphere
+
+
+@dataclass(frozen=True)
+class OneShape(FreeBody):
+    total_mass = 1.0
+    inertia = (1.0, 1.0, 1.0)
+    shapes = Sphere(0.1)
+"""
+
+
 def test_a_class_of_a_file(call: Call, tmp_path: Path) -> None:
     """A map of one contact alone, which raises for more: it is asked for no more."""
     (tmp_path / "lone.py").write_text(_LONE)
@@ -63,6 +77,28 @@ def test_a_class_of_a_file(call: Call, tmp_path: Path) -> None:
     words = lines[-1].split()
     assert words[1:4] == ["hold,", "0", "fail,"]
     assert int(words[0]) > 15
+
+
+def test_what_is_not_looked_at_for_one_reason_is_told_once(call: Call, tmp_path: Path) -> None:
+    """A map that raises for more than one contact, and does not say that it is one of a single contact."""
+    file = tmp_path / "lone.py"
+    file.write_text(_LONE.replace("    one_contact: ClassVar[bool] = True\n", ""))
+    status, output, _ = call("check", f"{file}:Lone")
+    assert status == 1
+    assert output.count("not checked, as 'finite numbers' does not hold") == 1
+    line = 1 + file.read_text().splitlines().index('            raise ValueError("one contact only")')
+    assert f"raises ValueError: one contact only, in Lone.impulses in {file}, line " in output
+    assert f", at line {line}" in output
+
+
+def test_shapes_that_are_no_tuple_are_told_with_file_and_line(call: Call, tmp_path: Path) -> None:
+    file = tmp_path / "one.py"
+    file.write_text(_ONE_SHAPE)
+    status, output, errors = call("check", f"{file}:OneShape")
+    assert (status, output) == (2, "")
+    assert "OneShape.shapes must be a tuple of shapes, but it is Sphere(" in errors
+    assert f"See OneShape in {file}, line " in errors
+    assert errors.count("\n") == 1
 
 
 def test_a_file_without_such_a_class(call: Call, tmp_path: Path) -> None:
@@ -146,7 +182,7 @@ def test_a_built_in_of_every_kind_is_checked(call: Call, name: str) -> None:
 
 def test_an_example_takes_parameters(call: Call) -> None:
     """Those that are set come before those of the example."""
-    status, output, _ = call("check", "rod", "--set", "length=0.3", "--json")
+    status, output, _ = call("check", "rod", "--set", "centre_distance=0.3", "--json")
     assert status == 0
     assert json.loads(output)["status"] == "holds"
     assert "no principal moment" in call("check", "rod", "--set", "radius=0.5")[2]

@@ -102,7 +102,10 @@ def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> 
         ("friction={file}", "must name a class of the file"),
         ("fricton={file}:Flat", "--law role name must be a known one, but it is 'fricton'. Did you mean 'friction'?"),
         ("friction=columb", "--law friction name must be a known one, but it is 'columb'. Did you mean 'coulomb'?"),
-        ("friction=newton", "--law friction name must be a known one, but it is 'newton'. Known: anisotropic,"),
+        (
+            "friction=newton",
+            "--law friction name must be a known one, but it is 'newton'. That is an impact law. Known: ",
+        ),
         ("friction", "must have the form ROLE=LAW"),
         ("friction={file}:Flat,friction", "must have the form ROLE=LAW"),
         ("friction={file}:Flat,friction=1,friction=2", "each NAME once"),

@@ -52,6 +52,11 @@ def test_a_request_that_cannot_be_read_is_wrong(call: Call, words: tuple[str, ..
         (("run", "tiny_demanding"), "tiny_demanding.t_end must be given"),
         (("figures", "tinny", "--out", "x"), "Did you mean 'tiny'"),
         (("show", "dumbell"), "Did you mean 'dumbbell'"),
+        (("run", "dumbell"), "Did you mean 'dumbbell'? Known: "),
+        (("run", "plate"), "but it is 'plate'. That is a body. Known: "),
+        (("run", "system.json"), "must end in .toml, .yaml, .yml, but it is 'system.json'. Scenario files are TOML or"),
+        (("run", "system.toml"), "must be a file that can be read"),
+        (("run", "scenario.py"), "must have the form file.py:Class, but it is 'scenario.py'"),
     ],
 )
 def test_a_wrong_request_is_one_line_with_the_remedy(call: Call, words: tuple[str, ...], told: str) -> None:
@@ -61,6 +66,20 @@ def test_a_wrong_request_is_one_line_with_the_remedy(call: Call, words: tuple[st
     assert told in errors
     assert errors.startswith("error: ")
     assert errors.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("dumbbell", "--set", "impact=coulomb"), "'coulomb'. That is a friction law. Known: energetic, "),
+        (("tiny", "--law", "friction=newton"), "'newton'. That is an impact law. Known: "),
+        (("tiny", "--law", "friction=ball"), "'ball'. That is a body. Known: "),
+    ],
+)
+def test_a_name_of_another_kind_is_told_which(call: Call, words: tuple[str, ...], told: str) -> None:
+    status, _, errors = call("run", *words)
+    assert status == 2
+    assert told in errors.splitlines()[-1]  # warnings of broken plug-ins come first
 
 
 def test_a_broken_scenario_is_a_failure_that_names_it(call: Call) -> None:

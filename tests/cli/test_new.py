@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -35,7 +36,7 @@ def test_its_own_tests_are_green_and_find_a_mistake(call: Call, tmp_path: Path) 
     assert "not negative" in done.stdout
 
 
-@pytest.mark.parametrize("name", ["Sand", "1sand", "wet-sand", "class", "math", "laws", "coulomb", "sand_"])
+@pytest.mark.parametrize("name", ["Sand", "1sand", "wet-sand", "class", "math", "laws", "coulomb", "sand_", "tests"])
 def test_a_name_that_cannot_be_is_refused(call: Call, tmp_path: Path, name: str) -> None:
     status, output, errors = call("new", "plugin", name, "--dir", str(tmp_path / "new"))
     assert (status, output) == (2, "")
@@ -43,9 +44,45 @@ def test_a_name_that_cannot_be_is_refused(call: Call, tmp_path: Path, name: str)
     assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.parametrize(
+    ("name", "holder"),
+    [
+        ("numpy", f"the installed package numpy {version('numpy')}"),
+        ("nonsmooth", "the installed package nonsmooth"),
+        ("dateutil", "the module "),
+        ("math", "a module of Python"),
+        ("coulomb", "a law of nonsmooth"),
+    ],
+)
+def test_a_name_that_would_hide_something_is_refused(call: Call, tmp_path: Path, name: str, holder: str) -> None:
+    status, output, errors = call("new", "plugin", name, "--dir", str(tmp_path / "new"))
+    assert (status, output) == (2, "")
+    assert f"must not be taken already, but it is {name!r}. It is that of {holder}" in errors
+
+
+def test_a_folder_of_that_name_hides_nothing(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "wet_sand").mkdir()
+    monkeypatch.syspath_prepend(str(tmp_path))
+    assert call("new", "plugin", "wet_sand", "--dir", str(tmp_path / "new"))[0] == 0
+
+
+def test_the_readme_begins_with_what_its_tests_need(call: Call, tmp_path: Path) -> None:
+    assert call("new", "plugin", "wet_sand", "--dir", str(tmp_path))[0] == 0
+    commands = [line.strip() for line in (tmp_path / "README.md").read_text().splitlines() if line.startswith("    ")]
+    assert commands[:2] == ["python -m pip install -e '.[test]'", "python -m pytest"]
+    assert 'test = ["pytest>=8"]' in (tmp_path / "pyproject.toml").read_text()
+
+
+def test_a_folder_that_cannot_be_made_is_a_wrong_request(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    status, output, errors = call("new", "plugin", "wet_sand", "--dir", str(tmp_path / "file" / "new"))
+    assert (status, output) == (2, "")
+    assert f"{tmp_path / 'file' / 'new'} must be a folder that can be written to" in errors
+
+
 def test_nothing_is_overwritten(call: Call, tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("kept")
     status, _, errors = call("new", "plugin", "sand", "--dir", str(tmp_path))
     assert status == 2
-    assert "must be given a folder that is empty or new" in errors
+    assert f"{tmp_path} must be a folder that is empty or new" in errors
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]

@@ -50,7 +50,7 @@ def test_results_events_summary_and_figures(call: Call, tmp_path: Path) -> None:
 
 
 def test_a_disk_that_is_full_in_a_run_is_an_error_with_the_path(call: Call, tmp_path: Path) -> None:
-    call("run", "tiny", "--out", str(tmp_path))  # so that what is compiled or cached is there already
+    call("run", "tiny", "--out", str(tmp_path / "first"))  # so that what is compiled or cached is there already
     folder = tmp_path / "full"
     with _largest_file(4096):
         status, output, errors = call("run", "tiny", "--json", "--out", str(folder))
@@ -73,6 +73,19 @@ def test_a_wrong_folder_is_found_before_the_run(call: Call, tmp_path: Path, fold
     *_, told = errors.splitlines()
     assert told.startswith(f"error: {where or 'folder of results'} must be a ")
     assert errors.count("error: ") == 1
+
+
+def test_results_are_not_overwritten_unasked(call: Call, tmp_path: Path) -> None:
+    assert call("run", "tiny", "--out", str(tmp_path))[0] == 0
+    before = (tmp_path / "summary.json").read_bytes()
+    for command in ("run", "figures"):
+        status, output, errors = call(command, "tiny", "--out", str(tmp_path))
+        assert (status, output) == (2, "")
+        assert f"error: {tmp_path} must be a folder that is empty or new, " in errors
+        assert "add --overwrite" in errors
+    assert (tmp_path / "summary.json").read_bytes() == before
+    assert call("run", "tiny", "--set", "t_end=0.1", "--out", str(tmp_path), "--overwrite")[0] == 0
+    assert json.loads((tmp_path / "summary.json").read_text())["t_end"] == 0.1
 
 
 def test_a_figure_that_fails_costs_nothing_else(call: Call, tmp_path: Path) -> None:

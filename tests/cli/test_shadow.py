@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+
+ROOT = Path(__file__).parents[2]
 
 Start = Callable[..., subprocess.Popen[str]]
 
@@ -38,6 +42,21 @@ def test_the_file_that_hides_a_package_is_named(
     listed = [line.split()[0] for line in output.splitlines() if not line.startswith("   ")]
     left = {"laws": ["spinning_coulomb"], "bodies": ["none"]}  # what does not come from the hidden package
     assert listed == ([f"{package}:", *left[package]] if words[0] == "list" else [])
+
+
+def test_a_script_is_told_when_it_imports_nonsmooth(tmp_path: Path) -> None:
+    own = tmp_path / "bodies.py"
+    own.touch()
+    (tmp_path / "scenarios.py").touch()  # which no script imports
+    (tmp_path / "script.py").write_text("import nonsmooth\nfrom bodies import Ball\n")
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    words = [sys.executable, "script.py"]
+    done = subprocess.run(words, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    told = (
+        f"script.py:1: HiddenPackage: The file {own} hides the package 'bodies' that comes with nonsmooth: rename it."
+    )
+    assert told in done.stderr
+    assert done.stderr.count("HiddenPackage") == 1
 
 
 def test_another_folder_of_that_name_hides_nothing(start: Start, tmp_path: Path) -> None:

@@ -73,8 +73,18 @@ def test_what_is_wrong_is_said_by_name(call: Call, tmp_path: Path, words: tuple[
 def test_a_page_that_cannot_be_written_is_an_error_with_its_path(call: Call, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     status, _, errors = call("view", "tiny", "--html", str(tmp_path / "file" / "page.html"))
-    assert status == 1
-    assert "page.html could not be written" in errors
+    assert status == 2
+    assert "page.html must be in a folder that can be written to" in errors
+
+
+def test_a_page_is_not_overwritten_unasked(call: Call, tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    path.write_text("precious")
+    status, _, errors = call("view", "tiny", "--html", str(path))
+    assert (status, path.read_text()) == (2, "precious")
+    assert "--overwrite" in errors
+    assert call("view", "tiny", "--html", str(path), "--overwrite")[0] == 0
+    assert "precious" not in path.read_text(encoding="utf-8")
 
 
 def test_of_a_run_that_fails_what_was_computed_is_shown(call: Call, opened: list[str]) -> None:

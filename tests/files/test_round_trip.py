@@ -140,6 +140,13 @@ def _varied() -> ns.System:
     return system
 
 
+@pytest.mark.parametrize("gravity", [0.0, 1.62, (0.1, 0.0, -9.8), (0.0, 0.0, 9.81)])
+def test_gravity_comes_back(tmp_path: Path, gravity: float | tuple[float, float, float]) -> None:
+    system = ns.System([Ball(0.01)], gravity)
+    ns.save_system(system, tmp_path / "one.toml")
+    assert ns.load_system(tmp_path / "one.toml").system.gravity == system.gravity
+
+
 def test_joints_loads_shapes_and_nested_bodies_come_back(tmp_path: Path) -> None:
     system = _varied()
     path = tmp_path / "one.toml"

@@ -29,7 +29,7 @@ def _spin(bodies: tuple[Any, ...], q: Any, u: Any) -> Any:
 def test_a_rod_that_slides_over_the_middle_of_a_flank_keeps_the_spin() -> None:
     """The halves of the flank are contacts of their own; the velocities were put on the wrong one's constraint."""
     cone = ConeBody(radius=0.004643, height=0.007806, density=2700.0, rounding=0.0006163)
-    rod = Rod(length=0.01279, radius=0.001738, density=2700.0)
+    rod = Rod(centre_distance=0.01279, radius=0.001738, density=2700.0)
     system = ns.System([cone, rod], gravity=0.0)
     friction = Viscous(0.5321, growth=0.01632, largest=1.083)
     system.contact(cone, rod, normal=Unilateral(), friction=friction, impact=PoissonImpact(0.0))

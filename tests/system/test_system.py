@@ -12,7 +12,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Coordinate, Dumbbell, GeneralisedBody, Harmonic, Plate, PointFrame, Sphere
-from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
+from laws import Coulomb, EnergeticImpact, Frictionless, NewtonImpact, Unilateral
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.parameters import parameter
 
@@ -33,10 +33,33 @@ def test_bodies_must_be_bodies(build: Any) -> None:
     assert len(ns.System([ball, Ball(0.01)]).bodies) == 2
 
 
-@pytest.mark.parametrize("gravity", [math.nan, math.inf, 1e5, "9.81", None])
-def test_gravity_must_be_a_number(gravity: Any) -> None:
+@pytest.mark.parametrize(
+    "gravity",
+    [math.nan, math.inf, 1e5, "9.81", None, True, (0.0, -9.81), (0.0, 0.0, math.nan), (1e5, 0.0, 0.0), "xyz", ("9", 0)],
+)
+def test_gravity_must_be_a_number_or_a_vector(gravity: Any) -> None:
     """Finite and of this world."""
     _raises(("System.gravity", "m/s^2"), lambda: ns.System([Ball(0.01)], gravity))
+
+
+def test_a_negative_gravity_is_explained() -> None:
+    """Many write the component, where the number is that along -z."""
+    told = ("System.gravity", "must be >= 0", "counts along -z", "but it is -9.81", "Give 9.81", "(0.0, 0.0, 9.81)")
+    _raises(told, lambda: ns.System([Ball(0.01)], -9.81))
+
+
+@pytest.mark.parametrize("gravity", [(1.0, 2.0, -3.0), [1, 2, -3], np.array([1.0, 2.0, -3.0])])
+def test_gravity_may_have_any_direction(gravity: Any) -> None:
+    assert ns.System([Ball(0.01)], gravity).gravity == (1.0, 2.0, -3.0)
+    assert ns.System([Ball(0.01)], 3.0).gravity == (0.0, 0.0, -3.0)
+
+
+def test_a_ball_slides_down_oblique_gravity(build: Any) -> None:
+    plate, ball = Plate(), Ball(0.01)
+    system = ns.System([plate, ball], (1.0, -2.0, -9.0))
+    system.contact(plate, ball, **{**build.laws(), "friction": Frictionless()})
+    system.place(ball, position=(0.0, 0.0, 0.01))
+    assert ns.simulate(system, 0.5).u_end[:3] == pytest.approx([0.5, -1.0, 0.0], abs=1e-12)
 
 
 def test_contacts_need_bodies_of_the_system(build: Any) -> None:

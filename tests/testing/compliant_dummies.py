@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.parameters import parameter
@@ -57,6 +58,14 @@ def sucking(indentation: float, rate: float, closing_rate: float, stiffness: flo
     return force if force > 0.5 else -0.1 * force
 
 
+def turned_round(indentation: float, rate: float, closing_rate: float, stiffness: float) -> float:
+    return -stiffness * indentation
+
+
+def unguarded(indentation: float, rate: float, closing_rate: float, stiffness: float) -> Any:
+    return stiffness * indentation**1.5
+
+
 def driving(indentation: float, rate: float, closing_rate: float, stiffness: float) -> float:
     return stiffness * indentation * max(0.0, 1.0 - 0.1 * rate)
 
@@ -106,12 +115,14 @@ DUMMIES: list[tuple[str, CompliantNormalLaw]] = [
     ("known parameters", Compliant(function=absent)),
     ("time budget", Compliant(function=endless)),
     ("finite numbers", Compliant(function=nan)),
+    ("finite numbers", Compliant(function=unguarded)),
     ("compiled equals plain", Compliant(function=overflowing)),
     ("reach", Compliant(gap=-1e-6)),
     ("nothing at zero", Compliant(function=preloaded)),
     ("rises", Compliant(function=softening)),
     ("pulls within its reach", Compliant(function=repelling, gap=1e-4)),
     ("pulls within its reach", Compliant(function=sucking)),
+    ("pulls within its reach", Compliant(function=turned_round)),
     ("dissipation", Compliant(function=driving)),
     ("certificate", Compliant(certificate=lax)),
     ("certificate", Compliant(certificate=strict)),

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.parameters import parameter
 
@@ -37,6 +39,14 @@ def raising(speed: float, level: float) -> float:
     if speed > 100.0:
         raise ValueError("too fast")
     return level
+
+
+def array(speed: float, level: float) -> Any:
+    return np.full(1, level)
+
+
+def power(speed: float, level: float) -> Any:
+    return level * (1.0 - speed) ** 0.5
 
 
 def overflowing(speed: float, level: float) -> float:
@@ -170,6 +180,8 @@ DUMMIES: list[tuple[str, FrictionLaw]] = [
     ("time budget", Friction(function=endless)),
     ("finite numbers", Friction(function=nan)),
     ("finite numbers", Friction(function=raising)),
+    ("finite numbers", Friction(function=array)),
+    ("finite numbers", Friction(function=power)),
     ("compiled equals plain", Friction(function=overflowing)),
     ("determinism", Drifting()),
     ("not negative", Friction(function=negative)),

@@ -39,6 +39,7 @@ from bodies import (
     LineBody,
     MeshBody,
     MovedShape,
+    OpenBox,
     Part,
     PlanarBody,
     Plane,
@@ -56,6 +57,7 @@ from bodies import (
     TriangleMesh,
     Triangles,
     TurningFrame,
+    Wall,
 )
 from laws import (
     Anisotropic,
@@ -166,6 +168,7 @@ BODIES: list[Body] = [
     SuperellipsoidBody(0.02, 0.03, 0.04, 0.5, 0.6),
     SupportBody(Egg()),
     SuperellipsoidBody(0.02, 0.03, 0.04, 1.4, 1.2, 0.01),
+    OpenBox(0.1, 0.2, (0.0, 0.1, 0.2), (0.5, 0.5, -0.5, 0.5)),
     planar((TurningFrame(carried=(Sphere(0.1),), **PART),), 2.0, 0.5),
     LineBody(1.0, carried=(Sphere(0.1),)),
     MeshBody(Triangles(*parts.bracket())),
@@ -174,6 +177,7 @@ BODIES: list[Body] = [
     Plate(ConstantVelocity((0.3, 0.1, -0.2), 0.7, centre=(0.2, 0.1, 0.0))),
     RigidBody(2.0, TENSOR, (Sphere(0.05, x=0.1), Sphere(0.04, y=-0.1))),
     Rod(0.2, 0.005),
+    Wall((0.6, 0.0, -0.8), (0.1, 0.2, 0.3)),
 ]
 """One of every kind that is installed, and some more."""
 LOADS: list[Load] = [
