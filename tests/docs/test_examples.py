@@ -26,6 +26,7 @@ def test_blocks_run_as_printed(
     module = types.ModuleType("example")
     monkeypatch.setitem(sys.modules, "example", module)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("webbrowser.open", lambda address: True)
     text = page.read_text(encoding="utf-8")
     for block in _blocks(page):
         lines_before = text.count("\n", 0, block.start("code"))

@@ -213,8 +213,9 @@ export class Timeline {
       pen.strokeStyle = colour;
       pen.setLineDash(dash);
       pen.beginPath();
-      pen.moveTo(2, y);
-      pen.lineTo(14, y);
+      const end = MARGIN - 12 - pen.measureText(name).width;
+      pen.moveTo(end - 16, y);
+      pen.lineTo(end, y);
       pen.stroke();
       pen.setLineDash([]);
     });
@@ -230,7 +231,8 @@ export class Timeline {
     const digits = Math.max(0, -Math.floor(Math.log10(step || 1)));
     for (let n = Math.ceil(this.from / step); n * step <= this.to; n++) {
       pen.fillRect(x(n * step), y - 4, 1, 4);
-      pen.fillText((n * step).toFixed(digits), x(n * step), y + 7);
+      // the first one would lie on the name
+      if (x(n * step) > MARGIN + 12) pen.fillText((n * step).toFixed(digits), x(n * step), y + 7);
     }
     this._name(pen, "t [s]", y + 7);
   }

@@ -171,7 +171,7 @@ export class World {
     const away = new THREE.Vector3(...VIEWS[name]).normalize();
     const { middle, radius } = this.group();
     this.controls.target.copy(this.follow ? middle : this.low.clone().add(this.high).multiplyScalar(0.5));
-    const size = this.follow ? 3 * radius : 1.1 * this.span;
+    const size = this.follow ? 2.4 * radius : 1.1 * this.span;
     const distance = size / (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.min(1, this.camera.aspect);
     this.camera.position.copy(this.controls.target).addScaledVector(away, distance);
     this.camera.near = distance / 1000;
