@@ -99,7 +99,7 @@ def average(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
 
 @kernel("i8(S, F, I)")
 def holds_time_up(S: Scalars, w: Floats, k: Integers) -> int:
-    """Return the contact whose slow slip lets time hardly pass, or -1.
+    """Return the contact whose slow slip, or else whose events, let time hardly pass, or -1.
 
     Evaluations of forces fill a store that empties with time.
     """
@@ -113,6 +113,7 @@ def holds_time_up(S: Scalars, w: Floats, k: Integers) -> int:
     if S.crowd <= _BURST:
         return -1
     which, fastest = -1, 1.0
+    busiest, events = -1, 1
     for i in range(S.n_grouped):
         c = k[S.grouped + i]
         contact = contact_at(S, w, k, c)
@@ -120,4 +121,6 @@ def holds_time_up(S: Scalars, w: Floats, k: Integers) -> int:
         turns = contact.contact_time * contact.mobility * friction / max(speed, S.velocity_tolerance)
         if contact.mode == SLIDE and contact.averaged == OPEN and turns > fastest:
             which, fastest = c, turns
-    return which
+        if contact.averaged == OPEN and contact.crowd_events > events:
+            busiest, events = c, contact.crowd_events
+    return which if which >= 0 else busiest
