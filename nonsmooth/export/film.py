@@ -71,6 +71,8 @@ class Film:
         What is drawn.
     moving : tuple of int
         Tracks of what is seen of moving bodies, and of strokes.
+    unit : float
+        The length that lines and arrows are measured by [m].
     """
 
     times: Floats
@@ -79,6 +81,7 @@ class Film:
     scale: Floats
     pieces: tuple[Piece, ...]
     moving: tuple[int, ...]
+    unit: float
 
     @classmethod
     def of(cls, solution: Solution, times: Floats) -> Film:
@@ -123,7 +126,7 @@ class Film:
         places, axes, scale = (np.concatenate(parts, axis=1) for parts in (origins, turns, scales))
         bodies = solution.system.bodies
         moving = {piece.track for piece in pieces if piece.body < 0 or bodies[piece.body].n_u > 0}
-        return cls(times, places, axes, scale, tuple(pieces), tuple(sorted(moving)))
+        return cls(times, places, axes, scale, tuple(pieces), tuple(sorted(moving)), unit)
 
     def placed(self, piece: Piece, i: int) -> Floats:
         """Return the vertices of a piece at the time of a number [m], shape [n, 3]."""

