@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 
-from nonsmooth.errors import InvalidInput, MissingPackagesError
+from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError
 from nonsmooth.export.camera import VIEWS, Camera
 from nonsmooth.export.film import Film
 from nonsmooth.export.marks import Marks
@@ -115,7 +115,7 @@ class Movie:
             images = b"".join(one.tobytes() for one in (first, *pictures))
             done = subprocess.run(words, input=images, capture_output=True, check=False)
             if done.returncode != 0:
-                raise MissingPackagesError(f"ffmpeg wrote no MP4: {done.stderr.decode(errors='replace').strip()}")
+                raise NonsmoothError(f"ffmpeg wrote no MP4: {done.stderr.decode(errors='replace').strip()} Try .webp.")
             return path.read_bytes()
 
 
