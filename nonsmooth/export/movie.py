@@ -27,7 +27,7 @@ _RULES = {
     "speed": Rule("time of the run that passes in one second watched", "1", above=0.0),
     # players of GIF show those that are shorter than 20 ms for 100 ms
     "frames_per_second": Rule("number of pictures in one second watched", "1/s", above=0.0, maximum=50.0),
-    "size": Rule("longer side of the pictures in pixels", "1", minimum=160.0, maximum=1920.0),
+    "size": Rule("longer side of the pictures in pixels", "1", minimum=240.0, maximum=1920.0),
 }
 _MOST = 1000
 """Pictures at most: all are kept until the file is written."""

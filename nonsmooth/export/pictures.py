@@ -17,6 +17,7 @@ from nonsmooth.histories.arrays import Floats
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Pixels = NDArray[np.uint8]
 _DPI = 100
@@ -30,8 +31,8 @@ LOOKS: dict[str, dict[str, Any]] = {
 """Marks of contacts."""
 _NARROWEST = 0.4
 """Share of the longer side that the shorter one has at least."""
-_HEAD = 26
-"""Room for the words above and below [pixels]."""
+_HEAD, _LEAST = 26, 230
+"""Room for the words above and below, and across [pixels]."""
 
 
 def require() -> None:
@@ -51,7 +52,8 @@ def drawn(film: Film, marks: Marks, camera: Camera, size: int) -> Iterator[Pixel
 
     extent = camera.high[0] - camera.low[0]
     shares = np.maximum(extent / np.max(extent), _NARROWEST)
-    width, height = (2 * np.rint(0.5 * (size * shares + [0, 2 * _HEAD]))).astype(int).tolist()
+    wide, high = (size * shares).tolist()
+    width, height = 2 * round(0.5 * max(wide, _LEAST)), 2 * round(0.5 * high + _HEAD)
     figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI, facecolor="white")
     canvas: Any = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.0, _HEAD / height, 1.0, 1.0 - 2 * _HEAD / height))
@@ -59,7 +61,7 @@ def drawn(film: Film, marks: Marks, camera: Camera, size: int) -> Iterator[Pixel
     axes.set_aspect("equal")
     faces = PolyCollection([], linewidths=0.35)
     axes.add_collection(faces, autolim=False)
-    dots = _dots(axes, marks)
+    dots = _dots(figure, axes, marks)
     clock = figure.text(10 / width, 1.0 - 0.5 * _HEAD / height, "", va="center", fontsize=10, family="monospace")
     digits = int(np.clip(np.ceil(-np.log10(np.diff(film.times[:2]).max(initial=1e-9))), 0, 9))
     flat = np.column_stack([camera.across, camera.up])
@@ -76,7 +78,7 @@ def drawn(film: Film, marks: Marks, camera: Camera, size: int) -> Iterator[Pixel
         yield np.asarray(canvas.buffer_rgba())[:, :, :3].copy()
 
 
-def _dots(axes: Axes, marks: Marks) -> dict[str, Any]:
+def _dots(figure: Figure, axes: Axes, marks: Marks) -> dict[str, Any]:
     """Return what is drawn at the marks, by its word, of those that there are at any time."""
     seen = [word for k, word in enumerate(WORDS) if any(len(one[k]) for one in marks.places)]
     found = {
@@ -85,9 +87,9 @@ def _dots(axes: Axes, marks: Marks) -> dict[str, Any]:
         for word in seen
     }  # fmt: skip
     if found:
-        axes.legend(
-            loc="upper left", bbox_to_anchor=(0.0, 0.0), ncols=len(found), frameon=False, borderaxespad=0.0, fontsize=9,
-            handletextpad=0.2, columnspacing=1.2,
+        figure.legend(
+            loc="lower left", ncols=len(found), frameon=False, borderaxespad=0.0, fontsize=9, handletextpad=0.2,
+            columnspacing=1.2,
         )  # fmt: skip
     return found
 

@@ -29,7 +29,7 @@ _WRONG: dict[str, tuple[Callable[[Path], Any], str]] = {
     "speed": (lambda at: exporter(at / "a.gif", speed=0.0), r"export: speed must be .*0.*time of the run"),
     "speed below": (lambda at: exporter(at / "a.webp", speed=-1.0), r"export: speed must be .*-1"),
     "rate": (lambda at: exporter(at / "a.gif", frames_per_second=100.0), r"frames_per_second must be .*50.*100"),
-    "size": (lambda at: exporter(at / "a.gif", size=10), r"export: size must be .*160.*10"),
+    "size": (lambda at: exporter(at / "a.gif", size=10), r"export: size must be .*240.*10"),
     "count": (lambda at: exporter(at / "a.pvd", count=1), r"export: count must be .*1"),
     "series": (lambda at: exporter(at / "a.csv", series="energy"), r"'energy'.*Did you mean 'energies'"),
     "no series": (lambda at: exporter(at / "a.csv", series=3), r"export: series must be of the kind Series.*3"),
@@ -86,7 +86,7 @@ def test_suffixes_may_be_large(drift: ns.Solution, tmp_path: Path) -> None:
 
 def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "new" / "run.gif"
-    words = ["--set", "t_end=0.1", "--speed", "0.5", "--size", "160", "--view", "front"]
+    words = ["--set", "t_end=0.1", "--speed", "0.5", "--size", "240", "--view", "front"]
     assert main(["export", "bouncing_ball", str(path), *words]) == 0
     assert f"the run is in {path}" in capsys.readouterr().err
     assert path.read_bytes()[:6] == b"GIF89a"

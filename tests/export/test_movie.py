@@ -28,13 +28,13 @@ def _frames(path: Path) -> Iterator[tuple[NDArray[np.uint8], int]]:
 
 @pytest.mark.parametrize("kind", ["gif", "webp", "png"])
 def test_it_lasts_as_long_as_it_is_told_and_shows_the_motion(drift: ns.Solution, tmp_path: Path, kind: str) -> None:
-    path = drift.export(tmp_path / f"run.{kind}", speed=0.5, frames_per_second=12, size=200)
+    path = drift.export(tmp_path / f"run.{kind}", speed=0.5, frames_per_second=12, size=240)
     found = list(_frames(path))
     assert len(found) == 1 + round(0.3 / 0.5 * 12 - 0.5)
     assert sum(shown for _, shown in found) == pytest.approx(1000.0 * len(found) / 12, abs=6)
     for picture, _ in found:
         assert np.std(picture) > 10.0
-        assert max(picture.shape[:2]) in (200, 252)
+        assert max(picture.shape[:2]) in (240, 292)
     assert np.any(found[0][0] != found[-1][0])
 
 
@@ -58,7 +58,7 @@ def test_marks_are_the_contacts_that_stick_and_slip(drift: ns.Solution) -> None:
 
 
 def test_a_gif_keeps_white_and_the_colours_of_marks(drift: ns.Solution, tmp_path: Path) -> None:
-    path = drift.export(tmp_path / "a.gif", speed=0.1, frames_per_second=20, size=200)
+    path = drift.export(tmp_path / "a.gif", speed=0.1, frames_per_second=20, size=240)
     shown = [picture @ [1 << 16, 1 << 8, 1] for picture, _ in _frames(path)]
     assert all(picture[0, -1] == 0xFFFFFF for picture in shown)
     assert any(np.any(picture == 0xE69F00) for picture in shown)
@@ -82,7 +82,7 @@ def test_a_long_way_is_followed(drift: ns.Solution) -> None:
 
 @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="needs ffmpeg")
 def test_mp4_has_so_many_pictures(drift: ns.Solution, tmp_path: Path) -> None:
-    data = drift.export(tmp_path / "run.mp4", size=200).read_bytes()
+    data = drift.export(tmp_path / "run.mp4", size=240).read_bytes()
     assert data[4:8] == b"ftyp"
 
 
@@ -93,8 +93,8 @@ def test_ffmpeg_gets_whole_pictures_and_its_trouble_is_told(
     program.write_text('#!/bin/sh\nfor last; do :; done\ncat > "$last"\n')
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
-    raw = drift.export(tmp_path / "run.mp4", size=200, frames_per_second=10).read_bytes()
+    raw = drift.export(tmp_path / "run.mp4", size=240, frames_per_second=10).read_bytes()
     assert len(raw) % (4 * (1 + int(0.3 * 10 + 1e-9))) == 0
     program.write_text("#!/bin/sh\necho no encoder >&2\nexit 1\n")
     with pytest.raises(ns.errors.NonsmoothError, match=r"ffmpeg wrote no MP4: no encoder"):
-        drift.export(tmp_path / "run.mp4", size=200, frames_per_second=10)
+        drift.export(tmp_path / "run.mp4", size=240, frames_per_second=10)
