@@ -8,7 +8,7 @@ import json
 import sys
 from typing import Any
 
-from nonsmooth.cli import acceptance, engine, extras, law, outputs, report, request, view
+from nonsmooth.cli import acceptance, engine, extras, law, obtain, outputs, report, request, view
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.perform import Told, perform
 from nonsmooth.results.output import Output
@@ -65,7 +65,7 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
         extras.require(extras.PICTURES)
         asked = {name: getattr(arguments, name) for name in ("scenario", "set", "law", "engine")}
         folder = Output.to(arguments.out).folder
-        output = Output(folder, view.title_of(scenario), asked, json.loads(report.as_json(head)))
+        output = Output(folder, obtain.title_of(scenario), asked, json.loads(report.as_json(head)))
         check_free(output)
         outputs.prepare_folder(folder, arguments.overwrite)
 
@@ -78,5 +78,5 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
             output=output,
         )
 
-    looks = [view.in_browser(view.title_of(scenario))] if arguments.view else []
+    looks = [view.in_browser(obtain.title_of(scenario))] if arguments.view else []
     return perform(job, head, compute, folder, arguments.accept, troubles, looks)

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import engine, law, outputs, request, view
+from nonsmooth.cli import engine, law, obtain, outputs, request
 from nonsmooth.cli.messages import tell
 from nonsmooth.files import formats
 from nonsmooth.files.writing import save_system
@@ -36,7 +36,7 @@ def execute(arguments: argparse.Namespace) -> bool:
         t_end=scenario.t_end,
         sample_interval=scenario.sample_interval,
         engine=job.engine,
-        title=view.title_of(scenario),
+        title=obtain.title_of(scenario),
     )
     tell(f"the system is in {arguments.file}")
     return True

@@ -430,6 +430,32 @@ class Solution:
 
         return overview(self)
 
+    def export(self, path: Path | str, **options: Any) -> Path:
+        """Write the run for other programs, in the format that the suffix of the path names; return the path.
+
+        Parameters
+        ----------
+        path : Path or str
+            The file, which is replaced if it is there: ".glb" is a scene with animation, ".pvd" a series for ParaView,
+            ".gif", ".webp", ".png" and ".mp4" are moving pictures, ".csv" is a table.
+        **options
+            Those of the format: ``most_knots`` of :class:`~nonsmooth.export.glb.Glb`, ``count`` of
+            :class:`~nonsmooth.export.vtk.Vtk`, ``view``, ``speed``, ``frames_per_second`` and ``size`` of
+            :class:`~nonsmooth.export.movie.Movie`, ``series`` of :class:`~nonsmooth.solution.csv_format.Csv`.
+
+        Raises
+        ------
+        InvalidInput
+            If there is no such format or option, or the path cannot be written to; nothing is computed then.
+        MissingPackagesError
+            If pictures or tables need something that is not installed, such as ffmpeg.
+        FileError
+            If the file cannot be written.
+        """
+        from nonsmooth.solution.exports import exporter
+
+        return exporter(path, **options)(self)
+
     def to_xarray(self) -> xarray.Dataset:
         """Return samples and events as one dataset with units and labels.
 

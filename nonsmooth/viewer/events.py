@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING
-from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
     from nonsmooth.solution.events import Events
@@ -51,11 +50,6 @@ def _counted(group: NDArray[np.int64]) -> str:
     """Return the numbers of contacts, from 1, in full where they are few."""
     said = " ".join(str(i + 1) for i in sorted(group.tolist())[:_MOST_NUMBERS])
     return said if len(group) <= _MOST_NUMBERS else f"{said} and {len(group) - _MOST_NUMBERS} more"
-
-
-def sides(system: System) -> NDArray[np.float64]:
-    """Return for each contact 1, or -1 where only its first body moves: arrows show what bodies that move get."""
-    return np.array([-1.0 if c.second.n_u == 0 < c.first.n_u else 1.0 for c in system.contacts])
 
 
 def event_arrays(

@@ -12,7 +12,8 @@ from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.scene.knots import knots
 from nonsmooth.scene.scene import Scene
-from nonsmooth.viewer.events import event_arrays, event_words, sides
+from nonsmooth.scene.sides import sides
+from nonsmooth.viewer.events import event_arrays, event_words
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution

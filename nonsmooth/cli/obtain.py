@@ -1,0 +1,82 @@
+"""The run that a command is about: one that is stored, or one that is computed first."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+from typing import final
+
+from nonsmooth.cli import engine, law, request, resume
+from nonsmooth.cli.perform import computed
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.results.opening import open_solution
+from nonsmooth.results.output import Output
+from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.simulate import assemble
+from nonsmooth.solution.solution import Solution
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Obtained:
+    """A run.
+
+    Attributes
+    ----------
+    title : str
+        Its title.
+    solution : Solution or None
+        As far as there is one.
+    whole : bool
+        Whether it was stored, or came to its end.
+    """
+
+    title: str
+    solution: Solution | None
+    whole: bool
+
+
+def add_to(command: argparse.ArgumentParser) -> None:
+    """Add the words that say which run it is."""
+    command.add_argument(
+        "run", metavar="RESULT|SCENARIO", help="a folder that `run --out` was given, or a scenario as for `run`"
+    )
+    command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
+    command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
+    command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
+
+
+def obtain(command: str, arguments: argparse.Namespace) -> Obtained:
+    """Return the run that the words of a command ask for."""
+    return _stored(command, arguments) if Path(arguments.run).is_dir() else _computed(arguments)
+
+
+def title_of(scenario: Scenario) -> str:
+    """Return the title of a scenario, or of the file that it comes from."""
+    return str(scenario.resolved().get("title", type(scenario).title))
+
+
+def _stored(command: str, arguments: argparse.Namespace) -> Obtained:
+    if arguments.set or arguments.law or arguments.engine:
+        raise InvalidInput(
+            command, "takes --set, --law and --engine for a scenario only", arguments.run, "Leave them out."
+        )
+    output = Output(Path(arguments.run))
+    folder = SolutionFolder.opened(output)
+    name, job = resume.job_of(output, folder, trust=False)
+    return Obtained(str(folder.attributes.get("title") or name), open_solution(output, system=job.build()), True)
+
+
+def _computed(arguments: argparse.Namespace) -> Obtained:
+    job = request.job(arguments.run, arguments.set, arguments.law, arguments.engine)
+    model, scenario = assemble(job.build(), job.engine), job.scenario
+    solution, status, _ = computed(
+        lambda told: model.run(
+            scenario.t_end,
+            sample_interval=scenario.sample_interval,
+            progress=lambda t, t_end: told(t, t_end, model.n_events),
+        )
+    )
+    return Obtained(title_of(scenario), solution, status == "done")

@@ -1,0 +1,75 @@
+"""Camera: where a picture is seen from, without perspective, and what of the scene it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from nonsmooth.export.film import Film, Piece
+from nonsmooth.histories.arrays import Floats
+
+VIEWS = {
+    "corner": (0.9, -1.3, 0.7),
+    "front": (0.0, -1.0, 0.0),
+    "side": (1.0, 0.0, 0.0),
+    "top": (0.0, 0.0, 1.0),
+}
+"""Directions from the scene to the eye, by their names."""
+_FAR = 6.0
+"""How large the way is, measured by what the bodies take up at a time, when the camera goes with them."""
+_ROOM = 0.06
+"""What is left free on each side, of the larger extent."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """Directions of a picture, and the part of the plane that it shows at each time.
+
+    Attributes
+    ----------
+    across, up, towards : array
+        To the right, upwards and to the eye, shape [3] each.
+    low, high : array
+        Corners of the picture at each time, across and up [m], shape [n, 2].
+    """
+
+    across: Floats
+    up: Floats
+    towards: Floats
+    low: Floats
+    high: Floats
+
+    @classmethod
+    def of(cls, film: Film, view: str) -> Camera:
+        """Return the camera of one of the views: all that ever moves is seen; of a long way what is near the bodies."""
+        towards = np.array(VIEWS[view]) / np.linalg.norm(VIEWS[view])
+        up = np.array([0.0, 1.0, 0.0]) if view == "top" else np.array([0.0, 0.0, 1.0])
+        up = up - (up @ towards) * towards
+        up /= np.linalg.norm(up)
+        across = np.cross(up, towards)
+        flat = np.column_stack([across, up])
+        lows, highs = _bounds(film, flat, [piece for piece in film.pieces if piece.track in film.moving])
+        middle = film.origin[:, list(film.moving)].mean(axis=1) @ flat if film.moving else lows
+        near = np.max(np.maximum(highs - middle, middle - lows), axis=0)
+        if film.moving and float(np.max(near)) * 2.0 * _FAR < float(np.max(highs.max(axis=0) - lows.min(axis=0))):
+            return cls(across, up, towards, middle - (1.0 + _ROOM) * near, middle + (1.0 + _ROOM) * near)
+        lows, highs = _bounds(film, flat, film.pieces)
+        low, high = lows.min(axis=0), highs.max(axis=0)
+        room = _ROOM * float(np.max(high - low))
+        every = np.ones((len(film.times), 1))
+        return cls(across, up, towards, every * (low - room), every * (high + room))
+
+
+def _bounds(film: Film, flat: Floats, pieces: Sequence[Piece]) -> tuple[Floats, Floats]:
+    """Return the corners of what pieces take up at each time, shape [n, 2] each; of sheets at the first time."""
+    low, high = np.full((len(film.times), 2), np.inf), np.full((len(film.times), 2), -np.inf)
+    for i in range(len(film.times)):
+        for piece in pieces:
+            if not piece.sheet or i == 0:
+                points = film.placed(piece, i) @ flat
+                low[i], high[i] = np.minimum(low[i], points.min(axis=0)), np.maximum(high[i], points.max(axis=0))
+    return low, high

@@ -1,0 +1,191 @@
+"""Film: what is drawn of a run, as meshes, and where each of them is at times."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.export.meshes import Mesh, along_axes, bar, board, dot
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.interfaces.look import Look
+from nonsmooth.scene.scene import Part, Scene
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+_BODIES = ("#6fa8dc", "#f2b36b", "#7cc08f", "#d98fb8", "#b9a3e3", "#9fb8ad", "#d8c66a", "#8fc7d4")
+_HELD, _SHEET, _LINK, _JOINT = "#aab2bd", "#dfe4ea", "#5b6675", "#8c6d46"
+_ROUND, _TURNED = 100, 0.72
+"""Triangles from which on a solid gets a pattern that shows how it turns, and its shade."""
+_CELLS, _MOST_CELLS = 10, 40
+"""Cells along a sheet, and the most where the way is long beside the bodies."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A mesh that a track carries.
+
+    Attributes
+    ----------
+    name : str
+        Of the body, load or joint.
+    body : int
+        Number of the body, -1 of a load or a joint.
+    track : int
+        Number of the track.
+    mesh : Mesh
+        In the axes of the track.
+    colour : str
+        As "#rrggbb".
+    sheet : bool
+        Whether it stands for a plane without end, and is seen from its upper side.
+    """
+
+    name: str
+    body: int
+    track: int
+    mesh: Mesh
+    colour: str
+    sheet: bool = False
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Film:
+    """Pieces, and tracks that carry them: those of the frames first, then of sheets, then of strokes.
+
+    A point x of a track is at ``origin + axes @ (scale x)``, where ``scale`` stretches the first axis alone.
+
+    Attributes
+    ----------
+    times : array
+        [s], shape [n].
+    origin, axes, scale : array
+        Shapes [n, n_tracks, 3] [m], [n, n_tracks, 3, 3] and [n, n_tracks].
+    pieces : tuple of Piece
+        What is drawn.
+    moving : tuple of int
+        Tracks of what is seen of moving bodies, and of strokes.
+    unit : float
+        The length that lines and arrows are measured by [m].
+    """
+
+    times: Floats
+    origin: Floats
+    axes: Floats
+    scale: Floats
+    pieces: tuple[Piece, ...]
+    moving: tuple[int, ...]
+    unit: float
+
+    @classmethod
+    def of(cls, solution: Solution, times: Floats) -> Film:
+        """Return the film of a run at times [s], shape [n].
+
+        Raises
+        ------
+        InvalidInput
+            If nothing of the system can be seen.
+        """
+        scene, states = Scene.of(solution.system), solution.at(times)
+        origin, axes = scene.places(times, states.q, states.u)
+        low, high, reach = _box(scene, origin)
+        unit = min(reach, 0.5 * float(np.linalg.norm(high - low)))
+        pieces, names = list[Piece](), solution.system.names.bodies
+        origins, turns = [origin], [axes]
+        track = scene.n_frames
+        for part in scene.parts:
+            colour = _colour(scene, part.body)
+            if part.look.sheet:
+                place, mesh = _sheet(part, origin[:, part.frame], axes[:, part.frame], low, high, unit)
+                pieces.append(Piece(names[part.body], part.body, track, mesh, _SHEET, sheet=True))
+                origins.append(place[:, None])
+                turns.append(axes[:, part.frame, None])
+                track += 1
+            for lined, mesh in [] if part.look.sheet else _meshes(part.look, unit):
+                pieces.append(Piece(names[part.body], part.body, part.frame, mesh, _LINK if lined else colour))
+        scales, straight = [np.ones((len(times), track))], bar(np.zeros(3), np.array([1.0, 0.0, 0.0]), 0.035 * unit)
+        for stroke in scene.strokes:
+            first, last = (origin[:, f] + axes[:, f] @ end for f, end in zip(stroke.frames, stroke.ends, strict=True))
+            length = np.linalg.norm(last - first, axis=1)
+            if np.max(length) < 1e-6 * unit:
+                continue
+            pieces.append(Piece(stroke.name, -1, track, straight, _JOINT if stroke.kind == "joint" else _LINK))
+            origins.append(first[:, None])
+            turns.append(along_axes(last - first)[:, None])
+            scales.append(length[:, None])
+            track += 1
+        if not pieces:
+            remedy = "Give a body shapes or a sketch, or export a table."
+            raise InvalidInput("export: solution.system", "must have something to be seen", solution.system, remedy)
+        places, axes, scale = (np.concatenate(parts, axis=1) for parts in (origins, turns, scales))
+        bodies = solution.system.bodies
+        moving = {piece.track for piece in pieces if piece.body < 0 or bodies[piece.body].n_u > 0}
+        return cls(times, places, axes, scale, tuple(pieces), tuple(sorted(moving)), unit)
+
+    def placed(self, piece: Piece, i: int) -> Floats:
+        """Return the vertices of a piece at the time of a number [m], shape [n, 3]."""
+        stretched = piece.mesh.vertices * [self.scale[i, piece.track], 1.0, 1.0]
+        return np.asarray(self.origin[i, piece.track] + stretched @ self.axes[i, piece.track].T)
+
+
+def _box(scene: Scene, origin: Floats) -> tuple[Floats, Floats, float]:
+    """Return the corners of the box of all but sheets, and the reach of what moves."""
+    low, high, reach = origin[:, 0].min(axis=0), origin[:, 0].max(axis=0), 0.0
+    first = True
+    for part in scene.parts:
+        if part.look.sheet:
+            continue
+        own = float(np.max(np.linalg.norm(part.look.vertices, axis=1), initial=0.0))
+        here = origin[:, part.frame]
+        below, above = here.min(axis=0) - own, here.max(axis=0) + own
+        low, high = (below, above) if first else (np.minimum(low, below), np.maximum(high, above))
+        first = False
+        if scene.system.bodies[part.body].n_u > 0:
+            reach = max(reach, own)
+    for frame in {frame for stroke in scene.strokes for frame in stroke.frames}:
+        low, high = np.minimum(low, origin[:, frame].min(axis=0)), np.maximum(high, origin[:, frame].max(axis=0))
+    span = max(float(np.linalg.norm(high - low)), 1e-9)
+    return low, high, reach if reach > 0.0 else 0.3 * span
+
+
+def _colour(scene: Scene, body: int) -> str:
+    bodies = scene.system.bodies
+    moving = sum(one.n_u > 0 for one in bodies[:body])
+    return _BODIES[moving % len(_BODIES)] if bodies[body].n_u > 0 else _HELD
+
+
+def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, Mesh]]:
+    """Give the meshes of a look, and whether they stand for lines."""
+    if len(look.triangles):
+        middle = 0.5 * (look.vertices.min(axis=0) + look.vertices.max(axis=0))
+        centre = look.vertices[look.triangles].mean(axis=1) - middle
+        turned = (len(look.triangles) >= _ROUND) & (np.prod(centre, axis=1) > 0.0)
+        yield False, Mesh(look.vertices, look.triangles, np.where(turned, _TURNED, 1.0))
+    for first, last in look.vertices[look.lines]:
+        if np.any(first != last):
+            yield True, bar(first, last, 0.03 * unit)
+    used = np.concatenate([look.triangles.ravel(), look.lines.ravel()])
+    for place in np.delete(look.vertices, used, axis=0):
+        yield False, dot(place, 0.06 * unit)
+
+
+def _sheet(part: Part, origin: Floats, axes: Floats, low: Floats, high: Floats, unit: float) -> tuple[Floats, Mesh]:
+    """Return where a piece of a plane is, and the piece; it stays where the bodies are when the plane slides in itself.
+
+    It goes as far as the bodies at the first time, seen along its normal, and some way on.
+    """
+    normal, middle = axes[:, :, 2], 0.5 * (low + high)
+    through = origin + part.look.vertices[0, 2] * normal
+    place = middle - np.einsum("ij,ij->i", middle - through, normal)[:, None] * normal
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low) + low
+    flat = np.abs((corners - middle) @ axes[0, :, :2]).max(axis=0) + 0.6 * unit
+    widest = 2.0 * float(flat.max())
+    cell = max(widest / _MOST_CELLS, min(widest / _CELLS, 2.0 * unit))
+    half = cell * np.ceil(flat / cell - 1e-9)
+    return place, board(-half, half, cell)

@@ -1,0 +1,87 @@
+"""GLB: a scene with animation, for browsers, Blender and game engines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.export.film import Film
+from nonsmooth.export.gltf import Tree
+from nonsmooth.export.impulses import Arrows, arrows
+from nonsmooth.export.meshes import arrow
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.parameters import Rule, check_number
+from nonsmooth.scene.knots import knots
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+_KNOTS = Rule("most times that are stored, besides the instants of events", "1", minimum=2.0, maximum=1e6)
+_IMPULSE, _ARM = "#d55e00", 1.6
+"""Colour of the arrows of impulses, and how long that of the strongest one is."""
+
+
+@final
+@dataclass(frozen=True)
+class Glb:
+    """A GLB file (glTF 2.0): a node for each frame, with tracks of translation and rotation, and meshes below it.
+
+    Loads, joints and links of mechanisms have tracks of scale, too; so have arrows, one for each contact, which are as
+    long as its impulses and are there for 50 ms after an impact.  Times count from the beginning of the run and
+    are 32-bit numbers that increase strictly: of instants that are nearer to each other, the last one is kept.
+
+    Attributes
+    ----------
+    most_knots : int
+        At how many times, besides the instants of events, tracks have a key.
+    """
+
+    most_knots: int = 4000
+
+    def __post_init__(self) -> None:
+        check_number("export: most_knots", self.most_knots, _KNOTS)
+
+    def files(self, solution: Solution, path: Path) -> Iterator[tuple[Path, bytes]]:
+        """Give the file of a run."""
+        times = knots(solution, int(self.most_knots))
+        keys = (times - times[0]).astype(np.float32)
+        kept = np.append(np.diff(keys) > 0.0, True)
+        yield path, _packed(Film.of(solution, times[kept]), keys[kept], arrows(solution))
+
+
+def _packed(film: Film, keys: NDArray[np.float32], impulses: Iterable[Arrows]) -> bytes:
+    tree, roots = Tree(), dict[int, int]()
+    time, turns = tree.keys(keys), quaternions(film.axes)
+    for piece in film.pieces:
+        track = piece.track
+        if track not in roots:
+            roots[track] = tree.node(piece.name, children=[])
+            stretch = np.column_stack([film.scale[:, track], np.ones((len(keys), 2))])
+            places = {"translation": film.origin[:, track], "rotation": turns[:, track], "scale": stretch}
+            tree.move(roots[track], time, "LINEAR", **places)
+        mesh = tree.mesh(piece.mesh, piece.colour)
+        tree.nodes[roots[track]]["children"].append(tree.node(piece.name, mesh=mesh))
+    pushes, shape = list[int](), arrow()
+    for one in impulses:
+        own = (one.times - film.times[0]).astype(np.float32)
+        last = np.append(np.diff(own) > 0.0, True)
+        size = _ARM * film.unit * one.size[last, None] * np.ones(3)
+        places = {"translation": one.origin[last], "rotation": quaternions(one.axes[last, None])[:, 0], "scale": size}
+        pushes.append(tree.node(f"impulse {one.contact}", mesh=tree.mesh(shape, _IMPULSE)))
+        tree.move(pushes[-1], tree.keys(own[last]), "STEP", **places)
+    return tree.packed([*roots.values(), *pushes])
+
+
+def quaternions(axes: Floats) -> Floats:
+    """Return unit quaternions, scalar last, of axes of shape [n, m, 3, 3]; each is nearest to the one before it."""
+    from scipy.spatial.transform import Rotation
+
+    found = np.asarray(Rotation.from_matrix(axes.reshape(-1, 3, 3)).as_quat()).reshape(*axes.shape[:2], 4)
+    turned = np.einsum("ijk,ijk->ij", found[1:], found[:-1]) < 0.0
+    found[1:] *= np.where(np.cumsum(turned, axis=0) % 2, -1.0, 1.0)[:, :, None]
+    return found

@@ -1,0 +1,52 @@
+"""Marks: contacts that stick or slip, and impacts, as moving pictures show them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+
+from nonsmooth.engine.memory.modes import SLIDE, STICK
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.histories.visitor import visitor
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+WORDS = ("stick", "slip", "impact")
+"""The kinds of marks."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """Marks at times.
+
+    Attributes
+    ----------
+    places : tuple of tuple of array
+        Of each of the times, and of it for each of :data:`WORDS`, the points that are marked [m], shape [m, 3].
+    """
+
+    places: tuple[tuple[Floats, ...], ...]
+
+    @classmethod
+    def of(cls, solution: Solution, times: Floats, seen: float) -> Marks:
+        """Return the marks of a run at times [s], shape [n]; an impact is seen for so long [s].
+
+        There are none where the engine cannot be asked for forces.
+        """
+        if not visitor(solution).solves:
+            return cls(len(times) * (len(WORDS) * (np.zeros((0, 3)),),))
+        forces, impulses = solution.contact_forces(times), solution.contact_impulses()
+        points = forces.points.mean(axis=1)
+        struck = (impulses.normal_impulse > 0.0) & np.all(np.isfinite(impulses.points), axis=(1, 2))
+        instants, hit = solution.events.time[impulses.event[struck]], impulses.points[struck].mean(axis=1)
+        found = list[tuple[Floats, ...]]()
+        for i, t in enumerate(times.tolist()):
+            here = slice(forces.first[i], forces.first[i + 1])
+            modes = forces.mode[here]
+            recent = hit[(instants <= t) & (instants > t - seen)]
+            found.append((points[here][modes == STICK], points[here][modes == SLIDE], recent))
+        return cls(tuple(found))

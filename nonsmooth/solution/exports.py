@@ -1,0 +1,67 @@
+"""Exports: a run as files of another format, which the suffix of a path names."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from nonsmooth.checks import path_of
+from nonsmooth.errors import InvalidInput
+from nonsmooth.export.glb import Glb
+from nonsmooth.export.movie import Movie
+from nonsmooth.export.vtk import Vtk
+from nonsmooth.solution.csv_format import Csv
+from nonsmooth.solution.files import prepare, replacing
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+
+class Format(Protocol):
+    """What turns a run into files."""
+
+    def files(self, solution: Solution, path: Path) -> Iterator[tuple[Path, bytes]]:
+        """Give files and what is in them; the last one is that of the path."""
+
+
+FORMATS: Mapping[str, Callable[..., Format]] = {
+    ".glb": Glb,
+    ".pvd": Vtk,
+    ".gif": partial(Movie, "gif"),
+    ".webp": partial(Movie, "webp"),
+    ".png": partial(Movie, "png"),
+    ".mp4": partial(Movie, "mp4"),
+    ".csv": Csv,
+}
+"""Formats by their suffixes, made from their options."""
+
+
+def exporter(path: Path | str, **options: Any) -> Callable[[Solution], Path]:
+    """Return what writes a run to a path (:meth:`nonsmooth.Solution.export`); what can be wrong is refused here."""
+    found = path_of("export: path", path)
+    suffix = found.suffix.lower()
+    if suffix not in FORMATS:
+        raise InvalidInput(
+            "export: path", f"must end in one of {', '.join(FORMATS)}", str(path), "Its suffix names the format."
+        )
+    known = inspect.signature(FORMATS[suffix]).parameters
+    for name, value in options.items():
+        if name not in known:
+            raise InvalidInput(f"export: {name}", f"is no option of {suffix}", value, f"Known: {', '.join(known)}.")
+    chosen = FORMATS[suffix](**options)
+    if found.is_dir():
+        raise InvalidInput(
+            "export: path", "must be a file", str(path), "There is a folder of that name; choose another."
+        )
+    prepare(found.parent)
+
+    def write(solution: Solution) -> Path:
+        for place, content in chosen.files(solution, found):
+            with replacing(place) as part:
+                part.write_bytes(content)
+        return found
+
+    return write
