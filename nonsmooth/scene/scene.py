@@ -15,6 +15,9 @@ from nonsmooth.queries.places import BodyFrames
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
+_SPECK = 1e-2
+"""Part of its distance from the origin of the frame below which the size of a shape is not seen."""
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -132,18 +135,15 @@ class Scene:
 
 
 def _looks(body: Body) -> Iterator[tuple[int, Look]]:
-    """Give frame and look of all that the frames of a body carry; what its marks span is one."""
+    """Give frame and look of all that the frames of a body carry; what its marks and specks span is one."""
     for frame, shapes in enumerate(body.frames):
         looks = [shape.look for shape in shapes]
-        marks = [look for look in looks if _is_mark(look)]
-        yield from ((frame, look) for look in looks if not _is_mark(look))
-        if marks:
-            yield frame, Look.hull(np.concatenate([look.vertices for look in marks]))
+        reach = max((float(np.max(np.abs(look.vertices))) for look in looks if not look.sheet), default=0.0)
+        specks = [look for look in looks if not look.sheet and np.max(np.ptp(look.vertices, axis=0)) <= _SPECK * reach]
+        yield from ((frame, look) for look in looks if look not in specks)
+        if specks:
+            yield frame, Look.hull([look.vertices.mean(axis=0) for look in specks])
     yield from enumerate(body.sketch)
-
-
-def _is_mark(look: Look) -> bool:
-    return not (look.sheet or len(look.triangles) or len(look.lines))
 
 
 def _tied(kind: str, tie: Tie, first: dict[int, int]) -> Iterator[Stroke]:

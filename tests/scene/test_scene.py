@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import nonsmooth as ns
-from bodies import Ball, Dumbbell, Hinge, HullBody, PlanarBody, Plate, Point, RigidBody, Rod, Spring
+from bodies import Ball, Dumbbell, Hinge, HullBody, PlanarBody, Plate, Point, RigidBody, Rod, Sphere, Spring
 from nonsmooth.interfaces.look import Look
 from nonsmooth.plugins import registry
 from nonsmooth.scene.knots import knots
@@ -53,6 +53,13 @@ def test_corners_of_a_frame_are_seen_as_what_they_span() -> None:
     sheet, block = scene.parts
     assert sheet.look.sheet
     assert len(block.look.triangles) == 4
+
+
+def test_ends_that_are_too_small_to_be_seen_are_joined() -> None:
+    ends = tuple(Sphere(1e-5, x=x) for x in (-0.1, 0.1))
+    (rod,) = Scene.of(ns.System([RigidBody(1.0, np.eye(3).tolist(), ends)])).parts
+    np.testing.assert_allclose(rod.look.vertices, [(-0.1, 0, 0), (0.1, 0, 0)], atol=1e-15)
+    assert len(rod.look.lines) == 1
 
 
 def test_the_rod_of_a_dumbbell_joins_its_balls() -> None:
