@@ -43,10 +43,11 @@ COMPILING = ("native", "memory")
 pytestmark = pytest.mark.skipif(PLAIN, reason="nothing is compiled")
 
 
+@pytest.mark.timeout(600)
 def test_compiled_and_plain_agree(tmp_path: Path) -> None:
     """Events and words alike, numbers to 1e-12 of the largest of their kind; and the cases enter the whole engine.
 
-    One test, as the plain cases take an interpreter of their own and long.
+    One test, as the plain cases take an interpreter of their own and some two minutes, more where others work, too.
     """
     plain, entered = _plain(tmp_path / "numbers")
     for name, case in CASES.items():
