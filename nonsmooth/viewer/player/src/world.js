@@ -12,7 +12,6 @@ const BODIES = ["#6fa8dc", "#f2b36b", "#7cc08f", "#d98fb8", "#b9a3e3", "#9fb8ad"
 const FADING = 0.15; // how long an impulse is seen [s watched]
 const VIEWS = { iso: [0.9, -1.3, 0.7], front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1] };
 const GRID = 1000; // of a solid, half as many units as it is large
-const ROUND = 100; // triangles from which on a part gets a pattern that shows how it turns
 
 export class World {
   constructor(canvas, run, dark) {
@@ -273,7 +272,11 @@ function solid(points, index, colour) {
   const n = index.length / 3;
   const base = new THREE.Color(colour);
   const shade = base.clone().multiplyScalar(0.62);
-  const places = shape.getAttribute("position");
+  const [places, normals] = ["position", "normal"].map((name) => shape.getAttribute(name));
+  const curved = (i) => {
+    const [p, q, r] = [0, 1, 2].map((j) => new THREE.Vector3().fromBufferAttribute(normals, 3 * i + j));
+    return Math.min(p.dot(q), p.dot(r)) < 1 - 1e-6;
+  };
   shape.computeBoundingBox();
   const middle = shape.boundingBox.getCenter(new THREE.Vector3());
   const colours = new Float32Array(9 * n);
@@ -281,7 +284,7 @@ function solid(points, index, colour) {
     const at = new THREE.Vector3();
     for (let j = 0; j < 3; j++) at.add(new THREE.Vector3().fromBufferAttribute(places, 3 * i + j));
     at.divideScalar(3).sub(middle);
-    const used = n >= ROUND && at.x * at.y * at.z > 0 ? shade : base;
+    const used = at.x * at.y * at.z > 0 && curved(i) ? shade : base;
     for (let j = 0; j < 3; j++) used.toArray(colours, 9 * i + 3 * j);
   }
   shape.setAttribute("color", new THREE.BufferAttribute(colours, 3));
