@@ -66,7 +66,7 @@ class Film:
     times : array
         [s], shape [n].
     origin, axes, scale : array
-        Shapes [n, n_tracks, 3] [m], [n, n_tracks, 3, 3] and [n, n_tracks].
+        In [m], as columns, and pure numbers; shapes [n, n_tracks, 3], [n, n_tracks, 3, 3] and [n, n_tracks].
     pieces : tuple of Piece
         What is drawn.
     moving : tuple of int
