@@ -148,7 +148,7 @@ def test_unknown_start_suggests() -> None:
 
 def test_a_driven_body_cannot_be_placed() -> None:
     """Its motion says where it is."""
-    with pytest.raises(InvalidInput, match="Its motion says"):
+    with pytest.raises(InvalidInput, match="says where it is"):
         Plate().state(position=(0, 0, 1))
 
 

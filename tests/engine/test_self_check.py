@@ -135,7 +135,9 @@ class Handing(JumpingGap):
         return handing
 
 
-def _over(gap: JumpingGap, z: float, gravity: float, laws: Mapping[str, Any] = LAWS) -> ns.System:
+def _over(
+    gap: JumpingGap, z: float, gravity: float | tuple[float, float, float], laws: Mapping[str, Any] = LAWS
+) -> ns.System:
     plate, ball = Plate(Rest()), Ball(RADIUS, 7800.0)
     system = ns.System([plate, ball], gravity)
     system.contact(plate, ball, **laws)
@@ -198,7 +200,7 @@ def test_bodies_that_springs_hold_do_not_pass_where_their_contact_ends() -> None
 def test_the_end_of_a_contact_that_jumps_is_an_event() -> None:
     """A spring holds a ball under a ceiling, and behind the end it would pull with 1 m: no step leads there."""
     pulls: Mapping[str, Any] = {**SPRING, "normal": Cohesive(1e4, 1.0)}
-    solution = ns.simulate(_over(Ending(1.0), RADIUS, -9.81, pulls), 0.1)
+    solution = ns.simulate(_over(Ending(1.0), RADIUS, (0.0, 0.0, 9.81), pulls), 0.1)
     assert solution.status == "done"
     assert solution.events.causes()[-1] == "end of a feature"
     assert solution.events.time[-1] == pytest.approx(0.05, abs=2e-11)

@@ -103,5 +103,7 @@ def test_a_stored_run_is_exported(tmp_path: Path, capsys: pytest.CaptureFixture[
     folder = str(tmp_path / "stored")
     assert main(["run", "bouncing_ball", "--set", "t_end=0.1", "--out", folder]) == 0
     assert main(["export", folder, str(tmp_path / "a.csv"), "--series", "energies"]) == 0
-    assert main(["export", folder, str(tmp_path / "a.csv"), "--set", "t_end=1"]) == 2
+    assert main(["export", folder, str(tmp_path / "b.csv"), "--set", "t_end=1"]) == 2
     assert "takes --set, --law and --engine for a scenario only" in capsys.readouterr().err
+    assert main(["export", folder, str(tmp_path / "a.csv")]) == 2
+    assert "a.csv must be a new file" in capsys.readouterr().err

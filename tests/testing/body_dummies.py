@@ -11,7 +11,7 @@ import numpy as np
 
 from bodies import Sphere
 from nonsmooth import InvalidInput
-from nonsmooth.interfaces import Body, Shape
+from nonsmooth.interfaces import Body, Look, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
 from nonsmooth.types import Floats
 
@@ -202,6 +202,23 @@ class Sizeless(Ball):
 
 
 @dataclass(frozen=True)
+class Crossed(Ball):
+    """One whose sketch has lines between vertices that are not there."""
+
+    @property
+    def sketch(self) -> tuple[Look, ...]:
+        return (Look(np.zeros((1, 3)), lines=np.array([[0, 1]])),)
+
+
+@dataclass(frozen=True)
+class Growing(Ball):
+    """One that has the more lines the farther it is."""
+
+    def strokes(self, q: Vector) -> Vector:
+        return np.zeros((1 if q[0] > 0.0 else 2, 2, 3))
+
+
+@dataclass(frozen=True)
 class Swing(Ball):
     """A driven body."""
 
@@ -244,6 +261,8 @@ DUMMIES: list[tuple[str, Body]] = [
     ("writes its block", Flying(slip=3.0)),
     ("start", Lenient()),
     ("start", Sizeless()),
+    ("sketch", Crossed()),
+    ("sketch", Growing()),
     ("velocity", Swing(FAULT_OF_SPEED)),
     ("acceleration", Swing(FAULT_OF_ACCELERATION)),
 ]

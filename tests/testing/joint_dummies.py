@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from bodies import BallJoint
 from bodies.joints.rows import distance_row
 from nonsmooth.compiled import compiled
@@ -84,8 +86,18 @@ class Point(Joint):
         return evaluate
 
 
+@dataclass(frozen=True)
+class Endless(Point):
+    """One that holds at a single point."""
+
+    @property
+    def ends(self) -> Any:
+        return np.zeros(3)
+
+
 DUMMIES: list[tuple[str, Joint]] = [
     *((name, Point(fault)) for name, fault in FAULTS.items()),
     ("writes its block", Point(BEYOND)),
     ("independent rows", Point(NOTHING)),
+    ("ends", Endless()),
 ]

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar
 
+import numpy as np
+
 from nonsmooth.interfaces import Load
 from nonsmooth.types import Floats
 
@@ -66,7 +68,17 @@ class Weight(Pull):
     fault: float = FAULTS["frame invariance"]
 
 
+@dataclass(frozen=True)
+class Endless(Pull):
+    """One that acts nowhere."""
+
+    @property
+    def ends(self) -> Any:
+        return np.full((2, 3), math.nan)
+
+
 DUMMIES: list[tuple[str, Load]] = [
     *((name, Pull(fault)) for name, fault in FAULTS.items()),
     ("writes its block", Pull(BEYOND)),
+    ("ends", Endless()),
 ]

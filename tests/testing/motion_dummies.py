@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.interfaces import Guard, Motion, Shape
+from nonsmooth.interfaces import Guard, Look, Motion, Shape
 from nonsmooth.interfaces.convex_solid import ConvexSolid
 from nonsmooth.types import Floats
 
@@ -119,6 +119,17 @@ class Ball(Shape):
         return ConvexSolid(self.farthest)
 
 
+@dataclass(frozen=True)
+class Seen(Blob):
+    """A shape that is seen as it says."""
+
+    seen: Any = None
+
+    @property
+    def look(self) -> Look:
+        return self.seen  # type: ignore[no-any-return]
+
+
 def _dented(n: Any) -> Any:
     return (1.0 - 0.3 * float(n[2] > 0.9 * np.linalg.norm(n))) * n / np.linalg.norm(n)
 
@@ -129,6 +140,10 @@ SHAPES: list[tuple[str, Shape]] = [
     ("extent", Blob(1.0, 0.5)),
     ("ceiling", Ball(lambda n: n / np.linalg.norm(n), 0.9)),
     ("ceiling", Ball(lambda n: n / np.linalg.norm(n), math.nan)),
+    ("look", Seen(seen="a ball")),
+    ("look", Seen(seen=Look(np.full((1, 3), math.nan)))),
+    ("look", Seen(seen=Look(np.zeros((2, 3)), sheet=True))),
+    ("look", Seen(seen=Look(np.zeros((3, 3)), triangles=np.array([[0, 1, 3]])))),
     ("solid", Ball(_dented)),
     ("solid", Ball(lambda n: n)),
     ("solid", Ball(lambda n: np.full(3, math.nan))),
