@@ -50,16 +50,13 @@ class ContactImpulses:
     def of(cls, solution: Solution) -> ContactImpulses:
         """Return those of a run (:meth:`nonsmooth.Solution.contact_impulses`)."""
         events, known = solution.events, visitor(solution)
-        n, laid = len(events.listed), known.laid
-        memory = laid.memory
+        n, memory = len(events.listed), known.laid.memory
         points, axes = np.full((n, 2, 3), np.nan), np.full((n, 3, 3), np.nan)
         # of events at one instant all have the same places
         instants, begins = np.unique(events.time, return_index=True)
         ends = np.append(begins[1:], len(events))
 
         def look(i: int) -> None:
-            laid.list_contacts()
-            laid.evaluate()
             slots = int(memory.scalars["n_contacts"][0])
             blocks = memory.array("geometry", GEOMETRY * slots).reshape(slots, GEOMETRY)
             directions = memory.array("axes", 9 * slots).reshape(slots, 3, 3)
@@ -72,7 +69,7 @@ class ContactImpulses:
             axes[entries] = directions[found]
             axes[entries, 0] = blocks[found, NORMAL : NORMAL + 3]
 
-        known.visit(instants, look, forces=False)
+        known.visit_listed(instants, look)
         event = np.repeat(np.arange(len(events)), np.diff(events.first))
         impulse = events.listed_impulse
         friction = np.einsum("ir,irx->ix", impulse[:, 1:], axes[:, 1:])

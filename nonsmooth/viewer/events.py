@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 _MOST_LETTERS = 12
 """Contacts up to which a mode word is shown as it is."""
 _MOST_NUMBERS = 6
+"""Contacts up to which each is named by its number."""
 _STICKS, _SLIDES, _HITS = 1, 5, 2
 """Bits of Eq. (29) of a contact that is closed, and that which is set while it takes part in an impact."""
 

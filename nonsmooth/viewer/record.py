@@ -67,7 +67,6 @@ def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, A
         ],
         "low": low,
         "high": high,
-        "gravity": list(system.gravity),
     }
     return told, arrays
 

@@ -61,6 +61,7 @@ def _held_up(evaluations: int) -> int:
     S = SimpleNamespace(n_grouped=1, grouped=0, crowd=0.0, crowd_t=0.0, t=0.0, evaluations=evaluations, evaluated=0)
     contact = SimpleNamespace(contact_time=1e-5, slip_end=(1e-7, 0.0), force=(1.0, 0.3, 0.0), mobility=10.0)
     contact.mode, contact.averaged, S.velocity_tolerance = SLIDE, 0, 1e-8
+    contact.crowd_start, contact.crowd_events = 0.0, 0
     with patch.object(averaging, "contact_at", lambda *_: contact):
         return int(averaging.holds_time_up(S, _UNREAD, [0]))
 

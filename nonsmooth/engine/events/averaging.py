@@ -121,6 +121,7 @@ def holds_time_up(S: Scalars, w: Floats, k: Integers) -> int:
         turns = contact.contact_time * contact.mobility * friction / max(speed, S.velocity_tolerance)
         if contact.mode == SLIDE and contact.averaged == OPEN and turns > fastest:
             which, fastest = c, turns
-        if contact.averaged == OPEN and contact.crowd_events > events:
+        recent = S.t - contact.crowd_start <= contact.contact_time
+        if contact.averaged == OPEN and recent and contact.crowd_events > events:
             busiest, events = c, contact.crowd_events
     return which if which >= 0 else busiest
