@@ -13,8 +13,8 @@ from nonsmooth.errors import UnknownName
 from nonsmooth.parameters import Rule
 from nonsmooth.plugins import file, registry
 
-_HEAD = ("parameter", "default", "unit", "allowed", "")
-_LEGEND = "  * assumed: the source does not give this value, we chose it"
+HEAD = ("parameter", "default", "unit", "allowed", "")
+LEGEND = "  * assumed: the source does not give this value, we chose it"
 
 
 def add_to(commands: Any) -> None:
@@ -59,10 +59,15 @@ def _installed(group: str, name: str) -> str:
 
 
 def _describe(owner: Any, title: str) -> str:
-    rows = [_row(field) for field in dataclasses.fields(owner) if field.init]
-    table = lines([_HEAD, *rows]) if rows else ["  no parameters"]
-    legend = [_LEGEND] if any(row[1].endswith("*") for row in rows) else []
+    rows = parameter_rows(owner)
+    table = lines([HEAD, *rows]) if rows else ["  no parameters"]
+    legend = [LEGEND] if any(row[1].endswith("*") for row in rows) else []
     return "\n".join([title, f"  {first_line(owner)}", "", *table, *legend])
+
+
+def parameter_rows(owner: Any) -> list[tuple[str, str, str, str, str]]:
+    """Return the parameters of a component, each as the words below HEAD; * is behind a default that is assumed."""
+    return [_row(field) for field in dataclasses.fields(owner) if field.init]
 
 
 def _row(field: dataclasses.Field[Any]) -> tuple[str, str, str, str, str]:

@@ -1,0 +1,125 @@
+"""Make what the pages of the gallery show of their scenarios: ``python docs/build_pages.py [NAME ...]``.
+
+Each scenario is run with its defaults.  Its view and picture go to docs/pages/views, where pages link to them; its
+parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.
+"""
+
+from __future__ import annotations
+
+import io
+import shlex
+import sys
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+
+import nonsmooth as ns
+from nonsmooth.cli.show import HEAD, LEGEND, parameter_rows
+from nonsmooth.cli.table import first_line
+from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.plugins import registry
+
+DOCS = Path(__file__).parent
+VIEWS = DOCS / "pages" / "views"
+PARTS = DOCS / "parts"
+OTHERS: dict[str, tuple[dict[str, str], ...]] = {"dumbbell": ({"mode": "drift"}, {"mode": "jump"}, {"mode": "flutter"})}
+"""Parameters to view where one run with the defaults does not show what a scenario is for."""
+_PAGES = {"rocking_block_3d": "rocking_block"}
+"""Pages that are not named as their scenario."""
+_FRAMES, _SHOWN = 25, 10
+"""Pictures of a run, and which of them is shown."""
+
+
+def build(name: str) -> str:
+    """Write the parts of a scenario; return its card."""
+    owner = registry.load("scenarios", name)
+    PARTS.mkdir(exist_ok=True)
+    VIEWS.mkdir(exist_ok=True)
+    views = [_view(name, owner, given) for given in OTHERS.get(name, ({},))]
+    scenario, solution = _run(owner, {})
+    _picture(solution, VIEWS / f"{name}.webp")
+    (PARTS / f"{name}.view.md").write_text("\n".join(views), encoding="utf-8")
+    numbers = [*_parameters(name, owner), "", *_criteria(name, scenario.acceptance(solution))]
+    (PARTS / f"{name}.numbers.md").write_text("\n".join(numbers) + "\n", encoding="utf-8")
+    page = f"{_PAGES.get(name, name)}.md"
+    picture = f"[![{owner.title}]({VIEWS.name}/{name}.webp)]({page})"
+    return f"-   {picture}\n\n    [{owner.title}]({page}): {first_line(owner)}\n"
+
+
+def _run(owner: type[Scenario], given: dict[str, str]) -> tuple[Any, ns.Solution]:
+    scenario: Any = owner(**given)
+    return scenario, ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
+
+
+def _view(name: str, owner: type[Scenario], given: dict[str, str]) -> str:
+    """Write the page that plays a run; return the Markdown that shows it."""
+    words = [f"{key}={value}" for key, value in given.items()]
+    scenario, solution = _run(owner, given)
+    title = ", ".join([scenario.title, *words])
+    path = solution.to_html(VIEWS / f"{'-'.join([name, *given.values()])}.html", title=title)
+    link = f"{VIEWS.name}/{path.name}"
+    command = shlex.join(["nonsmooth", "view", name, *(part for word in words for part in ("--set", word))])
+    size = path.stat().st_size / 1e6
+    return (
+        f'<iframe class="view" src="{link}" title="{title}" loading="lazy"></iframe>\n\n'
+        f"`{command}` plays this, {scenario.t_end:g} s with {len(solution.events)} events; "
+        f"[on a page of its own]({link}), {size:.1f} MB.\n"
+    )
+
+
+def _picture(solution: ns.Solution, path: Path) -> None:
+    duration = solution.t_end - float(solution.t[0])
+    solution.export(path, size=360, frames_per_second=1, speed=duration / (_FRAMES - 1))
+    with Image.open(io.BytesIO(path.read_bytes())) as picture:
+        picture.seek(_SHOWN)
+        picture.convert("RGB").save(path, quality=85)
+
+
+def _parameters(name: str, owner: type[Scenario]) -> Iterator[str]:
+    rows = parameter_rows(owner)
+    yield f"## Parameters of `{name}`\n"
+    yield from _table([(*HEAD[:-1], "meaning"), *((f"`{key}`", *cells) for key, *cells in rows)])
+    if any(row[1].endswith("*") for row in rows):
+        yield f"\n{LEGEND.strip().replace('*', chr(92) + '*')}."
+
+
+def _criteria(name: str, found: tuple[Criterion, ...]) -> Iterator[str]:
+    yield f"## Criteria of `{name}`, as a run with the defaults meets them\n"
+    head = ("number", "value", "from", "to", "source", "")
+    rows = [
+        (
+            one.name,
+            *(f"{x:.9g}" for x in (one.value, one.lower, one.upper)),
+            one.source,
+            "met" if one.fulfilled else "NOT MET",
+        )
+        for one in found
+    ]
+    yield from _table([head, *rows])
+
+
+def _table(rows: Iterable[tuple[str, ...]]) -> Iterator[str]:
+    """Give the lines of a table of Markdown; the first row is its head."""
+    for i, row in enumerate(rows):
+        yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
+        if i == 0:
+            yield "|" + "---|" * len(row)
+
+
+def main() -> None:
+    """Build the scenarios named, or all and the list of them."""
+    names = sys.argv[1:] or sorted(registry.names("scenarios"))
+    # the first one alone, as it compiles the engine
+    cards = [build(names[0])]
+    with ProcessPoolExecutor() as workers:
+        cards += workers.map(build, names[1:])
+    if not sys.argv[1:]:
+        text = "\n".join(['<div class="grid cards" markdown>\n', *cards, "</div>\n"])
+        (PARTS / "gallery.md").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
