@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -62,3 +63,8 @@ def _box(body: Body, frames: Sequence[Place]) -> tuple[Vector, Vector]:
         np.min([place - radius for place, radius in balls], axis=0),
         np.max([place + radius for place, radius in balls], axis=0),
     )
+
+
+def touching(size: Any) -> Any:
+    """Return by how much bodies may be apart or overlap that touch [m]: what the start of a run allows."""
+    return np.maximum(1e-9, 1e-6 * size)

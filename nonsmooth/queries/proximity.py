@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from nonsmooth.checks import check_kind, is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.bodies import BodyPair
-from nonsmooth.queries.near import near_bodies, places_at_start, size_of
+from nonsmooth.queries.near import near_bodies, places_at_start, size_of, touching
 from nonsmooth.queries.result import DistanceResult
 from nonsmooth.queries.ties import Ties
 from nonsmooth.system.system import System
@@ -77,7 +77,7 @@ def proximity(system: System, within: float | None = None) -> tuple[NearPair, ..
     sizes = np.array([size_of(body) for body in bodies])
     # whoever is unbounded is as near as the other one allows
     finite = np.where(np.isfinite(sizes), sizes, 0.0)
-    margins = np.maximum(_PART * finite if within is None else within, _touching(finite))
+    margins = np.maximum(_PART * finite if within is None else within, touching(finite))
     found = []
     for i, j in near_bodies(bodies, places, margins):
         if not any(math.isfinite(shape.extent) for k in (i, j) for shapes in bodies[k].frames for shape in shapes):
@@ -85,15 +85,10 @@ def proximity(system: System, within: float | None = None) -> tuple[NearPair, ..
         pair = BodyPair(bodies[i].frames, bodies[j].frames, quick=True)
         gap = pair.at(places[i], places[j])
         size = min(sizes[i], sizes[j])
-        touching = float(_touching(size))
-        if gap.gap > max(_PART * size if within is None else within, touching):
+        least = float(touching(size))
+        if gap.gap > max(_PART * size if within is None else within, least):
             continue
-        state = NEAR if gap.gap > touching else TOUCHING if gap.gap >= -touching else OVERLAPPING
+        state = NEAR if gap.gap > least else TOUCHING if gap.gap >= -least else OVERLAPPING
         said = (i, j) in ties.declared, ties.same_mechanism(i, j), (i, j) in ties.excluded
         found.append(NearPair((bodies[i], bodies[j]), (i, j), state, *said, gap))
     return tuple(sorted(found, key=lambda one: one.distance.gap))
-
-
-def _touching(size: Any) -> Any:
-    """Return by how much bodies may be apart or overlap that touch [m]: what the start of a run allows."""
-    return np.maximum(1e-9, 1e-6 * size)

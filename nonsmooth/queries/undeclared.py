@@ -1,61 +1,122 @@
-"""What is said before a run of bodies that overlap at the start and have no contact."""
+"""What is said of bodies that overlap where a run starts or ends and have no contact."""
 
 from __future__ import annotations
 
+import functools
 import itertools
+import math
 import warnings
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
 
 import numpy as np
 
-from nonsmooth.errors import NonsmoothWarning
+from nonsmooth.errors import InvalidInput, NoDistance, NonsmoothWarning
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
-from nonsmooth.queries.near import near_bodies
+from nonsmooth.queries.bodies import BodyPair
+from nonsmooth.queries.near import near_bodies, size_of, touching
 from nonsmooth.queries.ties import Ties
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.system import System
 
+Places = Sequence[Sequence[Place]]
+"""Where the frames of all bodies stand."""
 _NAMED = 3
 """Pairs that are named; of others the number is told."""
 
 
 class UndeclaredOverlap(NonsmoothWarning):
-    """Bodies that overlap at the start and have no contact: they pass through each other."""
+    """Bodies without a contact that overlap: where a run starts, or where it ended, having passed into each other."""
 
 
-def warn_of_overlaps(system: System, places: Sequence[Sequence[Place]]) -> None:
-    """Warn of bodies that overlap at the start, where their frames have these places, though nothing is said of them.
+@final
+@dataclass(frozen=True)
+class Undeclared:
+    """Pairs of bodies of which a system says nothing.
 
     Left alone are pairs with a declared contact, be it of some of their shapes, of one mechanism, of driven bodies, and
-    those that the user excluded; planes, on whose wrong side a body may well be meant to start; and all of a system
-    without any contact, in which nothing is meant to touch.
+    those that the user excluded; and all of a system without any contact, in which nothing is meant to touch.
+
+    Attributes
+    ----------
+    system : System
+        The system.
+    ties : Ties
+        What it says of pairs.
     """
-    bodies = system.bodies
-    solid = [any(shape.solid is not None for shapes in body.frames for shape in shapes) for body in bodies]
-    near = [(i, j) for i, j in near_bodies(bodies, places, np.zeros(len(bodies))) if solid[i] and solid[j]]
-    if not system.declarations or not near:
-        return
-    ties = Ties.of(system)
-    said = ties.declared | ties.excluded
-    found = [
-        (i, j, depth)
-        for i, j in near
-        if (i, j) not in said and not ties.same_mechanism(i, j)
-        if (depth := _overlap(bodies[i], places[i], bodies[j], places[j])) > 0.0
-    ]
-    if not found:
-        return
-    names = system.names.bodies
-    named = [f"{names[i]!r} and {names[j]!r} by at least {depth:.2g} m" for i, j, depth in found[:_NAMED]]
-    more = [f"and {len(found) - _NAMED} more pairs"] if len(found) > _NAMED else []
-    warnings.warn(
-        f"Bodies without a contact overlap at the start, and will pass through each other: {'; '.join(named + more)}. "
-        "Declare their contact by system.contact(...), or say by system.exclude(first, second) that they do not touch. "
-        "nonsmooth.proximity(system) lists all pairs.",
-        UndeclaredOverlap,
-        stacklevel=4,
-    )
+
+    system: System
+    ties: Ties
+
+    @classmethod
+    def of(cls, system: System) -> Undeclared:
+        """Return the pairs of a system."""
+        return cls(system, Ties.of(system))
+
+    @functools.cached_property
+    def any(self) -> bool:
+        """Whether there are any, however far apart."""
+        if not self.system.declarations:
+            return False
+        shaped = [i for i, body in enumerate(self.system.bodies) if any(body.frames)]
+        return any(self._is_one(i, j) for i, j in itertools.combinations(shaped, 2))
+
+    def _is_one(self, i: int, j: int) -> bool:
+        moves = self.system.bodies[i].n_u + self.system.bodies[j].n_u > 0
+        said = (i, j) in self.ties.declared or (i, j) in self.ties.excluded
+        return moves and not said and not self.ties.same_mechanism(i, j)
+
+    def near(self, places: Places) -> list[tuple[int, int]]:
+        """Return those whose boxes meet where the frames have these places."""
+        bodies = self.system.bodies
+        met = near_bodies(bodies, places, np.zeros(len(bodies))) if self.any else iter(())
+        return [(i, j) for i, j in met if self._is_one(i, j)]
+
+    def warn_of_start(self, places: Places) -> None:
+        """Warn of bodies that overlap at the start, but for planes, on whose wrong side one may be meant to be."""
+        bodies = self.system.bodies
+        found = [
+            (i, j, depth)
+            for i, j in self.near(places)
+            if (depth := _overlap(bodies[i], places[i], bodies[j], places[j])) > 0.0
+        ]
+        self._warn(found, "overlap at the start, and will pass through each other", 4)
+
+    def warn_of_end(self, before: Places, after: Places) -> None:
+        """Warn of bodies that overlap where a run ended and did not where it began, planes included."""
+        found = [
+            (i, j, -gap)
+            for i, j in self.near(after)
+            if (gap := self._gap(i, j, after)) < 0.0 and self._gap(i, j, before) >= 0.0
+        ]
+        self._warn(found, "overlap where the run ended, having passed into each other", 5)
+
+    def _gap(self, i: int, j: int, places: Places) -> float:
+        """Return the gap of two bodies [m], 0 where they touch."""
+        bodies = self.system.bodies
+        sizes = [size for size in (size_of(bodies[i]), size_of(bodies[j])) if math.isfinite(size)]
+        try:
+            gap = BodyPair(bodies[i].frames, bodies[j].frames, quick=True).at(places[i], places[j]).gap
+        except (InvalidInput, NoDistance):
+            # of unbounded ones, or of shapes that no way knows, nothing is told
+            return 0.0
+        return gap if abs(gap) > touching(min(sizes, default=0.0)) else 0.0
+
+    def _warn(self, found: list[tuple[int, int, float]], what: str, level: int) -> None:
+        if not found:
+            return
+        names = self.system.names.bodies
+        named = [f"{names[i]!r} and {names[j]!r} by at least {depth:.2g} m" for i, j, depth in found[:_NAMED]]
+        more = [f"and {len(found) - _NAMED} more pairs"] if len(found) > _NAMED else []
+        warnings.warn(
+            f"Bodies without a contact {what}: {'; '.join(named + more)}. Declare their contact by "
+            "system.contact(...), or say by system.exclude(first, second) that they do not touch. "
+            "nonsmooth.proximity(system) lists the pairs that are near each other at the start.",
+            UndeclaredOverlap,
+            stacklevel=level,
+        )
 
 
 def _overlap(one: Body, places: Sequence[Place], two: Body, others: Sequence[Place]) -> float:

@@ -22,7 +22,7 @@ from nonsmooth.model.copying import copied
 from nonsmooth.model.image import Booleans, Guards, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.other_laws import lay_laws
-from nonsmooth.queries.undeclared import warn_of_overlaps
+from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.identity import changing, digest
@@ -85,7 +85,7 @@ class Model:
         check_kind("engine", engine, Engine, "Give nonsmooth.EventDriven(), or another one with its options.")
         made = cls(lay(system, engine), engine, State.at(system))
         check_start(made._laid, made._guards)
-        warn_of_overlaps(system, made._laid.places())
+        made._undeclared.warn_of_start(made._laid.places())
         return made
 
     def __repr__(self) -> str:
@@ -151,6 +151,10 @@ class Model:
         made = Model(lay_laws(self._copied(), system), self._engine, State.at(system))
         check_start(made._laid, made._guards)
         return made
+
+    @functools.cached_property
+    def _undeclared(self) -> Undeclared:
+        return Undeclared.of(self._laid.system)
 
     @functools.cached_property
     def _changing(self) -> tuple[Booleans, ...]:
@@ -339,7 +343,12 @@ class Model:
         if output is not None:
             folder = SolutionFolder.created(output, laid.system, self._engine, t_end, laid.n_states, until is not None)
             keeper = Writer(folder, records, self._states_from(energy), 0.0)
-        return self._complete(records, begun, energy, progress, keeper, 0.0, until)
+        before = laid.places() if self._undeclared.any else []
+        solution = self._complete(records, begun, energy, progress, keeper, 0.0, until)
+        if self._undeclared.any:
+            laid.evaluate()
+            self._undeclared.warn_of_end(before, laid.places())
+        return solution
 
     def _complete(
         self,

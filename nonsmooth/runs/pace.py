@@ -67,6 +67,7 @@ class Pace:
     begun: Image
     _last: deque[_Event] = field(default_factory=lambda: deque(maxlen=_LAST))
     _passes: int = 0
+    _passed: float = 0.0
     _told: bool = False
 
     def __post_init__(self) -> None:
@@ -86,14 +87,15 @@ class Pace:
         self._t, self._limits = t, limits
         passing = t - before > _HARDLY * passes * (float(self.model.memory.record["t_end"]) - self._begun)
         if passing:
-            self._passes, self._since = 0, limits
+            self._passes, self._passed, self._since = 0, 0.0, limits
             self._last.clear()
         if not passing or status not in (PAUSED, DONE, STOPPED):
             self._last.extend(self._new_events())
-            self._passes += passes
+            self._passes, self._passed = self._passes + passes, self._passed + t - before
         if self._passes >= _LONG and not self._told:
             self._told = True
-            warnings.warn(f"At t = {t:.9g} s time hardly passes: {self._held_up()}", TimeHardlyPasses, stacklevel=5)
+            text = f"At t = {t:.9g} s time hardly passes: {self._far_off(t)} {self._held_up()}"
+            warnings.warn(text, TimeHardlyPasses, stacklevel=5)
 
     def hint(self, status: int) -> str:
         """Return a sentence on what a run failed at that ended with a status, "" if there is nothing to tell."""
@@ -115,12 +117,18 @@ class Pace:
             yield codes[at], codes[at + 1]
             at += CODE_HEAD + 2 * codes[at + CODE_HEAD - 1]
 
+    def _far_off(self, t: float) -> str:
+        """Return a sentence on how many steps as long as the last ones are left."""
+        t_end, step = float(self.model.memory.record["t_end"]), self._passed / self._passes
+        left = f"is {(t_end - t) / step:.1g} steps away, which take days" if step > 0.0 else "is out of reach"
+        return f"with steps of {step:.2g} s, as the last {self._passes} are on average, t_end = {t_end:.9g} s {left}."
+
     def _held_up(self) -> str:
         counts = self._limits - self._since
         ranked = [i for i in np.argsort(-counts, kind="stable").tolist() if counts[i] > 0][:_NAMED]
         limits = ", ".join(f"{LIMITS[i]} ({counts[i]})" for i in ranked)
         error = _of_error(self.model) if ranked[:1] == [BY_ERROR] else ""
-        text = f"the last {self._passes} steps were limited by: {limits}. {error} {self._of_events()}"
+        text = f"They were limited by: {limits}. {error} {self._of_events()}"
         return " ".join(text.split())
 
     def _of_events(self) -> str:

@@ -90,6 +90,20 @@ def test_ctrl_c_in_an_impact_keeps_the_state_before_it(beside: bool) -> None:
     assert abs(solution.energy.residual) < 1e-15
 
 
+@pytest.mark.usefixtures("_often")
+def test_ctrl_c_in_a_run_of_more_than_a_moment_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    """The program goes on behind it, which nothing else would say."""
+    system = ns.System([Ball(RADIUS)])
+
+    def progress(t: float, t_end: float) -> None:
+        if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+            _thread.interrupt_main()
+
+    solution = ns.simulate(system, 1e6, engine=ns.EventDriven(largest_step=1e-4), progress=progress)
+    assert solution.status == "interrupted"
+    assert "status 'interrupted', and the program goes on" in capsys.readouterr().err
+
+
 def test_a_failed_impact_keeps_the_state_before_it() -> None:
     with pytest.raises(ns.RunFailed, match="did not end") as failed:
         ns.simulate(_between_two_plates(True), 1.0)

@@ -13,7 +13,7 @@ import nonsmooth as ns
 from bodies import Ball, BallJoint, BoxBody, DrivenBody, HalfSpace, MeshBody, Plate, Rest, Sphere, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.queries.near import places_at_start
-from nonsmooth.queries.undeclared import UndeclaredOverlap, warn_of_overlaps
+from nonsmooth.queries.undeclared import Undeclared, UndeclaredOverlap
 from tests.bodies.meshes.parts import bracket
 
 LAWS: dict[str, Any] = {"normal": Unilateral(), "friction": Coulomb(0.3), "impact": EnergeticImpact(0.5)}
@@ -110,7 +110,7 @@ def test_joined_bodies_are_marked() -> None:
 def _warned(system: ns.System) -> list[str]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        warn_of_overlaps(system, places_at_start(system))
+        Undeclared.of(system).warn_of_start(places_at_start(system))
     return [str(one.message) for one in caught]
 
 
@@ -123,6 +123,24 @@ def test_an_overlap_that_nobody_declared_is_told_before_a_run() -> None:
     assert solution.status == "done"
     (message,) = _warned(_heap(6))
     assert "and 12 more pairs" in message
+
+
+def test_bodies_that_passed_into_each_other_are_told_after_a_run() -> None:
+    """Balls that were given no contact, a ball that fell through a plate; not one that started below it."""
+    for forgotten in ((1, 2), (0, 2)):
+        system = _row(5e-3)
+        two = system.bodies[2]
+        system.place(two, position=(0.015, 0.0, 0.045))
+        for i, j in {(0, 1), (0, 2), (1, 2)} - {forgotten}:
+            system.contact(system.bodies[i], system.bodies[j], **LAWS)
+        names = " and ".join(repr(system.names.bodies[i]) for i in forgotten)
+        with pytest.warns(UndeclaredOverlap, match=f"where the run ended.*{names} by at least"):
+            solution = ns.simulate(system, 0.3)
+        assert solution.status == "done"
+    system.place(two, position=(0.1, 0.0, -1.0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ns.simulate(system, 0.01)
 
 
 def _heap(n: int) -> ns.System:

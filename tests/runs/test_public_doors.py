@@ -25,6 +25,7 @@ PLATE, BALL, OTHER = Plate(), Ball(0.02), Ball(0.02)
 def _system() -> ns.System:
     system = ns.System([PLATE, BALL, OTHER])
     system.contact(PLATE, BALL, **LAWS)
+    system.exclude(PLATE, OTHER)
     system.place(BALL, position=(0.0, 0.0, 0.1))
     system.place(OTHER, position=(1.0, 0.0, 0.1))
     return system
