@@ -9,15 +9,14 @@ from __future__ import annotations
 import io
 import shlex
 import sys
-from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
+from parameter_tables import markdown, table
 from PIL import Image
 
 import nonsmooth as ns
-from nonsmooth.cli.show import HEAD, LEGEND, parameter_rows
 from nonsmooth.cli.table import first_line
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.plugins import registry
@@ -42,8 +41,13 @@ def build(name: str) -> str:
     scenario, solution = _run(owner, {})
     _picture(solution, VIEWS / f"{name}.webp")
     (PARTS / f"{name}.view.md").write_text("\n".join(views), encoding="utf-8")
-    numbers = [*_parameters(name, owner), "", *_criteria(name, scenario.acceptance(solution))]
-    (PARTS / f"{name}.numbers.md").write_text("\n".join(numbers) + "\n", encoding="utf-8")
+    numbers = [
+        f"## Parameters of `{name}`",
+        table(owner),
+        f"## Criteria of `{name}`, as a run with the defaults meets them",
+        _criteria(scenario.acceptance(solution)),
+    ]
+    (PARTS / f"{name}.numbers.md").write_text("\n\n".join(numbers) + "\n", encoding="utf-8")
     page = f"{_PAGES.get(name, name)}.md"
     picture = f"[![{owner.title}]({VIEWS.name}/{name}.webp)]({page})"
     return f"-   {picture}\n\n    [{owner.title}]({page}): {first_line(owner)}\n"
@@ -78,35 +82,12 @@ def _picture(solution: ns.Solution, path: Path) -> None:
         picture.convert("RGB").save(path, quality=85)
 
 
-def _parameters(name: str, owner: type[Scenario]) -> Iterator[str]:
-    rows = parameter_rows(owner)
-    yield f"## Parameters of `{name}`\n"
-    yield from _table([(*HEAD[:-1], "meaning"), *((f"`{key}`", *cells) for key, *cells in rows)])
-    if any(row[1].endswith("*") for row in rows):
-        yield f"\n{LEGEND.strip().replace('*', chr(92) + '*')}."
-
-
-def _criteria(name: str, found: tuple[Criterion, ...]) -> Iterator[str]:
-    yield f"## Criteria of `{name}`, as a run with the defaults meets them\n"
-    head = ("number", "value", "from", "to", "source", "")
-    rows = [
-        (
-            one.name,
-            *(f"{x:.9g}" for x in (one.value, one.lower, one.upper)),
-            one.source,
-            "met" if one.fulfilled else "NOT MET",
-        )
-        for one in found
-    ]
-    yield from _table([head, *rows])
-
-
-def _table(rows: Iterable[tuple[str, ...]]) -> Iterator[str]:
-    """Give the lines of a table of Markdown; the first row is its head."""
-    for i, row in enumerate(rows):
-        yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
-        if i == 0:
-            yield "|" + "---|" * len(row)
+def _criteria(found: tuple[Criterion, ...]) -> str:
+    rows = [("number", "value", "from", "to", "source", "")]
+    for one in found:
+        value, lower, upper = (f"{x:.9g}" for x in (one.value, one.lower, one.upper))
+        rows.append((one.name, value, lower, upper, one.source, "met" if one.fulfilled else "NOT MET"))
+    return markdown(rows)
 
 
 def main() -> None:

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 from typing import Any
 
 from nonsmooth.cli.list import GROUPS
 from nonsmooth.cli.messages import say
+from nonsmooth.cli.parameter_rows import ASSUMED, HEAD, parameter_rows
 from nonsmooth.cli.table import first_line, lines
 from nonsmooth.errors import UnknownName
-from nonsmooth.parameters import Rule
 from nonsmooth.plugins import file, registry
-
-HEAD = ("parameter", "default", "unit", "allowed", "")
-LEGEND = "  * assumed: the source does not give this value, we chose it"
 
 
 def add_to(commands: Any) -> None:
@@ -61,31 +57,5 @@ def _installed(group: str, name: str) -> str:
 def _describe(owner: Any, title: str) -> str:
     rows = parameter_rows(owner)
     table = lines([HEAD, *rows]) if rows else ["  no parameters"]
-    legend = [LEGEND] if any(row[1].endswith("*") for row in rows) else []
+    legend = [f"  {ASSUMED}"] if any(row[1].endswith("*") for row in rows) else []
     return "\n".join([title, f"  {first_line(owner)}", "", *table, *legend])
-
-
-def parameter_rows(owner: Any) -> list[tuple[str, str, str, str, str]]:
-    """Return the parameters of a component, each as the words below HEAD; * is behind a default that is assumed."""
-    return [_row(field) for field in dataclasses.fields(owner) if field.init]
-
-
-def _row(field: dataclasses.Field[Any]) -> tuple[str, str, str, str, str]:
-    rule = field.metadata.get("rule")
-    if rule is None:
-        return field.name, _default(field), "", f"a {field.type}", "from Python or a scenario file"
-    return field.name, _default(field) + " *" * rule.assumed, rule.unit, _allowed(field, rule), rule.doc
-
-
-def _allowed(field: dataclasses.Field[Any], rule: Rule) -> str:
-    if rule.unit == "" and not rule.choices:
-        return "numbers apart by colons" if isinstance(field.default, tuple) else "a name"
-    return rule.describe()
-
-
-def _default(field: dataclasses.Field[Any]) -> str:
-    if field.default_factory is not dataclasses.MISSING:
-        return repr(field.default_factory())
-    if field.default is dataclasses.MISSING:
-        return "required"
-    return "-" if field.default is None else str(field.default)

@@ -99,7 +99,7 @@ def test_ctrl_c_in_a_run_of_more_than_a_moment_is_told(capsys: pytest.CaptureFix
         if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
             _thread.interrupt_main()
 
-    solution = ns.simulate(system, 1e6, engine=ns.EventDriven(largest_step=1e-4), progress=progress)
+    solution = ns.simulate(system, 1e3, engine=ns.EventDriven(largest_step=1e-4), progress=progress)
     assert solution.status == "interrupted"
     assert "status 'interrupted', and the program goes on" in capsys.readouterr().err
 
