@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import signal
-import sys
 import threading
 import time
 import weakref
@@ -21,10 +20,6 @@ _FIRST = 8192
 milliseconds.  Threads wait for each other at every look."""
 _SECONDS = 5e-3
 """Time that it shall take later [s]: what follows may be dearer than what came before."""
-_ASKED = (
-    "\nCtrl-C: stopping where nothing is lost. A run returns what it has, with the status 'interrupted', and the "
-    "program goes on; once more stops that at once."
-)
 _REPORTED_EVERY = 0.1
 """Time between two reports [s]."""
 
@@ -122,7 +117,6 @@ class Watch:
         if self._asked:
             raise KeyboardInterrupt
         self._asked = True
-        print(_ASKED, file=sys.stderr, flush=True)
 
     def look(self, t: float) -> float:
         """Take the time reached [s]; return the work that may be done before the next look, nothing for a stop."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -103,6 +104,9 @@ def run_engine(
     except KeyboardInterrupt:
         records.drain()
         status, interrupted = PAUSED, True
+        # a program goes on behind it as if it had come to its end
+        told = f"interrupted at t = {float(memory.record['t']):.9g} s: the run returns what it has"
+        print(f"{told}, with the status 'interrupted'", file=sys.stderr, flush=True)
     except FileError as error:
         records.drain()
         status, trouble = PAUSED, str(error)

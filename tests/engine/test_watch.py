@@ -75,8 +75,8 @@ def test_an_impact_alone_is_interrupted() -> None:
 
 @pytest.mark.usefixtures("_often")
 @pytest.mark.parametrize("beside", [False, True])
-def test_ctrl_c_in_an_impact_keeps_the_state_before_it(beside: bool) -> None:
-    """Also where the impact is one of two at that instant, the other of which was over."""
+def test_ctrl_c_in_an_impact_keeps_the_state_before_it(beside: bool, capsys: pytest.CaptureFixture[str]) -> None:
+    """Also where the impact is one of two at that instant, the other of which was over; and it is told."""
     times: list[float] = []
 
     def progress(t: float, t_end: float) -> None:
@@ -85,23 +85,10 @@ def test_ctrl_c_in_an_impact_keeps_the_state_before_it(beside: bool) -> None:
 
     solution = ns.simulate(_between_two_plates(beside), 1.0, progress=progress)
     assert times == [0.0]
+    assert capsys.readouterr().err.startswith("interrupted at t = 0 s: the run returns what it has")
     assert (solution.status, solution.message, solution.t_end) == ("interrupted", "the run was interrupted", 0.0)
     assert solution.energy.kinetic_end == solution.energy.kinetic_start > 0.0
     assert abs(solution.energy.residual) < 1e-15
-
-
-@pytest.mark.usefixtures("_often")
-def test_ctrl_c_in_a_run_of_more_than_a_moment_is_told(capsys: pytest.CaptureFixture[str]) -> None:
-    """The program goes on behind it, which nothing else would say."""
-    system = ns.System([Ball(RADIUS)])
-
-    def progress(t: float, t_end: float) -> None:
-        if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-            _thread.interrupt_main()
-
-    solution = ns.simulate(system, 1e3, engine=ns.EventDriven(largest_step=1e-4), progress=progress)
-    assert solution.status == "interrupted"
-    assert "status 'interrupted', and the program goes on" in capsys.readouterr().err
 
 
 def test_a_failed_impact_keeps_the_state_before_it() -> None:
