@@ -118,6 +118,13 @@ def test_forces_at_rest_are_seen(browser: Any, tmp_path: Path) -> None:
     assert all(row[2] == 1 for row in pushes)
 
 
+def test_arrows_leave_the_bodies_in_sight(browser: Any, drift: tuple[ns.Solution, Path]) -> None:
+    seen = Seen(browser, drift[1])
+    strongest = seen("view.run.strength.reduce((most, one, i, all) => (one > all[most] ? i : most), 0)")
+    seen(f"view.stepTo({strongest})")
+    assert max(seen("view.world.arrows.lengths()")) <= 0.21 * seen("view.world.span")
+
+
 def test_round_off_of_energies_is_shown_as_nothing(browser: Any, tmp_path: Path) -> None:
     seen = _see(browser, _pendulum(), tmp_path)
     for part in (0.0, 0.137, 0.5, 1.0):

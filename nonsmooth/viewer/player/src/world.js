@@ -18,6 +18,7 @@ const LONG = 30; // a way so many times as long as the bodies is not seen whole:
 const ROUND = 3; // how much is seen round bodies that the camera goes with, measured by their size
 const FILLED = 0.9; // of the picture, by what is to be seen
 const LEAST = 0.08; // of what is seen, by what arrows, lines and marks are measured: thinner ones are below a pixel
+const MOST = 0.2; // of what is seen: larger arrows hide the bodies
 
 export class World {
   constructor(canvas, run, dark) {
@@ -42,7 +43,8 @@ export class World {
     this.put(run.t0);
     const { radius } = this.group();
     this.follow = this.span > LONG * 2 * radius;
-    this.size = Math.max(this.unit, LEAST * (this.follow ? 2 * ROUND * radius : this.span));
+    const seen = this.follow ? 2 * ROUND * radius : this.span;
+    this.size = Math.min(Math.max(this.unit, LEAST * seen), MOST * seen);
     run.told.parts.forEach((part) => this._addPart(part));
     this.strokes = run.told.strokes.map((stroke) => this._addStroke(stroke));
     this.arrows = new Arrows(this.scene, 0.04 * this.size);
@@ -141,7 +143,7 @@ export class World {
         const frame = this.frames[stroke.frames[i]];
         return new THREE.Vector3(...stroke.ends[i]).applyQuaternion(frame.quaternion).add(frame.position);
       });
-      span(mesh, p, q, stroke.kind === "load" ? 0.12 * this.unit : 0.035 * this.size);
+      span(mesh, p, q, (stroke.kind === "load" ? 0.12 : 0.035) * this.size);
     }
     return knot;
   }
