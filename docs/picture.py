@@ -27,7 +27,7 @@ def frames(page_path: Path, period: float) -> list[Image.Image]:
     """Return pictures of the page at equal steps of time."""
     with sync_playwright() as play:
         browser = play.chromium.launch(executable_path=shutil.which("chromium"), args=_WORDS)
-        page = browser.new_page(viewport=_SIZE, color_scheme="light")
+        page = browser.new_page(viewport=_SIZE, color_scheme="light", reduced_motion="reduce")
         page.goto(page_path.as_uri())
         page.wait_for_function("document.documentElement.dataset.ready === 'yes'")
         page.add_style_tag(content=_STYLE)

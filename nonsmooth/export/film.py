@@ -12,6 +12,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.export.meshes import Mesh, along_axes, bar, board, dot
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.interfaces.look import Look
+from nonsmooth.scene.extent import Extent
 from nonsmooth.scene.scene import Part, Scene
 
 if TYPE_CHECKING:
@@ -94,8 +95,8 @@ class Film:
         """
         scene, states = Scene.of(solution.system), solution.at(times)
         origin, axes = scene.places(times, states.q, states.u)
-        low, high, reach = _box(scene, origin)
-        unit = min(reach, 0.5 * float(np.linalg.norm(high - low)))
+        extent = Extent.of(scene, origin, axes)
+        low, high, unit = extent.low, extent.high, extent.unit
         pieces, names = list[Piece](), solution.system.names.bodies
         origins, turns = [origin], [axes]
         track = scene.n_frames
@@ -111,6 +112,9 @@ class Film:
                 pieces.append(Piece(names[part.body], part.body, part.frame, mesh, _LINK if lined else colour))
         scales, straight = [np.ones((len(times), track))], bar(np.zeros(3), np.array([1.0, 0.0, 0.0]), 0.035 * unit)
         for stroke in scene.strokes:
+            if stroke.kind == "joint" and stroke.frames[0] != stroke.frames[1]:
+                mark = dot(stroke.ends[1], 0.06 * unit)
+                pieces.append(Piece(stroke.name, -1, stroke.frames[1], mark, _JOINT))
             first, last = (origin[:, f] + axes[:, f] @ end for f, end in zip(stroke.frames, stroke.ends, strict=True))
             length = np.linalg.norm(last - first, axis=1)
             if np.max(length) < 1e-6 * unit:
@@ -132,26 +136,6 @@ class Film:
         """Return the vertices of a piece at the time of a number [m], shape [n, 3]."""
         stretched = piece.mesh.vertices * [self.scale[i, piece.track], 1.0, 1.0]
         return np.asarray(self.origin[i, piece.track] + stretched @ self.axes[i, piece.track].T)
-
-
-def _box(scene: Scene, origin: Floats) -> tuple[Floats, Floats, float]:
-    """Return the corners of the box of all but sheets, and the reach of what moves."""
-    low, high, reach = origin[:, 0].min(axis=0), origin[:, 0].max(axis=0), 0.0
-    first = True
-    for part in scene.parts:
-        if part.look.sheet:
-            continue
-        own = float(np.max(np.linalg.norm(part.look.vertices, axis=1), initial=0.0))
-        here = origin[:, part.frame]
-        below, above = here.min(axis=0) - own, here.max(axis=0) + own
-        low, high = (below, above) if first else (np.minimum(low, below), np.maximum(high, above))
-        first = False
-        if scene.system.bodies[part.body].n_u > 0:
-            reach = max(reach, own)
-    for frame in {frame for stroke in scene.strokes for frame in stroke.frames}:
-        low, high = np.minimum(low, origin[:, frame].min(axis=0)), np.maximum(high, origin[:, frame].max(axis=0))
-    span = max(float(np.linalg.norm(high - low)), 1e-9)
-    return low, high, reach if reach > 0.0 else 0.3 * span
 
 
 def _colour(scene: Scene, body: int) -> str:

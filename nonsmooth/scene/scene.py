@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -16,7 +16,7 @@ from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
 _SPECK = 1e-2
-"""Part of its distance from the origin of the frame below which the size of a shape is not seen."""
+"""Part of its distance from the origin of the frame below which the size of a shape, or of a gap, is not seen."""
 
 
 @final
@@ -102,7 +102,7 @@ class Scene:
                 strokes.append(Stroke("link", system.name_of(body), (frame, frame + 1), np.zeros((2, 3))))
                 frame += 2
         for kind, ties in (("load", system.loads), ("joint", system.joints)):
-            strokes += [stroke for tie in ties for stroke in _tied(kind, tie, first)]
+            strokes += [stroke for tie in ties for stroke in _tied(kind, tie, first, parts)]
         return cls(system, tuple(parts), tuple(strokes), frame)
 
     def places(self, times: Floats, q: Floats, u: Floats) -> tuple[Floats, Floats]:
@@ -146,12 +146,20 @@ def _looks(body: Body) -> Iterator[tuple[int, Look]]:
     yield from enumerate(body.sketch)
 
 
-def _tied(kind: str, tie: Tie, first: dict[int, int]) -> Iterator[Stroke]:
-    """Give the line between the ends of a load or joint, and those from the origins of moving frames to them."""
+def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[Part]) -> Iterator[Stroke]:
+    """Give the line between the ends of a load or joint, and for joints those to them from bodies that end before."""
     bodies = tie.first, tie.second
     frames = [first[id(body)] + offset for body, offset in zip(bodies, tie.frames, strict=True)]
     yield Stroke(kind, tie.name, (frames[0], frames[1]), tie.component.ends)
     if kind == "joint":
         for body, frame, end in zip(bodies, frames, tie.component.ends, strict=True):
-            if body.n_u > 0 and np.any(end != 0.0):
+            if body.n_u > 0 and not _spans([part.look for part in parts if part.frame == frame], end):
                 yield Stroke(kind, tie.name, (frame, frame), np.array([np.zeros(3), end]))
+
+
+def _spans(looks: Sequence[Look], point: Floats) -> bool:
+    """Tell whether the box of the origin and of what a frame carries holds a point of it."""
+    seen = np.concatenate([np.zeros((1, 3)), *(look.vertices for look in looks if not look.sheet)])
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    room = _SPECK * np.max(high - low)
+    return bool(np.all((point >= low - room) & (point <= high + room)))

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import html
 import json
+import re
+from collections import Counter
+from collections.abc import Sequence
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
@@ -15,6 +18,8 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _KNOTS = Rule("most times that are drawn, besides the instants of events", "1", minimum=2.0, maximum=1e6)
+_MOST_KINDS = 4
+"""Kinds of bodies that a title names."""
 _POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -39,7 +44,7 @@ _PAGE = """<!DOCTYPE html>
 def page(solution: Solution, title: str, most_knots: int) -> str:
     """Return the page of a run."""
     check_number("to_html: most_knots", most_knots, _KNOTS)
-    told, arrays = record(solution, title or "nonsmooth", int(most_knots))
+    told, arrays = record(solution, title or _named(solution.system.names.bodies), int(most_knots))
     told["directory"], text = pack(arrays)
     ours = files("nonsmooth.viewer")
     return _PAGE.format(
@@ -51,3 +56,10 @@ def page(solution: Solution, title: str, most_knots: int) -> str:
         arrays=text,
         player=(ours / "viewer.js").read_text(encoding="utf-8").replace("</script", "<\\/script"),
     )
+
+
+def _named(bodies: Sequence[str]) -> str:
+    """Return a title made of the names of bodies; those that differ by their number alone are counted."""
+    kinds = Counter(re.sub(r" \d+$", "", name) for name in bodies)
+    words = [kind if count == 1 else f"{count}\u00a0\u00d7\u00a0{kind}" for kind, count in kinds.items()]
+    return ", ".join(words[:_MOST_KINDS] + ["…"] * (len(words) > _MOST_KINDS))

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.histories.visitor import visitor
+from nonsmooth.scene.extent import Extent
 from nonsmooth.scene.knots import knots
 from nonsmooth.scene.scene import Scene
+from nonsmooth.scene.sheets import outlines
 from nonsmooth.scene.sides import sides
 from nonsmooth.viewer.events import event_arrays, event_words
 
@@ -34,7 +36,8 @@ def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, A
     times = knots(solution, max(2, min(most_knots, _ROOM // max(1, scene.n_frames))))
     states = solution.at(times)
     origin, axes = scene.places(times, states.q, states.u)
-    geometry, parts, low, high = _geometry(scene, origin)
+    extent = Extent.of(scene, origin, axes)
+    geometry, parts = _geometry(scene, outlines(scene, origin, axes, extent))
     words, numbers = event_words(solution.events)
     arrays: Arrays = {
         "time": ("f8", times),
@@ -65,8 +68,9 @@ def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, A
             {"kind": one.kind, "name": one.name, "frames": one.frames, "ends": one.ends.tolist()}
             for one in scene.strokes
         ],
-        "low": low,
-        "high": high,
+        "low": extent.low.tolist(),
+        "high": extent.high.tolist(),
+        "reach": extent.reach,
     }
     return told, arrays
 
@@ -79,29 +83,27 @@ def _turns(axes: Floats) -> Floats:
     return np.asarray(Rotation.from_matrix(axes.reshape(-1, 3, 3)).as_quat()).reshape(n, n_frames, 4)
 
 
-def _geometry(scene: Scene, origin: Floats) -> tuple[Arrays, list[dict[str, Any]], list[float], list[float]]:
-    """Return the arrays of all looks, where in them each part stands, and the box that all of them stay in."""
+def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str, Any]]]:
+    """Return the arrays of all looks, and where in them each part stands; ``sheets`` are outlines."""
     looks = [part.look for part in scene.parts]
     firsts = np.cumsum([0, *(len(look.vertices) for look in looks)])
     parts = list[dict[str, Any]]()
-    low, high = origin.min(axis=(0, 1)), origin.max(axis=(0, 1))
+    outline = iter(sheets)
     counts = {"triangles": 0, "lines": 0}
     for part, first, last in zip(scene.parts, firsts[:-1].tolist(), firsts[1:].tolist(), strict=True):
-        look, here = part.look, origin[:, part.frame]
-        told = {"frame": part.frame, "body": part.body, "sheet": look.sheet, "vertices": [first, last]}
+        look = part.look
+        told = {"frame": part.frame, "body": part.body, "vertices": [first, last]}
+        told["sheet"] = next(outline).tolist() if look.sheet else None
         for name, rows in (("triangles", look.triangles), ("lines", look.lines)):
             told[name] = [counts[name], counts[name] + len(rows)]
             counts[name] += len(rows)
         parts.append(told)
-        if not look.sheet:
-            reach = float(np.max(np.linalg.norm(look.vertices, axis=1), initial=0.0))
-            low, high = np.minimum(low, here.min(axis=0) - reach), np.maximum(high, here.max(axis=0) + reach)
     arrays: Arrays = {
         "vertices": ("f4", np.concatenate([np.zeros((0, 3)), *(look.vertices for look in looks)])),
         "triangles": ("i4", np.concatenate([np.zeros((0, 3)), *(look.triangles for look in looks)])),
         "lines": ("i4", np.concatenate([np.zeros((0, 2)), *(look.lines for look in looks)])),
     }
-    return arrays, parts, low.tolist(), high.tolist()
+    return arrays, parts
 
 
 def _energies(solution: Solution, times: Floats) -> Arrays:

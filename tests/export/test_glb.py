@@ -14,7 +14,8 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Ball, HullBody, Plate, Spring
+from bodies import Ball, DrivenBody, Hinge, HullBody, Plate, Rod, Spring
+from nonsmooth.export.film import Film
 from tests.export.glb_read import Read
 
 _CHECK = """
@@ -70,6 +71,17 @@ def test_a_spring_is_as_long_as_it_is(tmp_path: Path) -> None:
     _, turns = found.track(name, "rotation")
     along = Rotation.from_quat(turns).apply([1.0, 0.0, 0.0])
     np.testing.assert_allclose(along * lengths[:, None], ends - [0.0, 0.0, 2.0], atol=1e-6)
+
+
+def test_a_joint_is_a_dot_that_goes_with_its_bodies() -> None:
+    base, rod = DrivenBody(), Rod(0.3, 0.005)
+    system = ns.System([base, rod])
+    system.joint(Hinge((0.0, 0.0, 0.0), (-0.15, 0.0, 0.0)), base, rod)
+    system.place(rod, position=(0.15, 0.0, 0.0))
+    film = Film.of(ns.simulate(system, 0.5), np.array([0.0, 0.4]))
+    (dot,) = (piece for piece in film.pieces if piece.body < 0)
+    for i in range(2):
+        np.testing.assert_allclose(film.placed(dot, i).mean(axis=0), 0.0, atol=1e-3)
 
 
 def test_a_sheet_that_slides_in_itself_stays(arm: ns.Solution, tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import nonsmooth as ns
-from bodies import Ball, Dumbbell, Hinge, HullBody, PlanarBody, Plate, Point, RigidBody, Rod, Sphere, Spring
+from bodies import Ball, DrivenBody, Dumbbell, Hinge, HullBody, PlanarBody, Plate, Point, RigidBody, Rod, Sphere, Spring
 from nonsmooth.interfaces.look import Look
 from nonsmooth.plugins import registry
 from nonsmooth.scene.knots import knots
@@ -84,14 +84,24 @@ def test_springs_and_joints_are_lines_between_what_they_tie() -> None:
         frames, points = stroke.frames, stroke.ends  # type: ignore[attr-defined]
         return np.array([origin[:, f] + axes[:, f] @ p for f, p in zip(frames, points, strict=True)])
 
-    joints = [stroke for stroke in scene.strokes if stroke.kind == "joint"]
-    assert len(joints) == 3
-    first, second = ends(joints[0])
+    # rods end at the hinge: no line goes through them
+    (joint,) = (stroke for stroke in scene.strokes if stroke.kind == "joint")
+    first, second = ends(joint)
     np.testing.assert_allclose(first, second, atol=1e-8)
     (spring,) = (stroke for stroke in scene.strokes if stroke.kind == "load")
     at_plate, at_rod = ends(spring)
     np.testing.assert_allclose(at_plate, 0.0, atol=1e-15)
     np.testing.assert_allclose(at_rod, origin[:, 2] + axes[:, 2] @ (0.0, 0.0, 0.01))
+
+
+def test_a_body_that_ends_before_its_joint_is_joined_to_it_by_a_line() -> None:
+    base, bob = DrivenBody(), Ball(0.02)
+    system = ns.System([base, bob])
+    system.joint(Hinge((0.0, 0.0, 0.0), (0.0, 0.0, 0.4)), base, bob)
+    between, line = Scene.of(system).strokes
+    assert between.frames == (0, 1)
+    assert line.frames == (1, 1)
+    np.testing.assert_array_equal(line.ends, [(0.0, 0.0, 0.0), (0.0, 0.0, 0.4)])
 
 
 def test_links_of_a_mechanism_end_where_its_frames_are() -> None:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import html
 import re
-import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,56 +13,9 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth.plugins import registry
+from tests.viewer.seen import READY, Seen
 
-sync_api = pytest.importorskip("playwright.sync_api", reason="the extra browser is not installed")
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-pytestmark = [
-    pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed"),
-    # one browser for all
-    pytest.mark.xdist_group("browser"),
-]
-_QUIET = ["--no-sandbox", "--disable-background-networking", "--disable-component-update", "--disable-sync"]
-_SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
-_READY = "document.documentElement.dataset.ready === 'yes'"
-
-
-@pytest.fixture(scope="module")
-def launch() -> Iterator[Callable[[list[str]], Any]]:
-    """Return a function that starts a browser with some words."""
-    with sync_api.sync_playwright() as play:
-        yield lambda words: play.chromium.launch(executable_path=CHROMIUM, args=[*_QUIET, *words])
-
-
-@pytest.fixture(scope="module")
-def browser(launch: Callable[[list[str]], Any]) -> Any:
-    """Return a browser that draws by software."""
-    return launch(_SOFTWARE)
-
-
-@pytest.fixture(scope="module")
-def drift(tmp_path_factory: pytest.TempPathFactory) -> tuple[ns.Solution, Path]:
-    """Return ten seconds of the drift mode and their page."""
-    scenario = registry.load("scenarios", "dumbbell")(mode="drift", t_end=10.0)
-    run = ns.simulate(scenario.build(), 10.0, sample_interval=scenario.sample_interval)
-    return run, run.to_html(tmp_path_factory.mktemp("page") / "drift.html", title="Drift")
-
-
-class Seen:
-    """A page, what it asked for, and what its console said."""
-
-    def __init__(self, browser: Any, path: Path, **words: Any) -> None:
-        self.page = browser.new_page(viewport={"width": 1100, "height": 750}, **words)
-        self.requests: list[str] = []
-        self.errors: list[str] = []
-        self.page.on("request", lambda request: self.requests.append(request.url))
-        self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
-        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.page.goto(path.as_uri())
-        self.page.wait_for_function(_READY)
-
-    def __call__(self, script: str) -> Any:
-        """Return what a script gives."""
-        return self.page.evaluate(script)
+pytestmark = pytest.mark.xdist_group("browser")  # one browser for all
 
 
 def test_it_asks_for_one_file_and_complains_of_nothing(browser: Any, drift: tuple[ns.Solution, Path]) -> None:
@@ -181,7 +133,7 @@ def test_it_plays_in_the_frame_of_a_notebook(browser: Any, drift: tuple[ns.Solut
     page = browser.new_page()
     page.goto(outer.as_uri())
     frame = page.frames[1]
-    frame.wait_for_function(_READY)
+    frame.wait_for_function(READY)
     frame.evaluate("view.stepTo(3)")
     assert frame.evaluate("view.t") == drift[0].events.time[3]
 

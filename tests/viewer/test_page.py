@@ -105,6 +105,25 @@ def test_a_title_cannot_break_out_of_the_page() -> None:
     assert "</script><b>" not in text
 
 
+def test_a_page_without_a_title_names_the_bodies() -> None:
+    balls = [Ball(0.01) for _ in range(3)]
+    system = ns.System([Plate(), *balls])
+    for i, ball in enumerate(balls):
+        system.place(ball, position=(0.05 * i, 0.0, 1.0))
+    run = ns.simulate(system, 0.01)
+    assert decoded(page(run, "", 4000))[0]["title"] == "plate, 3\u00a0\u00d7\u00a0ball"
+    assert decoded(page(run, "Fall", 4000))[0]["title"] == "Fall"
+
+
+def test_of_many_kinds_of_bodies_a_title_names_some() -> None:
+    balls = [Ball(0.01) for _ in range(5)]
+    system = ns.System(balls)
+    for i, (ball, name) in enumerate(zip(balls, ("one", "two", "three", "four", "five"), strict=True)):
+        system.name(ball, name)
+        system.place(ball, position=(0.05 * i, 0.0, 1.0))
+    assert decoded(page(ns.simulate(system, 0.01), "", 4000))[0]["title"] == "one, two, three, four, …"
+
+
 def test_a_run_without_contacts_or_events_has_a_page() -> None:
     ball = Ball(0.01)
     system = ns.System([ball])

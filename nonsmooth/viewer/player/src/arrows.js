@@ -36,7 +36,7 @@ export class Arrows {
     if (!(length > 0)) return;
     const group = this.pool[this.used] ?? this._made();
     this.used += 1;
-    const width = Math.min(this.width, length / 8);
+    const width = Math.min(this.width, length / 9);
     const [shaft, head] = group.children;
     shaft.scale.set(width, Math.max(length - 5 * width, 0.01 * length), width);
     head.scale.setScalar(width);

@@ -2,6 +2,7 @@
 
 import { read } from "./decode.js";
 import { MARKUP, icon } from "./page.js";
+import { DIGITS, breakable, decimals, energyScale, spoken } from "./numbers.js";
 import { Run } from "./run.js";
 import { Timeline } from "./timeline.js";
 import { World } from "./world.js";
@@ -20,6 +21,7 @@ class Player {
     this.playing = false;
     this.draws = 0;
     this.speed = pace(run);
+    this.decimals = decimals(run.t1, DIGITS);
     this.dark = matchMedia("(prefers-color-scheme: dark)").matches;
     document.title = run.told.title;
     this.at("panel").querySelector("h1").textContent = run.told.title;
@@ -38,8 +40,11 @@ class Player {
     new ResizeObserver(() => this._resize()).observe(this.at("picture"));
     new ResizeObserver(() => this.draw()).observe(this.at("strips"));
     this._resize();
-    this.world?.view("iso");
+    this.world?.view("corner");
     this.draw();
+    // where several may stand on a page, or motion is not wanted, it waits to be asked
+    if (window.top === window && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.play(true);
+    else this.at("start").hidden = false;
   }
 
   at(id) {
@@ -65,10 +70,11 @@ class Player {
   _bind() {
     const on = (id, what) => this.at(id).addEventListener(id === "scrub" ? "input" : this.at(id).matches("button") ? "click" : "change", what);
     const speeds = [...new Set([...SPEEDS, this.speed])].sort((a, b) => b - a);
-    this.at("speed").innerHTML = speeds.map((speed) => `<option value="${speed}">${speed}</option>`).join("");
+    this.at("speed").innerHTML = speeds.map((speed) => `<option value="${speed}">${spoken(speed)}</option>`).join("");
     this.at("speed").value = String(this.speed);
     on("back", () => this.step(-1));
     on("play", () => this.play(!this.playing));
+    on("start", () => this.play(true));
     on("forth", () => this.step(1));
     on("scrub", (event) => this.go(this.run.t0 + (event.target.value / 1000) * (this.run.t1 - this.run.t0)));
     on("speed", (event) => (this.speed = Number(event.target.value)));
@@ -129,7 +135,7 @@ class Player {
       "-": () => this._pace(1),
       "=": () => this._pace(-1),
       "+": () => this._pace(-1),
-      1: () => this._view("iso"),
+      1: () => this._view("corner"),
       2: () => this._view("front"),
       3: () => this._view("side"),
       4: () => this._view("top"),
@@ -156,6 +162,7 @@ class Player {
   }
 
   go(t) {
+    this.at("start").hidden = true;
     this.event = -1;
     this.t = Math.min(Math.max(t, this.run.t0), this.run.t1);
     this.draw();
@@ -163,7 +170,6 @@ class Player {
 
   /** Goes to the event before (-1) or after (1), by its number: events may share an instant. */
   step(way) {
-    this.play(false);
     const { run } = this;
     const here = this.event >= 0 ? this.event + way : way > 0 ? run.event(this.t) + 1 : run.event(this.t);
     this.stepTo(Math.min(Math.max(here, 0), run.nEvents - 1));
@@ -171,11 +177,13 @@ class Player {
 
   stepTo(e) {
     if (!(e >= 0 && e < this.run.nEvents)) return;
+    this.play(false);
+    this.at("start").hidden = true;
     this.event = e;
     this.t = this.run.event_time[e];
     this.draw();
     const { before, during, after } = this.run.words(e);
-    this.at("event").textContent = `Event ${e + 1} of ${this.run.nEvents}, ${this.run.title(e)}. ${before} → ${during} → ${after}`;
+    breakable(this.at("event"), `Event ${e + 1} of ${this.run.nEvents}, ${this.run.title(e)}. ${before} → ${during} → ${after}`);
   }
 
   play(on) {
@@ -183,6 +191,7 @@ class Player {
     if (on && this.t >= this.run.t1) this.go(this.run.t0);
     this.playing = on;
     this.event = -1;
+    this.at("start").hidden = true;
     const button = this.at("play");
     button.innerHTML = icon(on ? "pause" : "play");
     button.setAttribute("aria-label", on ? "pause" : "play");
@@ -235,6 +244,9 @@ class Player {
     const names = ["kinetic", "potential", "lost to restitution", "lost to friction", "work done"];
     body.innerHTML = names.map((name) => `<tr><th scope="row">${name}</th><td></td></tr>`).join("");
     this.cells = [...body.querySelectorAll("td")];
+    const [unit, joules] = energyScale(this.run.energy);
+    this.joules = joules;
+    this.at("energies").caption.textContent = `energies [${unit}]`;
   }
 
   _say() {
@@ -243,10 +255,10 @@ class Player {
     const scrub = this.at("scrub");
     scrub.value = String(Math.round((1000 * (t - run.t0)) / (run.t1 - run.t0 || 1)));
     scrub.setAttribute("aria-valuetext", `${t.toFixed(6)} s`);
-    this.at("clock").textContent = `${t.toPrecision(10)} s`;
-    this.at("word").textContent = run.told.contacts.length === 0 ? "no contacts" : e >= 0 ? run.words(e).after : "";
+    this.at("clock").textContent = `${t.toFixed(this.decimals)} s`;
+    breakable(this.at("word"), run.told.contacts.length === 0 ? "no contacts" : e >= 0 ? run.words(e).after : "");
     if (this.event < 0) this.at("event").textContent = "";
-    run.energies(t).forEach((value, i) => (this.cells[i].textContent = value.toExponential(4)));
+    run.energies(t).forEach((value, i) => (this.cells[i].textContent = this.joules(value)));
     this._closed(e);
   }
 

@@ -6,6 +6,7 @@ import { SLIDE } from "./run.js";
 
 const MOST_LANES = 6;
 const MARGIN = 128; // room for names [px]
+const TAIL = 8; // letters of a name that are kept where it is too long
 const ENERGIES = [
   ["kinetic", "#1b9e77", []],
   ["potential", "#8f8ad0", [5, 3]],
@@ -141,8 +142,10 @@ export class Timeline {
   _name(pen, name, y) {
     pen.fillStyle = this.ink;
     pen.textAlign = "right";
+    // what contacts of a kind differ by stands at the end
     let text = name;
-    while (text.length > 1 && pen.measureText(text).width > MARGIN - 10) text = `${text.slice(0, -2)}…`;
+    for (let left = name.length - TAIL - 1; left > 1 && pen.measureText(text).width > MARGIN - 10; left--)
+      text = `${name.slice(0, left)}…${name.slice(-TAIL)}`;
     pen.fillText(text, MARGIN - 6, y);
   }
 
@@ -231,8 +234,10 @@ export class Timeline {
     const digits = Math.max(0, -Math.floor(Math.log10(step || 1)));
     for (let n = Math.ceil(this.from / step); n * step <= this.to; n++) {
       pen.fillRect(x(n * step), y - 4, 1, 4);
-      // the first one would lie on the name
-      if (x(n * step) > MARGIN + 12) pen.fillText((n * step).toFixed(digits), x(n * step), y + 7);
+      const label = (n * step).toFixed(digits);
+      const half = pen.measureText(label).width / 2;
+      // the first one would lie on the name, the last one would be cut
+      if (x(n * step) > MARGIN + 12) pen.fillText(label, Math.min(x(n * step), this.canvas.clientWidth - half - 2), y + 7);
     }
     this._name(pen, "t [s]", y + 7);
   }

@@ -6,12 +6,19 @@ import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.j
 
 import { Arrows } from "./arrows.js";
 import { SLIDE } from "./run.js";
+import { Sheet } from "./sheet.js";
 
-export const COLOURS = { stick: "#0072b2", slip: "#e69f00", impulse: "#d55e00", push: "#7a869a", link: "#5b6675" };
+export const COLOURS = { stick: "#0072b2", slip: "#e69f00", impulse: "#d55e00", push: "#009e73", link: "#5b6675" };
 const BODIES = ["#6fa8dc", "#f2b36b", "#7cc08f", "#d98fb8", "#b9a3e3", "#9fb8ad", "#d8c66a", "#8fc7d4"];
 const FADING = 0.15; // how long an impulse is seen [s watched]
-const VIEWS = { iso: [0.9, -1.3, 0.7], front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1] };
+const CORNERS = [[0.9, -1.3, 0.7], [-0.9, -1.3, 0.7], [-0.9, 1.3, 0.7], [0.9, 1.3, 0.7]];
+const VIEWS = { front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1] };
 const GRID = 1000; // of a solid, half as many units as it is large
+const LONG = 30; // a way so many times as long as the bodies is not seen whole: they would be some 20 pixels high
+const ROUND = 3; // how much is seen round bodies that the camera goes with, measured by their size
+const FILLED = 0.9; // of the picture, by what is to be seen
+const LEAST = 0.08; // of what is seen, by what arrows, lines and marks are measured: thinner ones are below a pixel
+const MOST = 0.2; // of what is seen: larger arrows hide the bodies
 
 export class World {
   constructor(canvas, run, dark) {
@@ -25,7 +32,8 @@ export class World {
     this.low = new THREE.Vector3(...run.told.low);
     this.high = new THREE.Vector3(...run.told.high);
     this.span = Math.max(this.high.distanceTo(this.low), 1e-9);
-    this.reach = this._reach();
+    this.reach = run.told.reach;
+    this.sheets = [];
     this.showForces = true;
     this.frames = Array.from({ length: run.nFrames }, () => new THREE.Group());
     this.frames.forEach((frame) => this.scene.add(frame));
@@ -33,31 +41,22 @@ export class World {
     sun.position.set(0.3, -0.5, 0.81);
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#8a8f99", 1.6), sun);
     this.put(run.t0);
+    const { radius } = this.group();
+    this.follow = this.span > LONG * 2 * radius;
+    const seen = this.follow ? 2 * ROUND * radius : this.span;
+    this.size = Math.min(Math.max(this.unit, LEAST * seen), MOST * seen);
     run.told.parts.forEach((part) => this._addPart(part));
     this.strokes = run.told.strokes.map((stroke) => this._addStroke(stroke));
-    const arm = 1.6 * this.unit;
-    this.arrows = new Arrows(this.scene, 0.035 * this.unit);
+    this.arrows = new Arrows(this.scene, 0.04 * this.size);
     const strongest = Math.max(...run.strength, 1e-300);
-    this.perImpulse = arm / strongest;
-    this.perForce = (0.6 * arm) / this._typicalForce();
-    this.follow = this.span > 6 * this.group().radius;
+    this.perImpulse = this.size / strongest;
+    this.perForce = (0.6 * this.size) / this._typicalForce();
     this.theme(dark);
-    this.view("iso");
+    this.scene.updateMatrixWorld();
+    this.view("corner");
   }
 
-  /** Largest distance of a vertex from the origin of its frame, of moving bodies [m]; that of the motion without any. */
-  _reach() {
-    const { told, vertices } = this.run;
-    let found = 0;
-    for (const part of told.parts) {
-      if (part.sheet || !told.bodies[part.body].moves) continue;
-      for (let i = part.vertices[0]; i < part.vertices[1]; i++)
-        found = Math.max(found, Math.hypot(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]));
-    }
-    return found > 0 ? found : 0.3 * this.span;
-  }
-
-  /** The length that lines, marks and arrows are measured by [m]. */
+  /** The size of what moves [m]. */
   get unit() {
     return Math.min(this.reach, 0.5 * this.span);
   }
@@ -76,7 +75,11 @@ export class World {
     const moves = told.bodies[part.body].moves;
     const colour = moves ? BODIES[told.bodies.slice(0, part.body).filter((b) => b.moves).length % BODIES.length] : "#aab2bd";
     const [first, end] = part.vertices;
-    if (part.sheet) return void frame.add(this._sheet(frame, vertices[3 * first + 2]));
+    if (part.sheet) {
+      const sheet = new Sheet(part.sheet, vertices[3 * first + 2], this.unit);
+      this.sheets.push(sheet);
+      return void frame.add(sheet.group);
+    }
     const points = vertices.slice(3 * first, 3 * end);
     const used = new Set();
     const [a, b] = part.triangles;
@@ -85,7 +88,7 @@ export class World {
       index.forEach((i) => used.add(i));
       frame.add(solid(points, index, colour));
     }
-    const width = 0.03 * this.unit;
+    const width = 0.03 * this.size;
     for (let i = part.lines[0]; i < part.lines[1]; i++) {
       const [p, q] = [lines[2 * i], lines[2 * i + 1]];
       used.add(p).add(q);
@@ -97,28 +100,9 @@ export class World {
       if (used.has(i)) continue;
       const mark = new THREE.Mesh(DOT, new THREE.MeshLambertMaterial({ color: colour }));
       mark.position.copy(vector(points, i));
-      mark.scale.setScalar(0.06 * this.unit);
+      mark.scale.setScalar(0.06 * this.size);
       frame.add(mark);
     }
-  }
-
-  /** A piece of a plane without end, about the middle of what happens. */
-  _sheet(frame, height) {
-    frame.updateMatrixWorld();
-    const middle = frame.worldToLocal(this.low.clone().add(this.high).multiplyScalar(0.5));
-    const half = 0.75 * this.span + 3 * this.unit;
-    const n = 24;
-    const group = new THREE.Group();
-    const face = new THREE.Mesh(
-      new THREE.PlaneGeometry(2 * half, 2 * half),
-      new THREE.MeshLambertMaterial({ transparent: true, opacity: 0.35, depthWrite: false }),
-    );
-    const grid = new THREE.GridHelper(2 * half, n).rotateX(Math.PI / 2);
-    group.add(face, grid);
-    const cell = (2 * half) / n;
-    group.position.set(Math.round(middle.x / cell) * cell, Math.round(middle.y / cell) * cell, height);
-    (this.sheets ??= []).push([face, grid]);
-    return group;
   }
 
   _addStroke(stroke) {
@@ -127,19 +111,27 @@ export class World {
       new THREE.MeshLambertMaterial({ color: stroke.kind === "joint" ? "#8c6d46" : COLOURS.link }),
     );
     this.scene.add(mesh);
+    const between = stroke.frames[0] !== stroke.frames[1];
+    if (stroke.kind === "joint" && between) stroke.frames.forEach((frame, i) => this.frames[frame].add(this._ring(stroke.ends[i])));
     return { mesh, stroke };
+  }
+
+  /** The mark of a joint, over bodies: it is within them. */
+  _ring(place) {
+    const ring = new THREE.Group();
+    for (const [colour, size, order] of [["#1c2430", 0.06, 8], ["#f4f6f9", 0.035, 9]]) {
+      const dot = new THREE.Mesh(DOT, new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }));
+      dot.scale.setScalar(size * this.size);
+      dot.renderOrder = order;
+      ring.add(dot);
+    }
+    ring.position.set(...place);
+    return ring;
   }
 
   theme(dark) {
     this.scene.background = new THREE.Color(dark ? "#14181f" : "#f4f6f9");
-    for (const [face, grid] of this.sheets ?? []) {
-      face.material.color.set(dark ? "#3a4454" : "#c9d1db");
-      grid.material.color.set(dark ? "#8794a8" : "#9aa5b4");
-      grid.material.vertexColors = false;
-      grid.material.transparent = true;
-      grid.material.opacity = 0.5;
-      grid.material.needsUpdate = true;
-    }
+    this.sheets.forEach((sheet) => sheet.theme(dark));
   }
 
   /** Puts all frames where they are at a time. */
@@ -151,7 +143,7 @@ export class World {
         const frame = this.frames[stroke.frames[i]];
         return new THREE.Vector3(...stroke.ends[i]).applyQuaternion(frame.quaternion).add(frame.position);
       });
-      span(mesh, p, q, (stroke.kind === "load" ? 0.12 : 0.035) * this.unit);
+      span(mesh, p, q, (stroke.kind === "load" ? 0.12 : 0.035) * this.size);
     }
     return knot;
   }
@@ -167,16 +159,39 @@ export class World {
   }
 
   view(name) {
-    const away = new THREE.Vector3(...VIEWS[name]).normalize();
+    const away = new THREE.Vector3(...(VIEWS[name] ?? this._corner())).normalize();
     const { middle, radius } = this.group();
-    this.controls.target.copy(this.follow ? middle : this.low.clone().add(this.high).multiplyScalar(0.5));
-    const size = this.follow ? 2.4 * radius : 1.1 * this.span;
-    const distance = size / (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.min(1, this.camera.aspect);
+    const whole = new THREE.Box3(this.low, this.high);
+    const seen = this.follow ? new THREE.Box3().setFromCenterAndSize(middle, new THREE.Vector3().setScalar(2 * ROUND * radius)) : whole;
+    seen.getCenter(this.controls.target);
+    const distance = this._distance(seen.getSize(new THREE.Vector3()), away);
     this.camera.position.copy(this.controls.target).addScaledVector(away, distance);
     this.camera.near = distance / 1000;
     this.camera.far = distance * 100 + 10 * this.span;
     this.camera.updateProjectionMatrix();
     this.controls.update();
+  }
+
+  /** Of the corners the first one from which most sheets show their upper side. */
+  _corner() {
+    const normals = this.sheets.map(({ group }) => new THREE.Vector3(0, 0, 1).transformDirection(group.matrixWorld));
+    const shown = CORNERS.map((corner) => normals.filter((normal) => normal.dot(new THREE.Vector3(...corner)) > 0).length);
+    return CORNERS[shown.indexOf(Math.max(...shown))];
+  }
+
+  /** From how far away a box is seen as large as the picture allows. */
+  _distance(size, away) {
+    const across = new THREE.Vector3().crossVectors(this.camera.up, away).normalize();
+    const up = new THREE.Vector3().crossVectors(away, across);
+    const tangent = FILLED * Math.tan((this.camera.fov * Math.PI) / 360);
+    let found = 0;
+    for (const signs of [[1, 1], [1, -1], [-1, 1], [-1, -1]]) {
+      const corner = new THREE.Vector3(signs[0] * size.x, signs[1] * size.y, size.z).multiplyScalar(0.5);
+      // those opposite to the four have the same distances from the middle of the picture
+      const wide = Math.max(Math.abs(corner.dot(across)) / this.camera.aspect, Math.abs(corner.dot(up)));
+      found = Math.max(found, Math.abs(corner.dot(away)) + wide / tangent);
+    }
+    return found;
   }
 
   resize(width, height) {
@@ -199,9 +214,7 @@ export class World {
     if (this.showForces) this._forces(k);
     this._impulses(t, event, speed);
     this.controls.update();
-    // from behind a sheet one looks through it
-    for (const [face, grid] of this.sheets ?? [])
-      face.visible = grid.visible = face.worldToLocal(this.camera.position.clone()).z > 0;
+    this.sheets.forEach((sheet) => sheet.seenFrom(this.camera.position));
     this.renderer.render(this.scene, this.camera);
   }
 
@@ -210,9 +223,9 @@ export class World {
     if (k + 1 >= run.force_first.length) return;
     for (let i = run.force_first[k]; i < run.force_first[k + 1]; i++) {
       const place = vector(run.force_point, i);
-      this.arrows.add(place, vector(run.force_push, i).multiplyScalar(this.perForce).clampLength(0, 3 * this.unit), COLOURS.push, 0.8);
+      this.arrows.add(place, vector(run.force_push, i).multiplyScalar(this.perForce).clampLength(0, 2 * this.size), COLOURS.push);
       const colour = run.force_mode[i] === SLIDE ? COLOURS.slip : COLOURS.stick;
-      this.arrows.add(place, vector(run.force_rub, i).multiplyScalar(this.perForce).clampLength(0, 3 * this.unit), colour, 0.9);
+      this.arrows.add(place, vector(run.force_rub, i).multiplyScalar(this.perForce).clampLength(0, 2 * this.size), colour);
     }
   }
 
