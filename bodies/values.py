@@ -81,7 +81,7 @@ def read_start(name: str, words: Mapping[str, Word], start: Mapping[str, Any]) -
     """
     for word in start:
         if word not in words:
-            raise UnknownName(f"start of {name}", word, words)
+            raise UnknownName(f"word of the start of {name}", word, words)
     return {
         word: vector(f"{word} of {name}", start.get(word, default), size, unit)
         for word, (size, default, unit) in words.items()

@@ -316,6 +316,30 @@ def test_a_parameter_nobody_gives_is_named(build: Any) -> None:
         ns.simulate(system, 0.1)
 
 
+def test_a_field_that_is_no_parameter_is_told_how_to_become_one(build: Any) -> None:
+    @final
+    @dataclass(frozen=True)
+    class Plain(FrictionLaw):
+        """Its coefficient is a field like any other."""
+
+        k: float = 0.2
+
+        @staticmethod
+        def coefficient(speed: float, k: float) -> float:
+            return k
+
+        def is_fulfilled(self, slip: Any, normal_force: float, tangential_force: Any, tolerance: float) -> bool:
+            return True
+
+    ball, plate = Ball(0.01), Plate()
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, **(build.laws() | {"friction": Plain()}))
+    system.place(ball, position=(0, 0, 0.02))
+    with pytest.raises(ns.UnknownName, match="asks for a parameter that must be a known one, but it is 'k'") as caught:
+        ns.simulate(system, 0.1)
+    assert 'declared as one: k: float = parameter(0.2, doc="what it is").' in str(caught.value)
+
+
 MATRICES: dict[str, Any] = {
     "mass": np.eye(2),
     "normal": np.array([[1.0], [0.0]]),
