@@ -60,7 +60,8 @@ def test_the_default_fills_gaps() -> None:
     assert _friction(system, balls[0], balls[1]) == [GLASS.friction]
     assert _friction(system, balls[0], balls[2]) == [OTHER.friction]
     everything, _, _ = _scene()
-    assert len(everything.contact_all(ns.Materials(default=OTHER))) == 9
+    assert len(everything.contact_all(OTHER)) == 9
+    assert {contact.impact for contact in everything.contacts} == {OTHER.impact}
 
 
 def test_pairs_of_their_own() -> None:
