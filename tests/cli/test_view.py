@@ -19,7 +19,12 @@ Call = Callable[..., tuple[int, str, str]]
 def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Return the addresses that a browser was to open."""
     addresses: list[str] = []
-    monkeypatch.setattr("webbrowser.open", lambda address: addresses.append(address) is None)
+
+    def opens(address: str) -> bool:
+        addresses.append(address)
+        return True
+
+    monkeypatch.setattr("webbrowser.open", opens)
     return addresses
 
 

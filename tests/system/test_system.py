@@ -110,8 +110,8 @@ def test_contacts_need_laws(build: Any) -> None:
         ({"normal": Unilateral}, "Make an object of the class: Unilateral(...)."),
     )
     for wrong_laws, said in instead:
-        words = ("System.contact: ", said)
-        _raises(words, lambda wrong=wrong_laws: system.contact(plate, ball, **(laws | wrong)))  # type: ignore[misc]
+        told = ("System.contact: ", said)
+        _raises(told, lambda wrong=wrong_laws: system.contact(plate, ball, **(laws | wrong)))  # type: ignore[misc]
     words = ("System.contact", "needs an ImpactLaw", "list laws")
     _raises(words, lambda: system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(0.2)))
 

@@ -136,7 +136,12 @@ def test_a_notebook_gets_a_frame() -> None:
 def test_view_opens_the_page(found: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """Where there is no browser it says which file to open."""
     opened: list[str] = []
-    monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) is None and found)
+
+    def opens(address: str) -> bool:
+        opened.append(address)
+        return found
+
+    monkeypatch.setattr("webbrowser.open", opens)
     path = _run("bouncing_ball").view()
     assert opened == [path.as_uri()]
     said = f"no browser was found; open this file: {path}" in capsys.readouterr().err
