@@ -13,7 +13,7 @@ import numpy as np
 from bodies.blocks import put
 from bodies.carried import check_carried
 from bodies.inertia import Triple, check_inertia, tensor_of
-from bodies.values import Word, read_start, unit_quaternion
+from bodies.values import Word, read_start
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
@@ -280,8 +280,6 @@ class FreeBody(Body):
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return q and u from position [m], orientation (unit quaternion), velocity [m/s], angular_velocity [rad/s]."""
-        name = type(self).__name__
-        values = read_start(name, _WORDS, start)
-        orientation = unit_quaternion(f"orientation of {name}", values["orientation"])
-        q = np.concatenate([values["position"], orientation])
+        values = read_start(type(self).__name__, _WORDS, start)
+        q = np.concatenate([values["position"], values["orientation"]])
         return q, np.concatenate([values["velocity"], values["angular_velocity"]])

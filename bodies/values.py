@@ -17,6 +17,8 @@ Word = tuple[int, Any, str]
 
 _UNIT_TOLERANCE = 1e-9
 _ROUND_OFF = 1e-15
+_QUATERNION = "must be a unit quaternion, scalar first: (cos(angle / 2), axis * sin(angle / 2))"
+_AXIS_AND_ANGLE = "Write nonsmooth.turned_about(axis, angle), the angle in [rad]."
 
 
 def vector(thing: str, value: Any, size: int, unit: str) -> Vector:
@@ -42,15 +44,13 @@ def unit_vector(thing: str, value: Any) -> Vector:
 
 def unit_quaternion(thing: str, value: Any) -> Vector:
     """Return ``value`` as a unit quaternion (scalar first), normalised; raise InvalidInput if it is not one."""
-    array = vector(thing, value, 4, "1")
+    try:
+        array = vector(thing, value, 4, "1")
+    except InvalidInput:
+        raise InvalidInput(thing, f"{_QUATERNION}, of finite numbers", value, _AXIS_AND_ANGLE) from None
     norm = float(np.linalg.norm(array))
     if abs(norm - 1.0) > _UNIT_TOLERANCE:
-        raise InvalidInput(
-            thing,
-            "must be a unit quaternion (scalar first)",
-            array.tolist(),
-            f"Divide it by its length {norm:.6g}.",
-        )
+        raise InvalidInput(thing, _QUATERNION, array.tolist(), f"Divide it by its length {norm:.6g}. {_AXIS_AND_ANGLE}")
     # one that was normalised before stays the same to the last bit
     return array if abs(norm - 1.0) <= _ROUND_OFF else array / norm
 
@@ -81,10 +81,13 @@ def read_start(name: str, words: Mapping[str, Word], start: Mapping[str, Any]) -
     """
     for word in start:
         if word not in words:
-            raise UnknownName(f"start of {name}", word, words)
+            raise UnknownName(f"word of the start of {name}", word, words)
+    given = {word: start.get(word, default) for word, (_, default, _) in words.items()}
     return {
-        word: vector(f"{word} of {name}", start.get(word, default), size, unit)
-        for word, (size, default, unit) in words.items()
+        word: unit_quaternion(f"{word} of {name}", given[word])
+        if word == "orientation"
+        else vector(f"{word} of {name}", given[word], size, unit)
+        for word, (size, _, unit) in words.items()
     }
 
 

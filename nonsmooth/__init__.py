@@ -8,6 +8,7 @@ from nonsmooth.files.reading import Setup, load_system
 from nonsmooth.files.writing import save_system
 from nonsmooth.impact import ImpactResult, solve_impact
 from nonsmooth.interfaces import Criterion
+from nonsmooth.placing.orientation import turned_about
 from nonsmooth.placing.starts import at_height, resting, touching
 from nonsmooth.plugins import registry as _registry
 from nonsmooth.queries.distance import distance
@@ -61,6 +62,7 @@ __all__ = [
     "solve_contact",
     "solve_impact",
     "touching",
+    "turned_about",
     "with_laws",
 ]
 

@@ -50,14 +50,16 @@ class UnknownName(InvalidInput):
         The names that exist.
     other : str
         What else has that name, where something has ("a friction law").
+    remedy : str
+        What to do about it, where another name is not all there is to it.
     """
 
-    def __init__(self, kind: str, name: str, known: Iterable[str], other: str = "") -> None:
+    def __init__(self, kind: str, name: str, known: Iterable[str], other: str = "", remedy: str = "") -> None:
         known = sorted(known)
         near = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
         hint = f"That is {other}. " if other else f"Did you mean {near[0]!r}? " if near else ""
         listing = _shortened(", ".join(known)) if known else "none"
-        super().__init__(f"{kind} name", "must be a known one", name, f"{hint}Known: {listing}.")
+        super().__init__(kind, "must be a known one", name, f"{hint}Known: {listing}. {remedy}".rstrip())
 
 
 class PluginError(NonsmoothError):

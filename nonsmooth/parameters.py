@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeAlias, final, get_origin, get_type_hints
@@ -85,6 +85,13 @@ def rules(owner: type) -> Rules:
         found = {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}
         _known[owner] = MappingProxyType(found)
     return _known[owner]
+
+
+def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
+    """Return the error of a function that asks for what is no parameter; most often that is a field not declared so."""
+    declared = f'{name}: float = parameter(0.2, doc="what it is")'
+    remedy = f"A field of the class is a parameter if it is declared as one: {declared}."
+    return UnknownName(f"{asking} asks for a parameter that", name, offered, remedy=remedy)
 
 
 def check_number(thing: str, value: Any, rule: Rule) -> None:

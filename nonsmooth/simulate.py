@@ -73,7 +73,8 @@ def simulate(
         Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
         raises ends the run and is raised.
     output : Output, Path or str, optional
-        A folder to which events and samples are appended as they come (:meth:`nonsmooth.Model.run`).
+        A folder to which events and samples are appended as they come (:meth:`nonsmooth.Model.run`).  The system is
+        there, too, where all of its classes are installed; else who opens the folder gives it (:func:`open_solution`).
 
     Returns
     -------

@@ -42,7 +42,7 @@ def check_signatures(name: str, parts: Sequence[Part], known: Mapping[str, Value
             )
         for own in own_names(function, role):
             if own not in known:
-                raise UnknownName(f"{name}.{part}: {function.__qualname__} asks for a constant whose", own, known)
+                raise UnknownName(f"{name}.{part}: {function.__qualname__} asks for a constant that", own, known)
 
 
 def _form(role: str) -> str:

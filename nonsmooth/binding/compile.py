@@ -19,8 +19,8 @@ from nonsmooth.binding.refusal import Refusal, refusal
 from nonsmooth.binding.source import described, name_of, place_of
 from nonsmooth.engine.native.forms import FORMS, Form
 from nonsmooth.engine.native.kernel import PLAIN, address_of, at, calls, jit
-from nonsmooth.errors import RunsInPython, UnknownName
-from nonsmooth.parameters import Table, Value
+from nonsmooth.errors import RunsInPython
+from nonsmooth.parameters import Table, Value, not_offered
 
 _SHIM = "def shim({arguments}):\n {call}\n{ending}"
 _GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
@@ -88,7 +88,7 @@ def bind(
     names = parameter_names(function, form)
     for name in names:
         if name not in values:
-            raise UnknownName(f"{owner}: {described(function)}, asks for a parameter whose", name, values)
+            raise not_offered(f"{owner}: {described(function)},", name, values)
     vectors = _vectors(values, names)
     first = FORMS[form].n_recorded
     heap: list[float] = [math.nan] * first + [0.0] * len(names)

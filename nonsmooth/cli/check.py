@@ -11,7 +11,6 @@ from typing import Any
 from nonsmooth.cli import request
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.table import lines
-from nonsmooth.errors import UnknownName
 from nonsmooth.plugins import file, registry
 
 _HOLDS, _FAILS, _DEPARTS, _OPEN = "holds", "fails", "departs", "not checked"
@@ -24,7 +23,7 @@ def add_to(commands: Any) -> None:
         help="look whether a component has the properties that it must have",
         allow_abbrev=False,
     )
-    command.add_argument("name", metavar="NAME", help="any name of `nonsmooth list`, or FILE.py:CLASS")
+    command.add_argument("name", metavar="NAME", help="a name or class of `nonsmooth list`, or FILE.py:CLASS")
     command.add_argument(
         "--set",
         action="append",
@@ -53,12 +52,9 @@ def _look(name: str, words: dict[str, str]) -> list[dict[str, Any]]:
         owner = file.load("check", registry.INTERFACES, name)
         path, _, word = name.rpartition(":")
         return [_part(owner, word, registry.kind_of(owner), path, words)]
-    groups = [group for group in registry.GROUPS if name in registry.names(group)]
-    if not groups:
-        raise UnknownName("component", name, {known for group in registry.GROUPS for known in registry.names(group)})
     return [
-        _part(registry.load(group, name), name, registry.KINDS[group], registry.source(group, name), words)
-        for group in groups
+        _part(registry.load(group, known), known, registry.KINDS[group], registry.source(group, known), words)
+        for group, known in registry.called(name, registry.GROUPS)
     ]
 
 

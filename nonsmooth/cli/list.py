@@ -21,7 +21,7 @@ def add_to(commands: Any) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> bool:
-    """Print name, kind of a law, source and first docstring line of every usable plug-in."""
+    """Print name, kind of a law, source, class and first docstring line of every usable plug-in."""
     registry.check_groups()
     wanted = (arguments.group,) if arguments.group else GROUPS
     say("\n\n".join(_section(group) for group in wanted))
@@ -30,7 +30,10 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 def _section(group: str) -> str:
     loaded = registry.load_all(group).items()
-    rows = [(name, *_kind(group, owner), registry.source(group, name), first_line(owner)) for name, owner in loaded]
+    rows = [
+        (name, *_kind(group, owner), registry.source(group, name), f"{owner.__name__}: {first_line(owner)}")
+        for name, owner in loaded
+    ]
     return "\n".join([f"{group}:", *(folded(rows) or ["  none"])])
 
 

@@ -46,6 +46,9 @@ def add_to(command: argparse.ArgumentParser) -> None:
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
+    command.add_argument(
+        "--trust", action="store_true", help="of a folder: load the Python files that the run was asked with"
+    )
 
 
 def obtain(command: str, arguments: argparse.Namespace) -> Obtained:
@@ -65,7 +68,7 @@ def _stored(command: str, arguments: argparse.Namespace) -> Obtained:
         )
     output = Output(Path(arguments.run))
     folder = SolutionFolder.opened(output)
-    name, job = resume.job_of(output, folder, trust=False)
+    name, job = resume.job_of(output, folder, arguments.trust)
     return Obtained(str(folder.attributes.get("title") or name), open_solution(output, system=job.build()), True)
 
 

@@ -71,6 +71,6 @@ def job_of(output: Output, folder: SolutionFolder, trust: bool) -> tuple[str, re
     if (name in registry.names("scenarios") or file.is_file(name)) and (trust or not files):
         return name, request.job(name, asked["set"], asked["law"], asked.get("engine"))
     if files:
-        tell(f"without {', '.join(files)}, and so without the scenario's own figures and summary: see --trust")
+        tell(f"without {', '.join(files)}, and so without what only they can say: see --trust")
     setup = stored_setup(output, folder)
     return name, request.Job(FileScenario(setup), setup.engine, {})

@@ -9,7 +9,6 @@ from nonsmooth.cli.list import GROUPS
 from nonsmooth.cli.messages import say
 from nonsmooth.cli.parameter_rows import ASSUMED, HEAD, parameter_rows
 from nonsmooth.cli.table import first_line, lines
-from nonsmooth.errors import UnknownName
 from nonsmooth.plugins import file, registry
 
 
@@ -19,7 +18,9 @@ def add_to(commands: Any) -> None:
         "show", help="parameters with units, defaults, ranges, and what is assumed", allow_abbrev=False
     )
     command.add_argument(
-        "name", metavar="NAME", help="anything of `nonsmooth list`, FILE.py:CLASS, or a scenario file for --proximity"
+        "name",
+        metavar="NAME",
+        help="name or class of `nonsmooth list`, FILE.py:CLASS, or a scenario file for --proximity",
     )
     command.add_argument(
         "--proximity",
@@ -41,21 +42,18 @@ def execute(arguments: argparse.Namespace) -> bool:
         owner = file.load("show", registry.INTERFACES, arguments.name)
         say(_describe(owner, f"{owner.__name__}: {registry.kind_of(owner)} of {arguments.name.rpartition(':')[0]}"))
         return True
-    groups = [group for group in GROUPS if arguments.name in registry.names(group)]
-    if not groups:
-        known = {name for group in GROUPS for name in registry.names(group)}
-        raise UnknownName("component", arguments.name, known)
-    say("\n\n".join(_installed(group, arguments.name) for group in groups))
+    say("\n\n".join(_installed(group, name) for group, name in registry.called(arguments.name, GROUPS)))
     return True
 
 
 def _installed(group: str, name: str) -> str:
     title = f"{name}: {registry.KINDS[group]} of {registry.source(group, name)}"
-    return _describe(registry.load(group, name), title)
+    return _describe(registry.load(group, name), title, registry.imported(group, name))
 
 
-def _describe(owner: Any, title: str) -> str:
+def _describe(owner: Any, title: str, *imported: str) -> str:
     rows = parameter_rows(owner)
     table = lines([HEAD, *rows]) if rows else ["  no parameters"]
     legend = [f"  {ASSUMED}"] if any(row[1].endswith("*") for row in rows) else []
-    return "\n".join([title, f"  {first_line(owner)}", "", *table, *legend])
+    told = [f"  {line}" for line in (first_line(owner), *imported)]
+    return "\n".join([title, *told, "", *table, *legend])

@@ -37,7 +37,15 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 def in_browser(title: str) -> Callable[[Solution], None]:
     """Return what plays a run in the browser and says where its page is."""
-    return lambda solution: tell(f"the run plays in the browser, from {solution.view(title=title)}")
+
+    def look(solution: Solution) -> None:
+        # imported when asked for: the other commands start faster without it
+        from nonsmooth.solution.pages import MOST_KNOTS, not_opened, show
+
+        path, opened = show(solution, title, MOST_KNOTS)
+        tell(f"the run plays in the browser, from {path}" if opened else not_opened(path))
+
+    return look
 
 
 def to_file(title: str, path: Path) -> Callable[[Solution], None]:

@@ -43,9 +43,9 @@ def check_start(model: LaidOut, guards: Guards) -> None:
             _ask_shapes(model, number)
             raise InvalidInput(
                 f"start of the {contact}",
-                "must not overlap",
+                "must not overlap: its gap must be >= 0 [m]",
                 gap,
-                "Place the bodies apart or touching (gap >= 0 [m]).",
+                "Place the bodies apart or touching, by System.place.",
             )
     # gaps tell of features that face each other, and bodies right through one another may have none
     check_overlaps(model)

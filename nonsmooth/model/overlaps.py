@@ -54,9 +54,9 @@ def check_overlaps(model: LaidOut) -> None:
             kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
             raise InvalidInput(
                 f"start of the {contact}",
-                "must not overlap",
+                "must not overlap: its gap must be >= 0 [m]",
                 -found,
-                f"The solids of {kinds} reach at least so far into each other [m]. Place the bodies apart or touching, "
+                f"The solids of {kinds} reach at least so far into each other. Place the bodies apart or touching, "
                 "or declare no contact between them.",
             )
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from nonsmooth.histories.arrays import Floats
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from nonsmooth.solution.solution import Solution
@@ -38,11 +39,11 @@ def over_time(ax: Axes, solution: Solution) -> None:
     ax.set_axisbelow(True)
 
 
-def beside(ax: Axes, title: str = "") -> None:
-    """Put the legend beside the axes, where it covers no curve."""
-    ax.legend(
-        loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8, frameon=False, title=title or None, title_fontsize=8
-    )
+def beside(ax: Axes, title: str = "", handles: Sequence[Artist] | None = None) -> None:
+    """Put the legend beside the axes, where it covers no curve; within them where the figure makes no room for it."""
+    outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "frameon": False}
+    place: dict[str, Any] = outside if ax.figure.get_layout_engine() is not None else {"loc": "best"}
+    ax.legend(handles=handles, fontsize=8, title=title or None, title_fontsize=8, **place)
 
 
 def title_of(numbers: Sequence[int], solution: Solution) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.plot.asked import Contacts, axes_of, contacts_of
-from nonsmooth.plot.lines import over_time, title_of
+from nonsmooth.plot.lines import beside, over_time, title_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,7 +80,4 @@ def _explain(ax: Axes, title: str) -> None:
     known = [Patch(facecolor=c, hatch=h, edgecolor="white", linewidth=0.0, label=word) for word, _, c, h in _LOOKS]
     open_ = Line2D([], [], color="0.8", linewidth=0.8, label="open")
     impact = Line2D([], [], color="black", linestyle="none", marker="|", markersize=9, label="impact")
-    ax.legend(
-        handles=[*known, open_, impact], loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8, frameon=False,
-        title=title or None, title_fontsize=8,
-    )  # fmt: skip
+    beside(ax, title, [*known, open_, impact])

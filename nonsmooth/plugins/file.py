@@ -51,7 +51,7 @@ def find(thing: str, group: str, base: type, word: str, folder: Path | None = No
     if is_file(word):
         return load(thing, (base,), word, folder)
     if word.endswith(".py"):
-        raise InvalidInput(thing, "must name a class of the file", word, f"For example {word}:MyLaw.")
+        raise InvalidInput(thing, "must name a class of the file", word, f"For example {word}:My{base.__name__}.")
     if word in registry.names(group):
         owner = registry.load(group, word)
         if issubclass(owner, base):
@@ -64,7 +64,8 @@ def load(thing: str, bases: tuple[type, ...], word: str, folder: Path | None = N
     """Return a class of a file; parameters and errors are those of :func:`find`."""
     match = _FILE.fullmatch(word)
     if match is None:
-        raise InvalidInput(thing, "must have the form file.py:Class", word, "For example ./my_law.py:MyLaw.")
+        example = f"For example {word.partition(':')[0]}:My{bases[0].__name__}; a script is run by python itself."
+        raise InvalidInput(thing, "must have the form file.py:Class", word, example)
     path = ((folder or Path()) / match["file"]).resolve()
     if not path.is_file():
         raise InvalidInput(thing, "must name a file that exists", match["file"], f"There is no {path}.")

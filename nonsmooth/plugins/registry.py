@@ -7,6 +7,7 @@ import functools
 import importlib.util
 import inspect
 import warnings
+from collections.abc import Iterable
 from importlib.metadata import Distribution, EntryPoint, entry_points
 from pathlib import Path
 from typing import Any
@@ -129,6 +130,31 @@ def names(group: str) -> tuple[str, ...]:
 def source(group: str, name: str) -> str:
     """Return the distribution that a name comes from."""
     return _distribution(_points(group)[name])
+
+
+def imported(group: str, name: str) -> str:
+    """Return the line of Python that imports the class of that name."""
+    point = _points(group)[name]
+    return f"from {point.module} import {point.attr}"
+
+
+def called(word: str, groups: Iterable[str]) -> list[tuple[str, str]]:
+    """Return group and name of all that is installed under a name, or of the class that the word is, loading nothing.
+
+    A class is meant by its name in Python, also in lower case with underscores: BoxBody, box_body.
+
+    Raises
+    ------
+    UnknownName
+        If there is none.
+    """
+    known = [(group, name) for group in groups for name in names(group)]
+    bare = word.replace("_", "").lower()
+    found = [(group, name) for group, name in known if name == word]
+    found = found or [(group, name) for group, name in known if _points(group)[name].attr.lower() == bare]
+    if not found:
+        raise UnknownName("component", word, {name for _, name in known})
+    return found
 
 
 def load(group: str, name: str) -> Any:

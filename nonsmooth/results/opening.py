@@ -34,7 +34,8 @@ def open_solution(
     output : Output, Path or str
         The folder.
     system : System, optional
-        What ran; by default it is built from what the folder says of it.
+        What ran; by default it is built from what the folder says of it.  A class that is not installed, such as a law
+        of a script, is beyond what a folder can say.
     engine : Engine, optional
         What integrated it; by default that which the folder names.  Where that is not installed, the run is known at
         its samples and events only.
@@ -74,10 +75,12 @@ def stored_setup(output: Output, folder: SolutionFolder) -> Setup:
     text = folder.system_text()
     if not text:
         raise InvalidInput(
-            f"{output.solution}: system",
-            "must be there",
-            folder.attributes.get("system_missing"),
-            "Build it in Python, and give it as system=...",
+            f"{output.folder}: the system that ran",
+            "must be given",
+            None,
+            f"The folder cannot tell it: {folder.attributes.get('system_missing')}. A script that builds it opens the "
+            f"run by nonsmooth.open_solution({str(output.folder)!r}, system=system), and goes on with one that was cut "
+            "off by nonsmooth.resume, likewise.",
         )
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / "system.toml"

@@ -379,7 +379,7 @@ def _text(system: System, output: Output, engine: Engine, t_end: float, attribut
     try:
         text = text_of_system(system, t_end=t_end, engine=named, title=output.title)
     except InvalidInput as error:
-        text, attributes["system_missing"] = "", str(error)
+        text, attributes["system_missing"] = "", f"{error.thing} {error.rule}; it is {error.value!r}"
     return Variable("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})
 
 

@@ -28,12 +28,16 @@ def write(solution: Solution, path: Path | str, title: str, most_knots: int) -> 
     return found
 
 
-def show(solution: Solution, title: str, most_knots: int) -> Path:
-    """Write the page of a run to a file of its own, open it in the browser, and return where it is."""
+def show(solution: Solution, title: str, most_knots: int) -> tuple[Path, bool]:
+    """Write the page of a run to a file of its own; return where it is, and whether a browser was found to open it."""
     folder = Path(tempfile.mkdtemp(prefix="nonsmooth-"))
     path = write(solution, folder / "run.html", title, most_knots)
-    webbrowser.open(path.as_uri())
-    return path
+    return path, webbrowser.open(path.as_uri())
+
+
+def not_opened(path: Path) -> str:
+    """Return what is said of a page that no browser was found for, as on a machine without a display."""
+    return f"no browser was found; open this file: {path}"
 
 
 def framed(solution: Solution) -> str:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
+from nonsmooth.notices import say
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
 from nonsmooth.solution.graph import TransitionGraph, transition_graph
@@ -404,10 +405,16 @@ class Solution:
         return write(self, path, title, most_knots)
 
     def view(self, *, title: str = "", most_knots: int = 4000) -> Path:
-        """Play the run in the browser; return the path of the page, which :meth:`to_html` tells about."""
-        from nonsmooth.solution.pages import show
+        """Play the run in the browser; return the path of the page, which :meth:`to_html` tells about.
 
-        return show(self, title, most_knots)
+        Where no browser is found, a line on standard error says which file to open.
+        """
+        from nonsmooth.solution.pages import not_opened, show
+
+        path, opened = show(self, title, most_knots)
+        if not opened:
+            say(not_opened(path))
+        return path
 
     def _repr_html_(self) -> str:
         """Return the page in a frame, for notebooks."""

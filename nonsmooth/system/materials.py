@@ -19,6 +19,12 @@ from nonsmooth.interfaces import (
     TractionLaw,
 )
 
+_ROLES: dict[str, tuple[type, str]] = {
+    "normal": (NormalLaw, "a NormalLaw"),
+    "friction": (TangentialLaw, "a FrictionLaw or TractionLaw"),
+    "impact": (ImpactLaw, "an ImpactLaw"),
+}
+
 
 @final
 @dataclass(frozen=True)
@@ -121,10 +127,8 @@ class Materials:
 
 def check_laws(where: str, normal: NormalLaw, friction: TangentialLaw, impact: ImpactLaw | None) -> None:
     """Raise InvalidInput, naming ``where``, unless the laws are of their kinds and go with one another."""
-    if not isinstance(normal, NormalLaw):
-        raise InvalidInput(where, "needs a NormalLaw", normal, "See `nonsmooth list laws`.")
-    if not isinstance(friction, TangentialLaw):
-        raise InvalidInput(where, "needs a FrictionLaw or TractionLaw", friction, "See `nonsmooth list laws`.")
+    _check_role(where, "normal", normal)
+    _check_role(where, "friction", friction)
     if isinstance(normal, CompliantNormalLaw):
         if impact is not None:
             raise InvalidInput(
@@ -141,10 +145,25 @@ def check_laws(where: str, normal: NormalLaw, friction: TangentialLaw, impact: I
             normal,
             "Take one, such as hertz, or a friction law with a coefficient, such as coulomb.",
         )
-    if not isinstance(impact, ImpactLaw):
-        raise InvalidInput(where, "needs an ImpactLaw", impact, "See `nonsmooth list laws`.")
+    _check_role(where, "impact", impact)
     if not isinstance(impact, (ImpactProcess, ImpactMap)):
         raise InvalidInput(where, "needs an ImpactProcess or ImpactMap", impact, "Subclass one of the two.")
+
+
+def _check_role(where: str, role: str, law: object) -> None:
+    kind, words = _ROLES[role]
+    if isinstance(law, kind):
+        return
+    meant = [other for other, (owner, _) in _ROLES.items() if isinstance(law, owner)]
+    if meant:
+        remedy = f"That is a law for {meant[0]}=."
+    elif isinstance(law, type):
+        remedy = f"Make an object of the class: {law.__name__}(...)."
+    elif isinstance(law, (int, float)):
+        remedy = "A number is no law: give it to one of `nonsmooth list laws`, as its parameter."
+    else:
+        remedy = "See `nonsmooth list laws`."
+    raise InvalidInput(f"{where}: {role}", f"needs {words}", law, remedy)
 
 
 def _check_bundle(where: str, laws: ContactLaws) -> None:

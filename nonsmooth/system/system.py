@@ -25,6 +25,7 @@ from nonsmooth.interfaces import (
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.system.contact import Contact, Declaration, Tie, Watched
+from nonsmooth.system.given import check_bodies, stranger
 from nonsmooth.system.gravity import gravity_of
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws
 from nonsmooth.system.names import Names, Naming, between, kind_word
@@ -54,16 +55,7 @@ class System:
     """
 
     def __init__(self, bodies: Sequence[Body], gravity: float | Sequence[float] = 9.81) -> None:
-        check_kind("System.bodies", bodies, Collection, "Write System([ball, plate]).")
-        for body in bodies:
-            check_kind("System.bodies: each", body, Body, "Give Body objects.")
-        if len({id(body) for body in bodies}) != len(bodies) or not bodies:
-            raise InvalidInput(
-                "System.bodies",
-                "must be at least one body, each once",
-                [type(b).__name__ for b in bodies],
-                "Make a new object for another body of the same kind.",
-            )
+        check_bodies(bodies)
         self._bodies = tuple(bodies)
         self._gravity = gravity_of(gravity)
         self._contacts: list[Contact] = []
@@ -364,13 +356,13 @@ class System:
 
     def contact_all(
         self,
-        materials: Materials,
+        laws: ContactLaws | Materials,
         of: Mapping[str, Sequence[Body]] | None = None,
         *,
         bodies: Sequence[Body] | None = None,
         exclude: Iterable[tuple[Body, Body]] = (),
     ) -> tuple[Contact, ...]:
-        """Let all bodies touch each other, with the laws that belong to the materials of every two.
+        """Let all bodies touch each other, with the same laws, or with those that belong to the materials of every two.
 
         Left out are pairs of driven bodies, pairs tied by a joint so far (a joint usually makes its bodies overlap)
         and the pairs of ``exclude``.  Pairs that have contacts already, be it of some of their shapes, keep them and
@@ -378,8 +370,8 @@ class System:
 
         Parameters
         ----------
-        materials : Materials
-            Laws by pair of materials.
+        laws : ContactLaws or Materials
+            The laws of all pairs, or laws by pair of materials.
         of : mapping, optional
             Material -> bodies made of it.  Bodies are told apart as objects, however equal they are.
         bodies : sequence of Body, optional
@@ -399,7 +391,9 @@ class System:
         UnknownName
             If a material is not in the table.
         """
-        check_kind("System.contact_all: materials", materials, Materials, "Make them by nonsmooth.Materials({...}).")
+        materials = Materials(default=laws) if isinstance(laws, ContactLaws) else laws
+        remedy = "Write nonsmooth.ContactLaws(normal, friction, impact), or nonsmooth.Materials({...})."
+        check_kind("System.contact_all: laws", materials, Materials, remedy)
         check_kind("System.contact_all: of", of or {}, Mapping, 'Write {"steel": [ball]}.')
         check_kind("System.contact_all: bodies", () if bodies is None else bodies, Collection, "Write [ball, plate].")
         chosen = [body for body in self._bodies if any(body.frames)] if bodies is None else list(bodies)
@@ -465,7 +459,7 @@ class System:
 
     def _require(self, body: Body, where: str) -> None:
         if id(body) not in self._numbers:
-            raise InvalidInput(where, "needs a body of this system", body, "Add it to System([...]) first.")
+            raise stranger(where, body)
 
     def _pair_of(self, one: Body, other: Body) -> _Pair:
         return frozenset((self._numbers[id(one)], self._numbers[id(other)]))

@@ -13,7 +13,7 @@ import numpy as np
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.engine.native.kernel import entry_addresses
-from nonsmooth.errors import UnknownName
+from nonsmooth.parameters import not_offered
 from nonsmooth.testing.budget import Call, OutOfTime, make_all, where
 from nonsmooth.testing.examine import described
 from nonsmooth.testing.property import Broken, NotChecked, Row
@@ -174,7 +174,7 @@ def _short(value: Any) -> str:
 def _names(function: Function) -> None:
     for name in parameter_names(function.function, function.form):
         if name not in function.offered:
-            error = UnknownName(f"{function.title} asks for a parameter whose", name, function.offered)
+            error = not_offered(function.title, name, function.offered)
             raise Broken(f"{where(function.function)}: {error}".rstrip("."), name, "not offered")
 
 

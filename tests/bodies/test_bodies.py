@@ -128,6 +128,8 @@ STARTS: list[tuple[dict[str, Any], tuple[str, ...]]] = [
     ({"angular_velocity": 3.0}, ("angular_velocity of Ball", "3 finite numbers", "[rad/s]")),
     ({"orientation": (1.0, 0.1, 0.0, 0.0)}, ("orientation of Ball", "unit quaternion", "1.00499", "Divide it")),
     ({"orientation": (0.0, 0.0, 0.0, 0.0)}, ("orientation of Ball", "unit quaternion")),
+    ({"orientation": (0.1, 0.2, 0.3)}, ("scalar first: (cos(angle / 2), axis * sin(angle / 2))", "turned_about")),
+    ({"velocty": (1.0, 0.0, 0.0)}, ("word of the start of Ball must be a known one", "Did you mean 'velocity'?")),
 ]
 
 

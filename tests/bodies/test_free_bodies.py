@@ -229,6 +229,12 @@ def test_mass_and_inertia_of_solids(body: FreeBody, rule: Any) -> None:
     assert shape.length >= float(np.max(np.linalg.norm(points, axis=1)))
 
 
+def test_a_ball_has_the_mass_that_is_given_or_that_of_its_density() -> None:
+    assert Ball(0.02, mass=0.3).total_mass == 0.3
+    assert Ball(0.02, mass=0.3).inertia[0] == pytest.approx(0.4 * 0.3 * 0.02**2)
+    assert Ball(0.02).total_mass == Ball(0.02, density=7800.0).total_mass == Ball(0.02, 7800.0).total_mass
+
+
 def test_thin_bodies_are_limits_of_solid_ones() -> None:
     """A disc is a flat cylinder, a rod a slender capsule."""
     disc, flat = DiscBody(0.1, mass=0.3), CylinderBody(0.1, 1e-5, mass=0.3)
@@ -324,6 +330,8 @@ BAD: list[tuple[Any, dict[str, Any], tuple[str, ...]]] = [
         {"radius": 1.0, "half_length": 1.0, "mass": 1.0, "density": 20.0},
         ("CylinderBody.mass", "together"),
     ),
+    (Ball, {"radius": 1.0, "mass": 1.0, "density": 20.0}, ("Ball.mass", "together")),
+    (Ball, {"radius": 0.02, "mass": -1.0}, ("Ball.mass", "> 0")),
     (ConeBody, {"radius": 1.0, "height": 1.0, "mass": 1.0, "density": 20.0}, ("ConeBody.mass", "together")),
     (ConeBody, {"radius": 1.0, "height": 0.1, "foot_height": 0.06}, ("ConeBody.foot_height", "half the length")),
     (CapsuleBody, {"radius": 1.0, "half_length": -1.0}, ("CapsuleBody.half_length", "> 0")),

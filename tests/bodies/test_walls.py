@@ -56,7 +56,7 @@ def test_every_plane_of_a_box_is_at_its_place(
     box, ball = OpenBox(0.03, 0.05, place, turn), Ball(0.01)
     inside = np.array([0.002, -0.004, 0.03])
     system = ns.System([box, ball], gravity=0.0)
-    system.contact_all(ns.Materials({}, LAWS))
+    system.contact_all(LAWS)
     system.place(ball, position=tuple(np.array(place) + rotation(turn) @ inside))
     np.testing.assert_allclose(Probe.of(system, ball).gaps(), [0.02, 0.022, 0.018, 0.036, 0.044], atol=1e-12)
 
@@ -66,7 +66,7 @@ def test_balls_stay_in_a_box_that_leans() -> None:
     box = OpenBox(0.03, 0.03, (0.1, 0.0, 0.0), (math.cos(0.1), 0.0, math.sin(0.1), 0.0))
     balls = [Ball(0.01), Ball(0.01)]
     system = ns.System([box, *balls])
-    system.contact_all(ns.Materials({}, LAWS))
+    system.contact_all(LAWS)
     for i, ball in enumerate(balls):
         system.place(ball, position=(0.1, 0.0, 0.02 + 0.03 * i), velocity=(half, half * (-1) ** i, 0.0))
     solution = ns.simulate(system, 1.0)
@@ -97,7 +97,7 @@ def test_a_driven_body_without_shapes_is_a_pivot() -> None:
     pivot, bob = DrivenBody(), Ball(0.05)
     system = ns.System([pivot, bob])
     system.joint(Distance(length=0.3), pivot, bob)
-    system.contact_all(ns.Materials({}, LAWS))
+    system.contact_all(LAWS)
     system.place(bob, position=(0.3, 0.0, 0.0))
     assert system.contacts == ()
     solution = ns.simulate(system, 1.0)

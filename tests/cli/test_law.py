@@ -97,14 +97,14 @@ def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> 
 @pytest.mark.parametrize(
     ("word", "told"),
     [
-        ("friction={file}:Flt", "class of my_law.py name must be a known one, but it is 'Flt'. Did you mean 'Flat'?"),
+        ("friction={file}:Flt", "class of my_law.py must be a known one, but it is 'Flt'. Did you mean 'Flat'?"),
         ("friction=no.py:Flat", "must name a file that exists, but it is 'no.py'."),
         ("friction={file}", "must name a class of the file"),
-        ("fricton={file}:Flat", "--law role name must be a known one, but it is 'fricton'. Did you mean 'friction'?"),
-        ("friction=columb", "--law friction name must be a known one, but it is 'columb'. Did you mean 'coulomb'?"),
+        ("fricton={file}:Flat", "--law role must be a known one, but it is 'fricton'. Did you mean 'friction'?"),
+        ("friction=columb", "--law friction must be a known one, but it is 'columb'. Did you mean 'coulomb'?"),
         (
             "friction=newton",
-            "--law friction name must be a known one, but it is 'newton'. That is an impact law. Known: ",
+            "--law friction must be a known one, but it is 'newton'. That is an impact law. Known: ",
         ),
         ("friction", "must have the form ROLE=LAW"),
         ("friction={file}:Flat,friction", "must have the form ROLE=LAW"),
@@ -113,7 +113,7 @@ def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> 
         ("friction=anisotropic,axis=1:b:0", "Anisotropic.axis must be numbers apart by colons, but it is '1:b:0'."),
         ("friction=anisotropic,along=1,across=1,axis=1:0", "Anisotropic.axis must be three finite numbers"),
         ("friction={file}:Flat,friction=-1", "Flat.friction must be >= 0 [1], but it is -1.0."),
-        ("friction={file}:Flat,frictio=1", "parameter of Flat name must be a known one, but it is 'frictio'."),
+        ("friction={file}:Flat,frictio=1", "parameter of Flat must be a known one, but it is 'frictio'."),
         ("friction={file}:Needy", "Needy.friction must be given, but it is None. Add friction=VALUE to --law"),
     ],
 )
@@ -221,3 +221,14 @@ def test_show_says_how_an_axis_is_written(call: Call) -> None:
     status, output, _ = call("show", "anisotropic")
     assert status == 0
     assert "numbers apart by colons" in output
+
+
+def test_a_run_with_a_law_of_a_file_is_looked_at_with_trust(call: Call, law: str) -> None:
+    assert call("run", "tiny", "--set", "t_end=0.05", "--law", f"friction={law}", "--out", "results")[0] == 0
+    status, _, errors = call("view", "results", "--html", "page.html")
+    assert status == 2
+    assert "results: the system that ran must be given, but it is None." in errors
+    assert "without ./my_law.py:Flat" in errors
+    assert "see --trust" in errors
+    assert call("view", "results", "--html", "page.html", "--trust")[0] == 0
+    assert call("export", "results", "run.csv", "--trust")[0] == 0

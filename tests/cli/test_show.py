@@ -19,7 +19,9 @@ def test_parameters_of_a_scenario(call: Call) -> None:
     status, output, errors = call("show", "tiny")
     assert status == 0
     assert errors == ""
-    assert output.startswith("tiny: scenario of tiny 0.1\n  A ball on a vibrating plate.\n")
+    assert output.startswith(
+        "tiny: scenario of tiny 0.1\n  A ball on a vibrating plate.\n  from tiny_scenario import Tiny\n\n"
+    )
     assert _row(output, "t_end") == ["t_end", "0.1", "s", ">", "0", "end", "time"]
     assert _row(output, "radius") == ["radius", "0.005", "*", "m", ">", "0", "radius", "of", "the", "ball"]
     assert _row(output, "mode")[:5] == ["mode", "bounce", "one", "of", "bounce,"]
@@ -45,6 +47,29 @@ def test_parameters_of_bodies_and_laws(call: Call, name: str, parameter: str, ro
     assert status == 0
     found = _row(output, parameter)
     assert row is None or found == row.split()
+
+
+@pytest.mark.parametrize(
+    ("word", "name", "line"),
+    [
+        ("BoxBody", "box: body of", "from bodies import BoxBody"),
+        ("box_body", "box: body of", "from bodies import BoxBody"),
+        ("Hinge", "hinge: joint of", "from bodies import Hinge"),
+        ("EnergeticImpact", "energetic: law of", "from laws import EnergeticImpact"),
+    ],
+)
+def test_a_class_is_shown_by_its_own_name(call: Call, word: str, name: str, line: str) -> None:
+    status, output, _ = call("show", word)
+    assert status == 0
+    assert output.startswith(name)
+    assert output.splitlines()[2] == f"  {line}"
+    assert "\n\n\n" not in output  # one of them
+
+
+def test_what_is_neither_a_name_nor_a_class_is_told(call: Call) -> None:
+    status, _, errors = call("show", "Hingge")
+    assert status == 2
+    assert "component must be a known one, but it is 'Hingge'. Did you mean 'hinge'?" in errors
 
 
 def test_what_has_no_parameters_says_so(call: Call) -> None:

@@ -19,7 +19,12 @@ Call = Callable[..., tuple[int, str, str]]
 def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Return the addresses that a browser was to open."""
     addresses: list[str] = []
-    monkeypatch.setattr("webbrowser.open", addresses.append)
+
+    def opens(address: str) -> bool:
+        addresses.append(address)
+        return True
+
+    monkeypatch.setattr("webbrowser.open", opens)
     return addresses
 
 
@@ -41,6 +46,23 @@ def test_a_run_may_be_opened_too(call: Call, opened: list[str]) -> None:
     assert status == 0
     assert output.startswith("tiny: done at t = 0.1 s")
     assert decoded(_page(opened[0]))[0]["title"] == "A ball on a vibrating plate"
+
+
+def test_without_a_browser_it_says_which_file_to_open(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("webbrowser.open", lambda _: False)
+    status, _, errors = call("view", "tiny", "--set", "t_end=0.05")
+    assert status == 0
+    assert "plays in the browser" not in errors
+    path = errors.partition("no browser was found; open this file: ")[2].splitlines()[0]
+    assert decoded(Path(path).read_text(encoding="utf-8"))[0]["status"] == "done"
+
+
+def test_an_ordinary_script_is_no_scenario(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text("")
+    status, _, errors = call("view", str(tmp_path / "mine.py"))
+    assert status == 2
+    assert "must have the form file.py:Class" in errors
+    assert "mine.py:MyScenario; a script is run by python itself." in errors
 
 
 def test_a_folder_of_results_is_opened_as_it_ran(call: Call, opened: list[str], tmp_path: Path) -> None:

@@ -120,7 +120,7 @@ def test_a_file_says_what_python_says(path: Path) -> None:
             '"toching"',
             "bodies.ball.start: place NAME IS 'toching'. Did you mean",
         ),
-        ("velocity", "velcity", "bodies.ball.start: start of Ball NAME IS 'velcity'."),
+        ("velocity", "velcity", "bodies.ball.start: word of the start of Ball NAME IS 'velcity'."),
         (
             "gravity = 9.81",
             "[engine]\ntolerance = 1.0",
@@ -153,7 +153,7 @@ def test_a_mistake_is_told_with_file_key_rule_value_and_remedy(path: Path, befor
         ns.load_system(path)
     message = str(raised.value)
     assert message.startswith(str(path))
-    assert told.replace("NAME IS", "name must be a known one, but it is") in message
+    assert told.replace("NAME IS", "must be a known one, but it is") in message
 
 
 def test_a_missing_file_is_told(tmp_path: Path) -> None:

@@ -101,7 +101,7 @@ def test_rates_of_coordinates_are_their_slopes() -> None:
 
 def test_a_contact_that_is_none_is_named() -> None:
     solution = ns.simulate(registry.load("scenarios", "bouncing_ball")().build(), 0.01)
-    with pytest.raises(ns.UnknownName, match=r"Solution\.contact_motion: contact name .*Known: plate - ball"):
+    with pytest.raises(ns.UnknownName, match=r"Solution\.contact_motion: contact must .*Known: plate - ball"):
         solution.contact_motion(0.0, ["plate"])
     with pytest.raises(ns.InvalidInput, match="within the run"):
         solution.contact_motion(1.0)

@@ -230,7 +230,7 @@ def test_momentum_of_three_balls(law: ImpactLaw) -> None:
     system.place(balls[2], position=(0.022 * 0.8, 0.022 * 0.6, 0.0))
     solution = ns.simulate(system, 0.05)
     radii = np.array([ball.radius for ball in balls])
-    masses = balls[0].density * 4.0 / 3.0 * np.pi * radii**3
+    masses = np.array([ball.total_mass for ball in balls])
     inertias = 0.4 * masses * radii**2
     totals = []
     for q, u in ((solution.q[0], solution.u[0]), (solution.q_end, solution.u_end)):

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 import nonsmooth as ns
 from bodies import Ball, Plate, Rest
@@ -198,9 +199,19 @@ def test_of_many_contacts_the_busiest() -> None:
 
 def test_they_are_composed(bounces: ns.Solution) -> None:
     """Several on axes of one's own."""
-    from matplotlib.figure import Figure
-
     top, bottom = Figure().subplots(2, 1, sharex=True)
     assert plot.gaps(bounces, ax=top) is top
     assert plot.energies(bounces, bottom) is bottom
     assert plot.modes(bounces, ax=top) is top
+
+
+@pytest.mark.parametrize("draw", [plot.gaps, plot.energies, plot.modes])
+@pytest.mark.parametrize("layout", [None, "tight", "constrained"])
+def test_the_legend_is_whole_on_axes_of_any_figure(bounces: ns.Solution, draw: Any, layout: Any) -> None:
+    figure = Figure(layout=layout)
+    ax = draw(bounces, ax=figure.subplots())
+    figure.draw_without_rendering()
+    legend, axes = ax.get_legend().get_window_extent(), ax.get_window_extent()
+    assert figure.bbox.x0 <= legend.x0
+    assert legend.x1 <= figure.bbox.x1
+    assert (legend.x0 >= axes.x1) == (layout is not None)  # beside the curves where there is room

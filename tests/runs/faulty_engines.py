@@ -113,18 +113,18 @@ class Idle(Blind):
 
 
 FAULTS: tuple[tuple[type[Engine], str], ...] = (
-    (WrongLayer, "layers name must be a known one, but it is 'nonsense'.*Known: .*flow"),
-    (WrongSetting, "settings name must be a known one, but it is 'nonsense'.*Known: acceleration_scale"),
-    (SetsOffset, "settings name must be a known one, but it is 'y'"),
+    (WrongLayer, "layers must be a known one, but it is 'nonsense'.*Known: .*flow"),
+    (WrongSetting, "settings must be a known one, but it is 'nonsense'.*Known: acceleration_scale"),
+    (SetsOffset, "settings must be a known one, but it is 'y'"),
     (SetsWord, "settings: rtol must be a number, but it is 'small'"),
-    (WrongCount, "counts name must be a known one, but it is 'nonsense'.*Known: n_pivoted"),
-    (TakenCount, "counts name must be a known one, but it is 'n_bodies'"),
+    (WrongCount, "counts must be a known one, but it is 'nonsense'.*Known: n_pivoted"),
+    (TakenCount, "counts must be a known one, but it is 'n_bodies'"),
     (NegativeCount, "counts: n_pivoted must be a whole number, not negative, but it is -1"),
     (TakenName, "own must be names in Python that no scalar.* has, but it is 'y'"),
-    (WrongLength, "own: room: count name must be a known one, but it is 'nonsense'"),
+    (WrongLength, "own: room: count must be a known one, but it is 'nonsense'"),
     (WrongStatus, "advance: its status must be DONE.*but it is 77"),
     (NoStatus, "advance: its status must be DONE.*but it is None"),
-    (WrongEntry, "advance: entry point name must be a known one, but it is 'nonsense'"),
+    (WrongEntry, "advance: entry point must be a known one, but it is 'nonsense'"),
     (DoneAtOnce, "advance: S.t must be at the end time 0.1 s where it is DONE, but it is 0"),
     (Idle, "advance must do a step.*but it is 'nothing done at t = 0 s'"),
 )

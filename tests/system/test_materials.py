@@ -60,7 +60,8 @@ def test_the_default_fills_gaps() -> None:
     assert _friction(system, balls[0], balls[1]) == [GLASS.friction]
     assert _friction(system, balls[0], balls[2]) == [OTHER.friction]
     everything, _, _ = _scene()
-    assert len(everything.contact_all(ns.Materials(default=OTHER))) == 9
+    assert len(everything.contact_all(OTHER)) == 9
+    assert {contact.impact for contact in everything.contacts} == {OTHER.impact}
 
 
 def test_pairs_of_their_own() -> None:
@@ -123,8 +124,8 @@ def test_wrong_materials_and_bodies() -> None:
     system, plates, balls = _scene()
     of: Any = {"steel": plates, "glass": balls}
     every = ns.Materials(default=OTHER)
-    _raises(("material name", "'glas'", "Did you mean 'glass'"), lambda: system.contact_all(TABLE, {"glas": balls}))
-    _raises(("material name", "Known: none"), lambda: system.contact_all(every, of))
+    _raises(("material must be", "'glas'", "Did you mean 'glass'"), lambda: system.contact_all(TABLE, {"glas": balls}))
+    _raises(("material must be", "Known: none"), lambda: system.contact_all(every, of))
     _raises(("body of this system",), lambda: system.contact_all(TABLE, of | {"glass": [*balls, Ball(0.01)]}))
     _raises(("bodies", "body of this system"), lambda: system.contact_all(every, bodies=[*balls, Ball(0.01)]))
     _raises(("exclude", "body of this system"), lambda: system.contact_all(every, exclude=[(balls[0], Ball(0.01))]))

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, Coordinate, Dumbbell, GeneralisedBody, Harmonic, Plate, PointFrame, Sphere
+from bodies import Ball, Box, Coordinate, Dumbbell, GeneralisedBody, Harmonic, Plate, PointFrame, Sphere
 from laws import Coulomb, EnergeticImpact, Frictionless, NewtonImpact, Unilateral
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.parameters import parameter
@@ -62,6 +62,20 @@ def test_a_ball_slides_down_oblique_gravity(build: Any) -> None:
     assert ns.simulate(system, 0.5).u_end[:3] == pytest.approx([0.5, -1.0, 0.0], abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ([Ball(0.01), Ball(0.02)], "Unpack a list of bodies by a star: System([plate, *balls])."),
+        (Box(0.1, 0.1, 0.1), "That is a shape; take a body that has it: BoxBody or one of `nonsmooth list bodies`."),
+        (Sphere(0.1), "That is a shape; take a body that has it: one of `nonsmooth list bodies`."),
+        (Ball, "Make an object of the class: Ball(...)."),
+        ("ball", "Give the object of a body."),
+    ],
+)
+def test_what_is_no_body_is_told_what_to_give(given: Any, said: str) -> None:
+    _raises(("System.bodies: each must be of the kind Body", said), lambda: ns.System([Plate(), given]))
+
+
 def test_contacts_need_bodies_of_the_system(build: Any) -> None:
     """Two different ones, both known, of shapes that can meet."""
     plate, ball, other = Plate(), Ball(0.01), Ball(0.02)
@@ -70,6 +84,10 @@ def test_contacts_need_bodies_of_the_system(build: Any) -> None:
     _raises(("System.contact", "body of this system", "Add it"), lambda: system.contact(plate, other, **laws))
     _raises(("System.contact", "two different bodies"), lambda: system.contact(ball, ball, **laws))
     _raises(("System.place", "body of this system"), lambda: system.place(other, position=(0, 0, 1)))
+    balls: Any = [ball, other]
+    one_at_a_time = "Give one body at a time"
+    _raises(("System.contact", one_at_a_time), lambda: system.contact(plate, balls, **laws))
+    _raises(("System.place", one_at_a_time), lambda: system.place(balls, position=(0, 0, 1)))
     two = ns.System([plate, Plate()])
     _raises(("System.contact", "Plane-Plane", "Known pairs"), lambda: two.contact(*two.bodies, **laws))
     assert system.contacts == ()
@@ -84,6 +102,16 @@ def test_contacts_need_laws(build: Any) -> None:
         for wrong in (None, 0.2, Ball(0.01)):
             words = ("System.contact", f"needs {kind}", "list laws")
             _raises(words, lambda name=name, wrong=wrong: system.contact(plate, ball, **(laws | {name: wrong})))  # type: ignore[misc]
+    instead: tuple[tuple[dict[str, Any], str], ...] = (
+        ({"normal": Coulomb(0.2), "friction": Unilateral()}, "normal needs a NormalLaw, but it is Coulomb"),
+        ({"normal": Coulomb(0.2), "friction": Unilateral()}, "That is a law for friction=."),
+        ({"friction": Unilateral()}, "That is a law for normal=."),
+        ({"friction": 0.3}, "A number is no law: give it to one of `nonsmooth list laws`"),
+        ({"normal": Unilateral}, "Make an object of the class: Unilateral(...)."),
+    )
+    for wrong_laws, said in instead:
+        told = ("System.contact: ", said)
+        _raises(told, lambda wrong=wrong_laws: system.contact(plate, ball, **(laws | wrong)))  # type: ignore[misc]
     words = ("System.contact", "needs an ImpactLaw", "list laws")
     _raises(words, lambda: system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(0.2)))
 
@@ -171,7 +199,10 @@ def test_overlap_at_the_start_is_refused(build: Any, depth: float) -> None:
     ball = Ball(0.01)
     system = build.over(ball)
     system.place(ball, position=(0, 0, 0.01 - depth))
-    _raises(("start of the contact", "must not overlap", "but it is -", "gap >= 0"), lambda: ns.simulate(system, 0.1))
+    _raises(
+        ("start of the contact", "must not overlap", "its gap must be >= 0 [m], but it is -", "by System.place"),
+        lambda: ns.simulate(system, 0.1),
+    )
     system.place(ball, position=(0, 0, 0.01))
     assert ns.simulate(system, 0.01).status == "done"
 
@@ -314,6 +345,30 @@ def test_a_parameter_nobody_gives_is_named(build: Any) -> None:
     system.place(ball, position=(0, 0, 0.02))
     with pytest.raises(ns.UnknownName, match="Did you mean 'stiffness'"):
         ns.simulate(system, 0.1)
+
+
+def test_a_field_that_is_no_parameter_is_told_how_to_become_one(build: Any) -> None:
+    @final
+    @dataclass(frozen=True)
+    class Plain(FrictionLaw):
+        """Its coefficient is a field like any other."""
+
+        k: float = 0.2
+
+        @staticmethod
+        def coefficient(speed: float, k: float) -> float:
+            return k
+
+        def is_fulfilled(self, slip: Any, normal_force: float, tangential_force: Any, tolerance: float) -> bool:
+            return True
+
+    ball, plate = Ball(0.01), Plate()
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, **(build.laws() | {"friction": Plain()}))
+    system.place(ball, position=(0, 0, 0.02))
+    with pytest.raises(ns.UnknownName, match="asks for a parameter that must be a known one, but it is 'k'") as caught:
+        ns.simulate(system, 0.1)
+    assert 'declared as one: k: float = parameter(0.2, doc="what it is").' in str(caught.value)
 
 
 MATRICES: dict[str, Any] = {

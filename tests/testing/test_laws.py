@@ -142,7 +142,11 @@ def test_smallest_input() -> None:
         (friction_dummies.endless, "time budget", ("coefficient(", "takes longer than 1 s", "endless in", "at line")),
         (friction_dummies.nan, "finite numbers", ("is nan", "nan in", "friction_dummies.py, line")),
         (friction_dummies.raising, "finite numbers", ("raises ValueError: too fast", "friction_dummies.py", "at line")),
-        (friction_dummies.absent, "known parameters", ("stifness", "Known: level", "friction_dummies.py, line")),
+        (
+            friction_dummies.absent,
+            "known parameters",
+            ("stifness", "Known: level", "declared as one: stifness: float = parameter(", "friction_dummies.py, line"),
+        ),
     ],
 )
 def test_source_lines(function: Any, name: str, words: tuple[str, ...]) -> None:

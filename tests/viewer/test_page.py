@@ -151,9 +151,18 @@ def test_a_notebook_gets_a_frame() -> None:
     assert 'sandbox="allow-scripts"' in text
 
 
-def test_view_opens_the_page(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("found", [True, False])
+def test_view_opens_the_page(found: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """Where there is no browser it says which file to open."""
     opened: list[str] = []
-    monkeypatch.setattr("webbrowser.open", opened.append)
+
+    def opens(address: str) -> bool:
+        opened.append(address)
+        return found
+
+    monkeypatch.setattr("webbrowser.open", opens)
     path = _run("bouncing_ball").view()
     assert opened == [path.as_uri()]
+    said = f"no browser was found; open this file: {path}" in capsys.readouterr().err
+    assert said is not found
     assert "nonsmooth-view/1" in path.read_text(encoding="utf-8")

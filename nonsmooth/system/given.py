@@ -1,0 +1,48 @@
+"""What is given as a body, and what to do where it is none."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import Any
+
+from nonsmooth.checks import check_kind
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Body, Shape
+from nonsmooth.plugins import registry
+
+
+def check_bodies(bodies: Sequence[Body]) -> None:
+    """Raise InvalidInput unless these are bodies for a system: at least one, each once."""
+    check_kind("System.bodies", bodies, Collection, "Write System([ball, plate]).")
+    for body in bodies:
+        several = "Unpack a list of bodies by a star: System([plate, *balls])."
+        check_kind("System.bodies: each", body, Body, several if isinstance(body, (list, tuple)) else _instead(body))
+    if len({id(body) for body in bodies}) != len(bodies) or not bodies:
+        raise InvalidInput(
+            "System.bodies",
+            "must be at least one body, each once",
+            [type(b).__name__ for b in bodies],
+            "Make a new object for another body of the same kind.",
+        )
+
+
+def stranger(where: str, given: Any) -> InvalidInput:
+    """Return the error of what is given for a body of the system, and is none."""
+    if isinstance(given, Body):
+        remedy = "Add it to System([...]) first."
+    elif isinstance(given, (list, tuple)):
+        remedy = "Give one body at a time, for example in a loop."
+    else:
+        remedy = _instead(given)
+    return InvalidInput(where, "needs a body of this system", given, remedy)
+
+
+def _instead(given: Any) -> str:
+    if isinstance(given, type):
+        return f"Make an object of the class: {given.__name__}(...)."
+    if isinstance(given, Shape):
+        # a solid of a shape has its name
+        name = registry.name_of(type(given)) or ""
+        known = [registry.load("bodies", name).__name__] if name in registry.names("bodies") else []
+        return f"That is a shape; take a body that has it: {' or '.join([*known, 'one of `nonsmooth list bodies`'])}."
+    return "Give the object of a body."
