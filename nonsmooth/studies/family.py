@@ -1,0 +1,86 @@
+"""Family: systems that differ in the values of parameters, and their models."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import final
+
+from nonsmooth.checks import is_finite
+from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.interfaces import Engine, Scenario
+from nonsmooth.parameters import rules
+from nonsmooth.runs.model import Model
+from nonsmooth.simulate import assemble
+from nonsmooth.system.system import System
+
+EXACT = EventDriven(tolerance=1e-12, impact_tolerance=1e-12, time_tolerance=1e-14)
+"""What derivatives are taken with: what the default tolerances leave at an event is as large as a small difference."""
+_KEPT = 64
+"""Models that are kept at most: those of the differences about one point, and of some more."""
+
+
+@final
+@dataclass(frozen=True)
+class Family:
+    """What makes systems out of values of parameters.
+
+    Attributes
+    ----------
+    make : callable
+        ``make(**values)`` returns a new System.
+    values : mapping of str to float
+        The values of all parameters that may be changed, with which ``make()`` makes its system.
+    changed : mapping of str to float
+        Those that have others; they alone are given to ``make``.
+    engine : Engine
+        What integrates the systems; :data:`EXACT` by default.
+    """
+
+    make: Callable[..., System]
+    values: Mapping[str, float]
+    engine: Engine = EXACT
+    changed: Mapping[str, float] = field(default_factory=dict)
+    _models: dict[tuple[tuple[str, float], ...], Model] = field(default_factory=dict, repr=False, compare=False)
+
+    @classmethod
+    def of(cls, what: Scenario | Family, engine: Engine = EXACT) -> Family:
+        """Return the family of a scenario, whose parameters are those that have a number; a family as it is."""
+        if isinstance(what, Family):
+            return what
+        if not isinstance(what, Scenario):
+            remedy = "Give a scenario, or Family(make, values) with a function that returns a System."
+            raise InvalidInput("studies", "must be of a scenario or a family", what, remedy)
+        given = {name: getattr(what, name) for name in rules(type(what))}
+        # what the scenario derives from others goes on following them, unless it is changed itself
+        values = {name: float(value) for name, value in what.resolved().items() if is_finite(value)}
+        return cls(lambda **changed: type(what)(**{**given, **changed}).build(), values, engine)
+
+    def __getitem__(self, name: str) -> float:
+        """Return the value of a parameter.
+
+        Raises
+        ------
+        UnknownName
+            If there is none of that name.
+        """
+        if name not in self.values:
+            raise UnknownName("parameter", name, set(self.values))
+        return float(self.changed.get(name, self.values[name]))
+
+    def at(self, **changed: float) -> Family:
+        """Return the family with other values, which shares its models."""
+        for name in changed:
+            _ = self[name]
+        return replace(self, changed={**self.changed, **changed})
+
+    def model(self, **changed: float) -> Model:
+        """Return the model of the system with some values changed."""
+        whole = self.at(**changed).changed
+        key = tuple(sorted(whole.items()))
+        if key not in self._models:
+            if len(self._models) >= _KEPT:
+                self._models.pop(next(iter(self._models)))
+            self._models[key] = assemble(self.make(**whole), self.engine)
+        return self._models[key]

@@ -1,0 +1,154 @@
+"""Parameters fitted to what was measured, by least squares."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import OptimizeResult, least_squares
+from scipy.stats.qmc import Sobol
+
+from nonsmooth.checks import check_callable, floats, is_finite
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.solution.state import State
+from nonsmooth.studies.family import Family
+from nonsmooth.studies.passage import passage
+
+Floats = NDArray[np.float64]
+Observe = Callable[[State], ArrayLike]
+_STEP = 1e-5
+"""Change of a parameter over its range in differences: of least squares, which need no more."""
+_REFINED = 3
+"""Points from which the search begins."""
+
+
+@final
+@dataclass(frozen=True)
+class Fit:
+    """A fit.
+
+    Attributes
+    ----------
+    values : mapping of str to float
+        The parameters found.
+    standard_errors : mapping of str to float
+        Of each, from the covariance.
+    covariance : array
+        Of the parameters, shape [p, p].
+    t : array
+        Times [s], shape [n].
+    measured, modelled : array
+        What was measured, and what the fitted system has, shape [n, k].
+    deviation : float
+        Standard deviation of their difference, in the unit of what was measured.
+    message : str
+        Why the search ended.
+    """
+
+    values: Mapping[str, float]
+    standard_errors: Mapping[str, float]
+    covariance: Floats
+    t: Floats
+    measured: Floats
+    modelled: Floats
+    deviation: float
+    message: str
+
+
+def fit(
+    what: Scenario | Family,
+    bounds: Mapping[str, tuple[float, float]],
+    *,
+    at: ArrayLike,
+    measured: ArrayLike,
+    observe: Observe,
+    starts: int = 64,
+) -> Fit:
+    """Fit parameters so that what is observed at given times comes closest to what was measured.
+
+    Where impacts come and go with a parameter, least squares have many hollows: the search begins in the deepest of
+    those that points spread evenly over the bounds lie in.
+
+    Parameters
+    ----------
+    what : Scenario or Family
+        The system; its values are where the search begins.
+    bounds : mapping of str to tuple of float
+        Least and largest value of each parameter that is fitted.
+    at : array
+        Times of the measurements, rising [s], shape [n].
+    measured : array
+        Shape [n, k], or [n]; nan where nothing was measured.
+    observe : callable
+        ``observe(state)`` returns what is measured of a state, shape [k].
+    starts : int
+        Points besides that of the system from which the search may begin, a power of two; it does from the best three.
+
+    Raises
+    ------
+    UnknownName
+        If there is no such parameter.
+    InvalidInput
+        If bounds, times or measurements are not valid, or there are fewer numbers than parameters.
+    """
+    check_callable("fit: observe", observe, "observe(state)")
+    times = np.atleast_1d(floats("fit: at", at))
+    if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
+        raise InvalidInput("fit: at", "must be positive, rising times", times.tolist(), "Give them in [s].")
+    data = np.asarray(measured, dtype=float).reshape(len(times), -1)
+    family, names = Family.of(what), tuple(bounds)
+    low, high = _bounds(family, bounds)
+    given = np.isfinite(data)
+    if np.count_nonzero(given) < len(names) or not names:
+        raise InvalidInput("fit: measured", "must be more numbers than parameters", int(np.count_nonzero(given)), "")
+
+    def modelled(values: Floats) -> Floats:
+        model, rows = family.model(**dict(zip(names, values.tolist(), strict=True))), list[Floats]()
+        state = model.start
+        for time in times.tolist():
+            state = passage(model, state, time).state
+            rows.append(np.atleast_1d(np.asarray(observe(state), dtype=float)))
+        return np.array(rows)
+
+    def residual(shares: Floats) -> Floats:
+        return np.asarray((modelled(low + shares * (high - low)) - data)[given])
+
+    own = np.clip([(family[name] - a) / (b - a) for name, a, b in zip(names, low, high, strict=True)], 0.0, 1.0)
+    spread = Sobol(len(names), seed=0).random(starts) if starts else np.zeros((0, len(names)))
+    points = np.concatenate([own[None], spread])
+    best = np.argsort([float(np.sum(residual(point) ** 2)) for point in points], kind="stable")[:_REFINED]
+    found = min((_refined(residual, points[i]) for i in best), key=lambda one: float(one.cost))
+    values = low + found.x * (high - low)
+    freedom = max(1, len(found.fun) - len(names))
+    deviation = float(np.sqrt(np.sum(found.fun**2) / freedom))
+    inverse = np.linalg.pinv(found.jac.T @ found.jac)
+    covariance = deviation**2 * inverse * np.outer(high - low, high - low)
+    errors = np.sqrt(np.diag(covariance))
+    return Fit(
+        dict(zip(names, values.tolist(), strict=True)),
+        dict(zip(names, errors.tolist(), strict=True)),
+        covariance,
+        times,
+        data,
+        modelled(values),
+        deviation,
+        str(found.message),
+    )
+
+
+def _refined(residual: Callable[[Floats], Floats], begin: Floats) -> OptimizeResult:
+    inside = np.clip(begin, 1e-3, 1.0 - 1e-3)
+    return least_squares(residual, inside, bounds=(0.0, 1.0), diff_step=_STEP, xtol=1e-10)
+
+
+def _bounds(family: Family, bounds: Mapping[str, tuple[float, float]]) -> tuple[Floats, Floats]:
+    for name, (low, high) in bounds.items():
+        value = family[name]
+        if not (is_finite(low) and is_finite(high) and low < high and low <= value <= high):
+            remedy = f"The search begins at {value:.9g}."
+            raise InvalidInput(f"fit: bounds of {name}", "must be a range around where it begins", (low, high), remedy)
+    return np.array([low for low, _ in bounds.values()]), np.array([high for _, high in bounds.values()])

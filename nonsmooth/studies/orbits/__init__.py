@@ -1,0 +1,1 @@
+"""Periodic orbits: found, followed along a parameter, and what happens to them there."""

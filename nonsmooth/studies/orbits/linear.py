@@ -1,0 +1,159 @@
+"""The linear part of a map from a state to a later one: by differences about it, direction by direction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.runs.model import Model
+from nonsmooth.solution.state import State
+from nonsmooth.studies.chart import Chart
+from nonsmooth.studies.passage import Passage, Signature, passage
+from nonsmooth.studies.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Sampled, Stencil, slope
+
+Floats = NDArray[np.float64]
+STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
+"""Changes, in units of scales, of which that is taken that agrees best with the next smaller one: where flights are as
+small as a change of the larger ones, these say nothing, and of the smaller ones round-off is left."""
+
+
+@final
+@dataclass(frozen=True)
+class Corner:
+    """A direction in which a map has no derivative, as events change their order on either side.
+
+    Attributes
+    ----------
+    direction : str
+        What is changed.
+    before, behind : array
+        One-sided derivatives on the side of less and of more; nan where events change there, too; shape [m].
+    signatures : tuple of Signature
+        The events on the side of less and of more.
+    """
+
+    direction: str
+    before: Floats
+    behind: Floats
+    signatures: tuple[Signature, Signature]
+
+
+@final
+@dataclass(frozen=True)
+class Linear:
+    """A map about a state.
+
+    Attributes
+    ----------
+    chart : Chart
+        The directions at the state.
+    end : Passage
+        Where the map leads.
+    way : array
+        How far along the directions that is, shape [m].
+    matrix : array
+        The derivatives of the end along the directions, a column for each; nan where there is none; shape [m, m].
+    corners : tuple of Corner
+        The directions without one.
+    step : float
+        The least change that derivatives were taken with, in units of scales.
+    """
+
+    chart: Chart
+    end: Passage
+    way: Floats
+    matrix: Floats
+    corners: tuple[Corner, ...]
+    step: float
+
+
+def linear(
+    model: Model, state: State, t_end: float, within: Sequence[str] | None, steps: Sequence[float] = STEPS
+) -> Linear:
+    """Return the map from a state to a time [s], along the coordinates that are named.
+
+    The steps are those that may be taken; one that is known to be good saves the others.
+
+    Raises
+    ------
+    UnknownName
+        If a coordinate has no such name.
+    RunFailed
+        If a run cannot go on.
+    """
+    chart = Chart.at(model.system, state, within)
+    end = passage(model, state, t_end)
+    columns, corners, taken = list[Floats](), list[Corner](), [max(steps)]
+    for k, name in enumerate(chart.names):
+        sampled = _moved(model, state, t_end, chart, np.eye(len(chart.names))[k], end.state)
+        try:
+            column, step = steady_slope(sampled, end.signature, steps)
+            columns.append(column)
+            taken.append(step)
+        except OrderOfEvents:
+            columns.append(np.full(len(chart.names), np.nan))
+            corners.append(_corner(name, sampled))
+    matrix = np.array(columns).reshape(len(columns), -1).T
+    return Linear(chart, end, chart.between(state, end.state), matrix, tuple(corners), min(taken))
+
+
+def steady_slope(
+    sampled: Sampled, expected: Signature, steps: Sequence[float] = STEPS, stencil: Stencil = CENTRAL
+) -> tuple[Floats, float]:
+    """Return the derivative, and its step: the one whose result changes least with the next smaller one.
+
+    Raises
+    ------
+    OrderOfEvents
+        If all steps change the order of events.
+    InvalidInput
+        If no change makes a start.
+    """
+    best, least, last, trouble = None, np.inf, None, None
+    for step in steps:
+        try:
+            found = slope(sampled, step, expected, stencil), step
+        except (OrderOfEvents, InvalidInput) as error:
+            # a start that overlaps is refused: that change was too large, too
+            trouble, last = error, None
+            continue
+        if last is not None:
+            differs = float(np.max(np.abs(found[0] - last[0]), initial=0.0))
+            if differs < least:
+                best, least = last, differs
+            elif best is not None:
+                return best
+        last = found
+    chosen = last if best is None else best
+    if chosen is None:
+        assert trouble is not None
+        raise trouble
+    return chosen
+
+
+def _moved(model: Model, state: State, t_end: float, chart: Chart, way: Floats, origin: State) -> Sampled:
+    def sampled(change: float) -> tuple[Floats, Signature]:
+        end = passage(model, chart.moved(state, change * way), t_end)
+        return chart.between(origin, end.state), end.signature
+
+    return sampled
+
+
+def _corner(name: str, sampled: Sampled) -> Corner:
+    sides, told = list[Floats](), list[Signature]()
+    for sign, stencil in ((-1.0, BACKWARD), (1.0, FORWARD)):
+        size = len(sampled(0.0)[0])
+        _, signature = sampled(sign * STEPS[-1])
+        told.append(signature)
+        inner = tuple((offset + int(sign), weight) for offset, weight in stencil)
+        try:
+            # next to the corner, not at it: what happens there belongs to neither side
+            sides.append(steady_slope(sampled, signature, stencil=inner)[0])
+        except OrderOfEvents:
+            sides.append(np.full(size, np.nan))
+    return Corner(name, sides[0], sides[1], (told[0], told[1]))

@@ -1,0 +1,163 @@
+"""Sensitivities: how the state at given times changes with parameters, through flow, impacts, stick and slip."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nonsmooth.checks import floats
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.runs.model import Model
+from nonsmooth.studies.family import Family
+from nonsmooth.studies.passage import Signature, named, passage
+from nonsmooth.studies.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Stencil, slope
+
+Floats = NDArray[np.float64]
+_STEPS = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6)
+"""Changes of a parameter over its value, of which that is taken that agrees best with the next smaller one."""
+
+
+class NotDifferentiable(InvalidInput):
+    """A state has no derivative with respect to a parameter: the smallest change reorders events."""
+
+
+@final
+@dataclass(frozen=True)
+class Sensitivity:
+    """Derivatives of a motion with respect to parameters.
+
+    Attributes
+    ----------
+    t : array
+        Times [s], shape [n].
+    parameters : tuple of str
+        With respect to what.
+    q, u : array
+        Coordinates and velocities there, shapes [n, n_q] and [n, n_u].
+    q_by, u_by : array
+        Their derivatives, shapes [n, n_q, p] and [n, n_u, p], in units of q and u over that of the parameter.
+    error : array
+        By how much those of the next smaller step differ, relative to the largest one, per parameter, shape [p].
+    """
+
+    t: Floats
+    parameters: tuple[str, ...]
+    q: Floats
+    u: Floats
+    q_by: Floats
+    u_by: Floats
+    error: Floats
+
+
+def sensitivity(what: Scenario | Family, parameters: Sequence[str], *, at: ArrayLike) -> Sensitivity:
+    """Return how the states at given times change with parameters.
+
+    Runs with parameters a little changed pass the same events at other times, to which the derivative is due where a
+    velocity jumps; differences of fourth order of whole runs, each with its events located, hold all of it.  A change
+    that reorders events, adds some or takes some away is made smaller; where that does not help there is none.
+
+    Parameters
+    ----------
+    what : Scenario or Family
+        The system.
+    parameters : sequence of str
+        Names of parameters.
+    at : array
+        Times, rising [s], shape [n].  Just where a velocity jumps it has no derivative.
+
+    Raises
+    ------
+    UnknownName
+        If there is no such parameter.
+    InvalidInput
+        If times do not rise from 0.
+    NotDifferentiable
+        If the smallest change of a parameter reorders events; it says which.
+    """
+    times = np.atleast_1d(floats("sensitivity: at", at))
+    if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
+        raise InvalidInput("sensitivity: at", "must be positive, rising times", times.tolist(), "Give them in [s].")
+    family = Family.of(what)
+    states, expected = _course(family.model(), times)
+    columns, errors = list[Floats](), list[float]()
+    for name in parameters:
+        column, error = _steady(family, name, times, expected)
+        columns.append(column)
+        errors.append(error)
+    n_q = len(family.model().start.q)
+    by = np.stack(columns, axis=-1) if columns else np.zeros((*states.shape, 0))
+    return Sensitivity(
+        times, tuple(parameters), states[:, :n_q], states[:, n_q:], by[:, :n_q], by[:, n_q:], np.array(errors)
+    )
+
+
+def _course(model: Model, times: Floats) -> tuple[Floats, Signature]:
+    """Return the states at times, shape [n, n_q + n_u], and all events; a mark lies between the times."""
+    state, rows, told = model.start, list[Floats](), list[tuple[int, int]]()
+    for time in times.tolist():
+        piece = passage(model, state, time)
+        state = piece.state
+        rows.append(np.concatenate([state.q, state.u]))
+        told += [*piece.signature, (-1, -1)]
+    return np.array(rows), tuple(told)
+
+
+def _steady(family: Family, name: str, times: Floats, expected: Signature) -> tuple[Floats, float]:
+    value = family[name]
+    unit = abs(value) if value else 1.0
+    best, least, last, trouble = None, math.inf, None, None
+    for step in _STEPS:
+        try:
+            found = _slope(family, name, times, expected, step * unit)
+        except OrderOfEvents as error:
+            trouble, last = error, None
+            continue
+        if last is not None:
+            differs = float(np.max(np.abs(found - last)) / max(float(np.max(np.abs(found))), np.finfo(float).tiny))
+            if differs < least:
+                best, least = last, differs
+            elif best is not None:
+                break
+        last = found
+    if best is not None:
+        return best, least
+    if last is not None:
+        return last, math.nan
+    assert trouble is not None
+    raise _refused(family, name, value, trouble)
+
+
+def _slope(family: Family, name: str, times: Floats, expected: Signature, step: float) -> Floats:
+    """Return the derivatives with a step; from one side where the parameter has no other."""
+
+    def sampled(change: float) -> tuple[Floats, Signature]:
+        return _course(family.model(**{name: family[name] + change}), times)
+
+    trouble: InvalidInput | None = None
+    stencils: tuple[Stencil, ...] = (CENTRAL, FORWARD, BACKWARD)
+    for stencil in stencils:
+        try:
+            return slope(sampled, step, expected, stencil)
+        except InvalidInput as error:
+            trouble = error
+    assert trouble is not None
+    raise trouble
+
+
+def _refused(family: Family, name: str, value: float, trouble: OrderOfEvents) -> NotDifferentiable:
+    one, two = ([event for event in events if event[0] >= 0] for events in (trouble.one, trouble.two))
+    first = next((i for i, (a, b) in enumerate(zip(one, two, strict=False)) if a != b), min(len(one), len(two)))
+    model = family.model()
+    without, with_it = (named(tuple(events[first : first + 2]), model) for events in (one, two))
+    return NotDifferentiable(
+        f"sensitivity: {name}",
+        f"must not reorder events; event {first + 1} is {without}, and with the least change {with_it}",
+        value,
+        "There is no derivative here, or one on each side: move the parameter, or end before this event.",
+    )
