@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from nonsmooth.errors import InvalidInput
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
-from nonsmooth.studies.chart import Chart
-from nonsmooth.studies.passage import Passage, Signature, passage
-from nonsmooth.studies.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Sampled, Stencil, slope
+from nonsmooth.studies.derivatives.chart import Chart
+from nonsmooth.studies.derivatives.passage import Passage, Signature, passage
+from nonsmooth.studies.derivatives.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Sampled, Stencil, slope
 
 Floats = NDArray[np.float64]
 STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)

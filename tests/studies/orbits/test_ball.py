@@ -13,9 +13,9 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
-from nonsmooth.studies.orbits.continuation import continuation
-from nonsmooth.studies.orbits.lyapunov import lyapunov
-from nonsmooth.studies.orbits.orbit import NoOrbit, Orbit, orbit
+from nonsmooth.studies.orbits.exponents import lyapunov
+from nonsmooth.studies.orbits.following import continuation
+from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from scenarios.bouncing_ball.scenario import BouncingBall
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")

@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 import nonsmooth as ns
 from bodies import Dumbbell
 from nonsmooth.engine.native.kernel import PLAIN
-from nonsmooth.studies.orbits.continuation import continuation
-from nonsmooth.studies.orbits.orbit import Orbit, orbit
+from nonsmooth.studies.orbits.following import continuation
+from nonsmooth.studies.orbits.periodic import Orbit, orbit
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")

@@ -14,9 +14,9 @@ from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
-from nonsmooth.studies.family import Family
+from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.passage import Signature, named, passage
 from nonsmooth.studies.orbits.linear import Corner, Linear, linear
-from nonsmooth.studies.passage import Signature, named, passage
 
 Floats = NDArray[np.float64]
 _CLOSE = 1e-12

@@ -14,11 +14,11 @@ from scipy.optimize import brentq
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.solution.state import State
-from nonsmooth.studies.family import Family
+from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.passage import Signature, passage
+from nonsmooth.studies.derivatives.slope import OrderOfEvents, Sampled, slope
 from nonsmooth.studies.orbits.linear import STEPS, linear
-from nonsmooth.studies.orbits.orbit import NoOrbit, Orbit
-from nonsmooth.studies.passage import Signature, passage
-from nonsmooth.studies.slope import OrderOfEvents, Sampled, slope
+from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
 
 Floats = NDArray[np.float64]
 _CLOSE = 1e-11
@@ -174,6 +174,7 @@ def continuation(
     *,
     period: Callable[[float], float] | None = None,
     most: int = _MOST,
+    progress: Callable[[Orbit, int], None] | None = None,
 ) -> Branch:
     """Follow an orbit along a parameter, both ways, as far as a range or its events go.
 
@@ -189,6 +190,8 @@ def continuation(
         The period [s] at a value of the parameter; that of the orbit by default.
     most : int
         Steps at most, either way.
+    progress : callable, optional
+        Called with each orbit found and their number.
 
     Raises
     ------
@@ -212,14 +215,24 @@ def continuation(
     first, rest = path.at(orbit.state, value, None)
     tangent = rest[len(first.map.way) :]
     up = tangent if tangent[-1] >= 0.0 else -tangent
-    back, special_back, why_back = _followed(path, _Point(first, -up), most)
-    on, special_on, why_on = _followed(path, _Point(first, up), most)
+    count = 0
+
+    def told(found: Orbit) -> None:
+        nonlocal count
+        count += 1
+        if progress is not None:
+            progress(found, count)
+
+    back, special_back, why_back = _followed(path, _Point(first, -up), most, told)
+    on, special_on, why_on = _followed(path, _Point(first, up), most, told)
     orbits = (*(p.orbit for p in reversed(back)), first, *(p.orbit for p in on))
     values = np.array([one.family[name] for one in orbits])
     return Branch(name, values, orbits, (*reversed(special_back), *special_on), f"{why_back}; {why_on}")
 
 
-def _followed(path: _Path, point: _Point, most: int) -> tuple[list[_Point], list[Special], str]:
+def _followed(
+    path: _Path, point: _Point, most: int, told: Callable[[Orbit], None]
+) -> tuple[list[_Point], list[Special], str]:
     found, special, step = list[_Point](), list[Special](), _FIRST
     while len(found) < most:
         try:
@@ -239,6 +252,7 @@ def _followed(path: _Path, point: _Point, most: int) -> tuple[list[_Point], list
             continue
         special += _between(path, point, step, following)
         found.append(following)
+        told(following.orbit)
         point, step = following, min(_GROWS * step, _LARGEST)
     return found, special, f"{most} steps"
 

@@ -14,9 +14,9 @@ from nonsmooth.checks import floats
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Scenario
 from nonsmooth.runs.model import Model
-from nonsmooth.studies.family import Family
-from nonsmooth.studies.passage import Signature, named, passage
-from nonsmooth.studies.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Stencil, slope
+from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.passage import Signature, named, passage
+from nonsmooth.studies.derivatives.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Stencil, slope
 
 Floats = NDArray[np.float64]
 _STEPS = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,11 +15,11 @@ from nonsmooth.checks import check_callable, floats, is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Scenario
 from nonsmooth.solution.state import State
-from nonsmooth.studies.family import Family
-from nonsmooth.studies.passage import passage
+from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.passage import passage
 
 Floats = NDArray[np.float64]
-Observe = Callable[[State], ArrayLike]
+Observe = Callable[[State], Any]
 _STEP = 1e-5
 """Change of a parameter over its range in differences: of least squares, which need no more."""
 _REFINED = 3

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import NonsmoothError
-from nonsmooth.studies.passage import Signature
+from nonsmooth.studies.derivatives.passage import Signature
 
 Floats = NDArray[np.float64]
 Key = TypeVar("Key")

@@ -31,9 +31,7 @@ class Family:
     make : callable
         ``make(**values)`` returns a new System.
     values : mapping of str to float
-        The values of all parameters that may be changed, with which ``make()`` makes its system.
-    changed : mapping of str to float
-        Those that have others; they alone are given to ``make``.
+        The values of all parameters that may be changed.
     engine : Engine
         What integrates the systems; :data:`EXACT` by default.
     """
@@ -41,8 +39,7 @@ class Family:
     make: Callable[..., System]
     values: Mapping[str, float]
     engine: Engine = EXACT
-    changed: Mapping[str, float] = field(default_factory=dict)
-    _models: dict[tuple[tuple[str, float], ...], Model] = field(default_factory=dict, repr=False, compare=False)
+    _models: dict[tuple[float, ...], Model] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
     def of(cls, what: Scenario | Family, engine: Engine = EXACT) -> Family:
@@ -53,9 +50,13 @@ class Family:
             remedy = "Give a scenario, or Family(make, values) with a function that returns a System."
             raise InvalidInput("studies", "must be of a scenario or a family", what, remedy)
         given = {name: getattr(what, name) for name in rules(type(what))}
-        # what the scenario derives from others goes on following them, unless it is changed itself
-        values = {name: float(value) for name, value in what.resolved().items() if is_finite(value)}
-        return cls(lambda **changed: type(what)(**{**given, **changed}).build(), values, engine)
+        known = {name: float(value) for name, value in what.resolved().items() if is_finite(value)}
+
+        def make(**values: float) -> System:
+            # what the scenario derives from others goes on following them, unless it is changed itself
+            return type(what)(**{**given, **{n: x for n, x in values.items() if x != known[n]}}).build()
+
+        return cls(make, known, engine)
 
     def __getitem__(self, name: str) -> float:
         """Return the value of a parameter.
@@ -67,20 +68,20 @@ class Family:
         """
         if name not in self.values:
             raise UnknownName("parameter", name, set(self.values))
-        return float(self.changed.get(name, self.values[name]))
+        return float(self.values[name])
 
     def at(self, **changed: float) -> Family:
         """Return the family with other values, which shares its models."""
         for name in changed:
             _ = self[name]
-        return replace(self, changed={**self.changed, **changed})
+        return replace(self, values={**self.values, **changed})
 
     def model(self, **changed: float) -> Model:
         """Return the model of the system with some values changed."""
-        whole = self.at(**changed).changed
-        key = tuple(sorted(whole.items()))
+        values = self.at(**changed).values
+        key = tuple(values.values())
         if key not in self._models:
             if len(self._models) >= _KEPT:
                 self._models.pop(next(iter(self._models)))
-            self._models[key] = assemble(self.make(**whole), self.engine)
+            self._models[key] = assemble(self.make(**values), self.engine)
         return self._models[key]

@@ -13,9 +13,9 @@ from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Scenario
 from nonsmooth.solution.state import State
-from nonsmooth.studies.family import Family
+from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.linear import linear
-from nonsmooth.studies.orbits.orbit import section
+from nonsmooth.studies.orbits.periodic import section
 
 Floats = NDArray[np.float64]
 
@@ -64,7 +64,7 @@ def lyapunov(
     settle : float
         Time to run before [s].
     within : sequence of str, optional
-        Names of coordinates and velocities along which neighbours are (:func:`nonsmooth.studies.orbits.orbit.orbit`).
+        Names of coordinates and velocities along which neighbours are (:func:`orbit`).
 
     Raises
     ------

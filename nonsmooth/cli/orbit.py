@@ -1,0 +1,125 @@
+"""``nonsmooth orbit`` and ``continue``: the orbit that a scenario comes to, and orbits along a parameter."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from nonsmooth.cli import extras, outputs, request, results
+from nonsmooth.cli.messages import say, tell
+from nonsmooth.errors import InvalidInput
+
+if TYPE_CHECKING:
+    from nonsmooth.studies.orbits import Branch, Orbit
+
+
+def add_to(commands: Any) -> None:
+    """Add both commands to the parser."""
+    for name, text, execute in (
+        ("orbit", "find the orbit that a scenario comes to, and its multipliers", _execute_orbit),
+        ("continue", "follow that orbit along a parameter", _execute_continue),
+    ):
+        command = commands.add_parser(name, help=text, allow_abbrev=False)
+        command.add_argument("scenario", metavar="SCENARIO", help="as for `run`")
+        command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
+        command.add_argument("--period", type=float, required=True, metavar="SECONDS", help="after which it repeats")
+        command.add_argument(
+            "--settle", type=float, default=0.0, metavar="SECONDS", help="time to run before; none by default"
+        )
+        command.add_argument(
+            "--within",
+            metavar="NAMES",
+            help="coordinates and velocities that repeat, apart by commas (z,ry,vz,wy); all by default",
+        )
+        if name == "continue":
+            command.add_argument("--over", required=True, metavar="NAME=FROM:TO", help="the parameter and its range")
+            command.add_argument("--show", metavar="NAME", help="coordinate of the picture; the first of --within")
+        command.add_argument("--out", type=Path, metavar="DIR", help="save a picture and numbers there")
+        outputs.add_to(command)
+        command.set_defaults(execute=execute)
+
+
+def _execute_orbit(arguments: argparse.Namespace) -> bool:
+    found = _found(arguments)
+    say(str(found))
+    if arguments.out is None:
+        return True
+    from nonsmooth.studies.orbits.pictures import multipliers
+
+    return _saved(arguments.out, "multipliers", multipliers(found), "\n".join(map(str, found.multipliers)))
+
+
+def _execute_continue(arguments: argparse.Namespace) -> bool:
+    name, low, high = _over(arguments.over)
+    found = _found(arguments)
+    from nonsmooth.studies.orbits import continuation
+
+    shown = arguments.show or found.map.chart.names[0]
+    number = _number(found, shown)
+
+    def progress(orbit: Orbit, count: int) -> None:
+        if count % 10 == 0:
+            tell(f"{count} orbits, {name} = {orbit.family[name]:.6g}")
+
+    branch = continuation(found, name, (low, high), progress=progress)
+    say(f"{len(branch.orbits)} orbits, {name} from {branch.values.min():.9g} to {branch.values.max():.9g}")
+    say(f"ends by {branch.ending}")
+    for one in branch.special:
+        say(f"{one.kind} at {name} = {one.value:.12g}")
+    if arguments.out is None:
+        return True
+    from nonsmooth.studies.orbits.pictures import branch as drawn
+
+    axes = drawn(branch, lambda orbit: float(np.concatenate([orbit.state.q, orbit.state.u])[number]), shown)
+    return _saved(arguments.out, "branch", axes, _table(branch))
+
+
+def _found(arguments: argparse.Namespace) -> Orbit:
+    if arguments.out is not None:
+        extras.require(extras.PICTURES)
+        outputs.prepare_folder(arguments.out, arguments.overwrite)
+        results.without_display()
+    job = request.job(arguments.scenario, arguments.set)
+    # imported when asked for: the other commands start faster without it
+    from nonsmooth.studies.orbits import orbit
+
+    within = None if arguments.within is None else tuple(word.strip() for word in arguments.within.split(","))
+    return orbit(job.scenario, arguments.period, settle=arguments.settle, within=within)
+
+
+def _over(word: str) -> tuple[str, float, float]:
+    name, equals, span = word.partition("=")
+    low, colon, high = span.partition(":")
+    try:
+        if name and equals and colon:
+            return name.strip(), float(low), float(high)
+    except ValueError:
+        pass
+    raise InvalidInput("--over", "must have the form NAME=FROM:TO", word, "For example --over gamma=0.3:1.2.")
+
+
+def _number(orbit: Orbit, name: str) -> int:
+    """Return where a coordinate stands behind one another with all coordinates and velocities."""
+    from nonsmooth.studies.derivatives.chart import Chart
+
+    column = Chart.at(orbit.family.model().system, orbit.state, (name,)).basis
+    return int(np.argmax(np.abs(column[:, 0])))
+
+
+def _table(branch: Branch) -> str:
+    """Return the values, the largest multipliers, and whether orbits are stable, as CSV."""
+    rows = [f"{branch.name},largest_multiplier,stable"]
+    for value, orbit in zip(branch.values.tolist(), branch.orbits, strict=True):
+        rows.append(f"{value!r},{float(np.max(np.abs(orbit.multipliers)))!r},{int(orbit.stable)}")
+    return "\n".join(rows)
+
+
+def _saved(folder: Path, name: str, axes: Any, text: str) -> bool:
+    troubles: list[str] = []
+    paths = results.save_figures({name: axes.figure}, folder, troubles)
+    results.save_text(text, folder / f"{name}.csv", troubles)
+    say("\n".join(map(str, [*paths, folder / f"{name}.csv"])))
+    return not troubles

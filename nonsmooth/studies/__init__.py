@@ -1,0 +1,1 @@
+"""Many runs of a system, and what they have in common."""

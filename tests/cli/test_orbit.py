@@ -1,0 +1,50 @@
+"""``nonsmooth orbit`` and ``continue``: what they print and save, and what they refuse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from nonsmooth.engine.native.kernel import PLAIN
+
+Call = Callable[..., tuple[int, str, str]]
+BALL = ("bouncing_ball", "--set", "gamma=0.8", "--set", "start_phase=1.1", "--set", "speed=0.19")
+ASKED = (*BALL, "--period", "0.04", "--within", "z,vz")
+pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
+
+
+def test_an_orbit(call: Call, tmp_path: Path) -> None:
+    status, output, _ = call("orbit", *ASKED, "--out", str(tmp_path / "out"))
+    assert status == 0
+    assert "multipliers -0.34612213+0.72124855j" in output
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["multipliers.csv", "multipliers.png"]
+    status, _, errors = call("orbit", *ASKED, "--out", str(tmp_path / "out"))
+    assert status == 2
+    assert "--overwrite" in errors
+
+
+def test_along_a_parameter(call: Call, tmp_path: Path) -> None:
+    status, output, _ = call("continue", *ASKED, "--over", "gamma=0.78:0.82", "--out", str(tmp_path / "out"))
+    assert status == 0
+    assert "gamma from 0.78" in output
+    lines = (tmp_path / "out" / "branch.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "gamma,largest_multiplier,stable"
+    assert all(line.split(",")[1].startswith(("0.8", "0.79999")) for line in lines[1:])
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("orbit", *BALL, "--period", "-1"), "period must be positive and finite, but it is -1.0"),
+        (("orbit", *BALL, "--period", "0.04", "--within", "z,vx2"), "'vx2'"),
+        (("continue", *ASKED, "--over", "gamma=0.7"), "--over must have the form NAME=FROM:TO"),
+        (("continue", *ASKED, "--over", "gama=0.7:0.9"), "Did you mean 'gamma'"),
+        (("continue", *ASKED, "--over", "gamma=0.9:1.0"), "around the value of the orbit"),
+    ],
+)
+def test_what_is_refused(call: Call, words: tuple[str, ...], said: str) -> None:
+    status, _, errors = call(*words)
+    assert status == 2
+    assert said in errors

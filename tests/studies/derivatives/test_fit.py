@@ -1,0 +1,59 @@
+"""Parameters found again in measurements that were made with them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.least_squares import fit
+from nonsmooth.studies.derivatives.passage import passage
+from nonsmooth.types import Floats
+from scenarios.dumbbell.scenario import DumbbellScenario
+
+pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
+TIMES = np.linspace(0.01, 0.2, 20)
+BOUNDS = {"restitution": (0.5, 0.9), "friction": (0.05, 0.5)}
+
+
+def _place(state: State) -> Floats:
+    return np.array(state.q[:3])
+
+
+def _measured(family: Family) -> Floats:
+    model, rows = family.model(), list[Floats]()
+    state = model.start
+    for time in TIMES.tolist():
+        state = passage(model, state, time).state
+        rows.append(_place(state))
+    return np.array(rows)
+
+
+def test_restitution_and_friction_of_a_drift() -> None:
+    """From positions with 0.02 mm of noise, some of them missing, and a start that is far off."""
+    family = Family.of(DumbbellScenario(mode="drift"), ns.EventDriven())
+    measured = np.random.default_rng(3).normal(_measured(family), 2e-5)
+    measured[4, 1] = np.nan
+    found = fit(
+        family.at(restitution=0.8, friction=0.4), BOUNDS, at=TIMES, measured=measured, observe=_place, starts=32
+    )
+    for name, value in {"restitution": 0.65, "friction": 0.2}.items():
+        assert abs(found.values[name] - value) < 3.0 * found.standard_errors[name]
+        assert found.standard_errors[name] < 0.01
+    assert found.deviation == pytest.approx(2e-5, rel=0.4)
+
+
+def test_bad_input() -> None:
+    scenario = DumbbellScenario(mode="drift")
+    zeros = np.zeros((len(TIMES), 3))
+    with pytest.raises(ns.InvalidInput, match="Did you mean 'friction'"):
+        fit(scenario, {"frictoin": (0.1, 0.2)}, at=TIMES, measured=zeros, observe=_place)
+    with pytest.raises(ns.InvalidInput, match="bounds of friction must be a range around where it begins"):
+        fit(scenario, {"friction": (0.3, 0.4)}, at=TIMES, measured=zeros, observe=_place)
+    with pytest.raises(ns.InvalidInput, match="more numbers than parameters, but it is 0"):
+        fit(scenario, {"friction": (0.1, 0.4)}, at=TIMES, measured=np.nan * zeros, observe=_place)
+    with pytest.raises(ns.InvalidInput, match=r"positive, rising times"):
+        fit(scenario, {"friction": (0.1, 0.4)}, at=TIMES[::-1], measured=zeros, observe=_place)
