@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
@@ -11,9 +12,9 @@ from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.least_squares import fit
 from nonsmooth.studies.derivatives.passage import passage
-from nonsmooth.types import Floats
 from scenarios.dumbbell.scenario import DumbbellScenario
 
+Floats = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
 TIMES = np.linspace(0.01, 0.2, 20)
 BOUNDS = {"restitution": (0.5, 0.9), "friction": (0.05, 0.5)}
