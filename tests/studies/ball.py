@@ -36,8 +36,9 @@ def slow(height: float) -> ns.System:
 
 
 def deadly(height: float) -> ns.System:
-    """Kill the process at one height."""
+    """Kill the process at one height, after a while."""
     if height == 0.05:
+        time.sleep(0.5)
         os._exit(9)
     return drop(height)
 
@@ -64,4 +65,3 @@ def digest(dataset: Any) -> str:
         values = dataset[name].values
         found.update(f"{name} {values.dtype} {values.shape}".encode() + np.ascontiguousarray(values).tobytes())
     return found.hexdigest()
-

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ import nonsmooth as ns
 from nonsmooth import studies
 from nonsmooth.engine.memory.modes import DONE
 from nonsmooth.studies import status
+from nonsmooth.studies.records.asked import Asked
 from nonsmooth.studies.store import Store
 from scenarios.bouncing_ball.scenario import BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario
@@ -32,7 +35,7 @@ def _raises(scenario: BouncingBall, solution: ns.Solution) -> float:
 
 def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None:
     scenario = BouncingBall(t_end=0.2)
-    record = ["impacts", "last_flight", "q_end", _double, studies.Trajectory("q", (0.0, 0.1)), "reason"]
+    record: list[Asked] = ["impacts", "last_flight", "q_end", _double, studies.Trajectory("q", (0.0, 0.1)), "reason"]
     axes = {"restitution": [0.5, 0.8], "gamma": [0.3, 0.6, 0.9]}
     found = studies.Study(scenario, studies.grid(**axes), record).run(tmp_path / "s.zarr", executor="serial")
     assert dict(found.sizes) == {"restitution": 2, "gamma": 3, "coordinate": 7, "time": 2}
@@ -124,7 +127,7 @@ _BALL, _GRID = BouncingBall(t_end=0.1), studies.grid(gamma=[0.5])
         (lambda: studies.Study(DumbbellScenario(), _GRID, ["max_gap"]), ("max_gap", "one number")),
     ],
 )
-def test_what_cannot_be_run_is_refused_before_it_is(make, words: tuple[str, ...]) -> None:
+def test_what_cannot_be_run_is_refused_before_it_is(make: Callable[[], Any], words: tuple[str, ...]) -> None:
     with pytest.raises(ns.InvalidInput) as error:
         make()
     for word in words:

@@ -58,7 +58,7 @@ class Dask(Executor):
             window = _WINDOW * max(1, sum(client.nthreads().values()))
             yield from _in_turn(client, work, chunks, window, suspects)
             for chunk in suspects:
-                yield _alone(client, work, chunk)
+                yield _in_halves(client, work, chunk)
 
     def _client(self, stack: contextlib.ExitStack) -> Client:
         import dask
@@ -68,14 +68,12 @@ class Dask(Executor):
         stack.enter_context(dask.config.set(settings))
         address: Any = self.scheduler
         if address is None:
+            n, quiet = check_workers("Dask: n", self.n), logging.CRITICAL
             address = stack.enter_context(
-                LocalCluster(
-                    n_workers=check_workers("Dask: n", self.n),
-                    threads_per_worker=1,
-                    dashboard_address=None,
-                    silence_logs=logging.CRITICAL,
-                )
+                LocalCluster(n_workers=n, threads_per_worker=1, dashboard_address=None, silence_logs=quiet)
             )
+            # what restarts a worker is gone itself where one dies at once
+            address.adapt(minimum=n, maximum=n)
         try:
             return stack.enter_context(Client(address, timeout=_PATIENCE))
         except (OSError, ValueError) as error:
@@ -98,7 +96,10 @@ def _block(work: Work, chunk: Chunk) -> Block:
     return work.block(chunk)
 
 
-def _in_turn(client: Client, work: Work, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]) -> Iterator[Block]:
+def _in_turn(
+    client: Client, work: Work, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
+) -> Iterator[Block]:
+    """Yield the blocks of all chunks but of those whose workers died too often, which become suspects."""
     from distributed import KilledWorker, as_completed
 
     left, running = iter(chunks), {}
@@ -125,12 +126,20 @@ def _in_turn(client: Client, work: Work, chunks: Sequence[Chunk], window: int, s
 
 
 def _alone(client: Client, work: Work, chunk: Chunk) -> Block:
+    """Return the block of a chunk next to which nothing else runs, so that who dies died of it."""
     from distributed import KilledWorker
 
     try:
         return client.submit(_block, work, chunk, pure=False).result()  # type: ignore[no-any-return]
     except KilledWorker:
         if len(chunk.parameters) == 1:
-            return work.crashed(chunk, f"The process that ran it died, {_DEATHS} times.")
+            return work.crashed(chunk, "The process that ran it died, in each of the tries that the scheduler allows.")
+    return _in_halves(client, work, chunk)
+
+
+def _in_halves(client: Client, work: Work, chunk: Chunk) -> Block:
+    """Return the block of a chunk that is suspected, whose halves run alone."""
+    if len(chunk.parameters) == 1:
+        return _alone(client, work, chunk)
     one, other = chunk.halves()
     return _alone(client, work, one).joined(_alone(client, work, other))
